@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mesh/mesh.h"
+#include "operators/report.h"
+#include "tools/tool.h"
+
+namespace femscalpel {
+
+/// How element faces are brought onto the tool (DESIGN 3, step 2).
+enum class Method {
+    snap,    ///< move near nodes onto the tool, split what still crosses; always succeeds on a sound mesh
+    deform,  ///< the paper's 3.1.1: classify, then only move nodes; may end in QualityError
+};
+
+/// Method of that name ("snap" or "deform"); throws ToolError otherwise.
+Method method_from_name(const std::string& name);
+
+struct CrackOptions {
+    std::string name = "CRACK";     ///< prefix of the new groups NAME_P, NAME_N, NAME_FRONT
+    Method method = Method::snap;
+    std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
+    double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
+};
+
+/// Cracks `mesh` along the whole of `tool` (paper, 3.1): makes element faces lie on the tool, then gives
+/// each side its own copy of the interface nodes. Lips are coincident. The input is not changed.
+///
+/// New groups: NAME_P and NAME_N, the lip faces on the tool's positive and negative side (triangles of a
+/// volume mesh, segments of a shell mesh). The original nodes stay with the negative side.
+///
+/// Throws ToolError (bad name, tool misses the mesh), UnsupportedElementError (the band reaches
+/// elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
+Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {});
+
+}  // namespace femscalpel

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// Number of bars in a quality histogram; bar k counts mean ratios in [k, k+1) / bars.
+inline constexpr int quality_bars = 20;
+
+/// An element and its mean ratio.
+struct ElementQuality {
+    Index id = 0;
+    double mean_ratio = 0;
+};
+
+/// Shape quality of a set of elements (mean ratio, corner nodes; 1 is equilateral, 0 degenerate).
+struct QualitySummary {
+    Index count = 0;
+    double minimum = 1;
+    double mean = 1;
+    std::array<Index, quality_bars> histogram{};
+    std::vector<ElementQuality> worst;  ///< at most ten, worst first
+};
+
+/// What happened to one group. Measures are lengths, areas or volumes, summed over the members of the
+/// group's highest dimension; 0 for node groups.
+struct GroupRecord {
+    std::string name;
+    GroupKind kind = GroupKind::node;
+    int dimension = 0;            ///< of the largest members; 0 for nodes
+    Index count_before = 0;
+    Index count_after = 0;
+    double measure_before = 0;
+    double measure_after = 0;
+    Index nodes_moved = 0;        ///< nodes of the group (or of its elements) that changed place
+    double boundary_drift = 0;    ///< largest distance of its boundary nodes from the boundary's old shape
+    std::string status;           ///< "untouched", "kept", "changed", "became empty" or "new"
+};
+
+/// What an operator did; the same for all operators.
+struct Report {
+    std::string operation;  ///< "crack", "drill", ...
+    std::string name;       ///< prefix of the groups it made
+    std::string method;     ///< "snap" or "deform"
+    int transition = 0;     ///< i of the i-th neighbourhood that was allowed to move
+    /// Node numbers by the paper's names: ICN, ECN (interface), ITN, ETN (transition).
+    std::map<std::string, std::vector<Index>> node_sets;
+    /// Number of constraints by kind: "plane" (on the tool), "tangent plane" (skin, shell), "line",
+    /// "group boundary", "fixed", "free" (no constraint).
+    std::map<std::string, Index> constraints;
+    QualitySummary quality_before;  ///< of the band's elements before
+    QualitySummary quality_after;   ///< of the same elements and their children after
+    std::vector<GroupRecord> groups;
+    Index nodes_added = 0;       ///< by splitting and by doubling
+    Index nodes_split = 0;       ///< of them, born on split edges
+    Index nodes_doubled = 0;     ///< of them, copies of interface nodes
+    Index nodes_moved = 0;
+    Index elements_added = 0;
+    Index elements_removed = 0;
+    double max_displacement = 0;
+    std::vector<std::pair<std::string, double>> seconds;  ///< by step, in order
+    std::vector<std::string> warnings;
+};
+
+/// A new mesh and what was done to get it.
+struct Result {
+    Mesh mesh;
+    Report report;
+};
+
+}  // namespace femscalpel

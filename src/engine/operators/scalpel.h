@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <memory>
+
+#include "operators/crack.h"
+
+namespace femscalpel {
+
+/// Repeated operations on one mesh: keeps what does not depend on the tool (adjacency, numbering, group
+/// measures), so that a further tool position costs only its band and the output.
+class Scalpel {
+public:
+    /// Keeps a shared, unchanging copy of the mesh; linear time.
+    explicit Scalpel(std::shared_ptr<const Mesh> mesh);
+    ~Scalpel();
+    Scalpel(Scalpel&&) noexcept;
+
+    const Mesh& mesh() const;
+
+    /// As femscalpel::crack().
+    Result crack(const Tool& tool, const CrackOptions& options = {}) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace femscalpel
