@@ -148,6 +148,8 @@ class Crack:
 
     def _show(self, obj, report):
         self.report = report
+        for warning in report.warnings:
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
         before, after = report.quality
         obj.NodesAdded = report.nodes_added
         obj.NodesDoubled = report.nodes_doubled
