@@ -23,6 +23,11 @@
 
 namespace fs = std::filesystem;
 
+/// Called by the leak sanitizer, where there is one: HDF5 does not free everything it allocated for a
+/// damaged file.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5\n"; }
+
 namespace femscalpel {
 namespace {
 
@@ -86,7 +91,7 @@ void expect_same(const Mesh& a, const Mesh& b) {
 }
 
 /// Elements of every type on random nodes, with random numbers and random overlapping groups.
-Mesh random_mesh(std::mt19937& random) {
+Mesh random_mesh(std::mt19937& random, int groups = 40) {
     Mesh mesh;
     mesh.name = "Maillage d'\u00e9preuve";
     mesh.unit = "mm";
@@ -107,9 +112,10 @@ Mesh random_mesh(std::mt19937& random) {
             mesh.add_cell(t.type, std::span(nodes).first(static_cast<std::size_t>(t.nodes)), numbers[next++]);
         }
     std::vector<GroupMembers> members;
-    for (int g = 0; g < 40; ++g) {
+    for (int g = 0; g < groups; ++g) {
         const GroupKind kind = g % 3 == 0 ? GroupKind::node : GroupKind::element;
-        mesh.add_group("G" + std::to_string(kind == GroupKind::node ? g / 3 : g), kind);  // some names are shared
+        // Some names are shared between the kinds.
+        mesh.add_group("G" + std::to_string(kind == GroupKind::node ? g / 3 : g), kind);
         members.push_back({kind, {}, {}});
         const unsigned one_in = 1 + random() % 20;
         const auto pick = [&](const std::vector<Index>& ids) {
@@ -136,8 +142,8 @@ Mesh random_mesh(std::mt19937& random) {
 
 TEST_F(MedTest, RoundTripKeepsEverything) {
     std::mt19937 random(20);
-    for (int k = 0; k < 20; ++k) {
-        const Mesh mesh = random_mesh(random);
+    for (int k = 0; k < 6; ++k) {
+        const Mesh mesh = random_mesh(random, 8 * k);
         write_med(mesh, path_);
         const Mesh back = read_med(path_);
         expect_same(mesh, back);
@@ -185,10 +191,14 @@ struct RawMed {
     RawMed(const fs::path& path, unsigned space_dimension = 3, med_axis_type axes = MED_CARTESIAN,
            med_mesh_type type = MED_UNSTRUCTURED_MESH)
         : file(MEDfileOpen(path.c_str(), MED_ACC_CREAT)) {
-        const std::string names = std::string("x               y               z               ").substr(0, 16 * space_dimension);
-        const std::string units = std::string("cm              cm              cm              ").substr(0, 16 * space_dimension);
+        std::string names = "x               y               z               ";
+        std::string units = "cm              cm              cm              ";
+        names.resize(16 * space_dimension);
+        units.resize(16 * space_dimension);
         const auto dimension = static_cast<med_int>(space_dimension);
-        EXPECT_GE(MEDmeshCr(file, mesh, dimension, dimension, type, "", "", MED_SORT_DTIT, axes, names.c_str(), units.c_str()), 0);
+        EXPECT_GE(MEDmeshCr(file, mesh, dimension, dimension, type, "", "", MED_SORT_DTIT, axes, names.c_str(),
+                            units.c_str()),
+                  0);
         EXPECT_GE(MEDfamilyCr(file, mesh, "FAMILLE_ZERO", 0, 0, ""), 0);
     }
     ~RawMed() { MEDfileClose(file); }
@@ -207,10 +217,12 @@ struct RawMed {
                   0);
     }
     void numbers(med_entity_type entity, med_geometry_type type, const std::vector<med_int>& n) const {
-        EXPECT_GE(MEDmeshEntityNumberWr(file, mesh, MED_NO_DT, MED_NO_IT, entity, type, static_cast<med_int>(n.size()), n.data()), 0);
+        const auto count = static_cast<med_int>(n.size());
+        EXPECT_GE(MEDmeshEntityNumberWr(file, mesh, MED_NO_DT, MED_NO_IT, entity, type, count, n.data()), 0);
     }
     void families(med_entity_type entity, med_geometry_type type, const std::vector<med_int>& f) const {
-        EXPECT_GE(MEDmeshEntityFamilyNumberWr(file, mesh, MED_NO_DT, MED_NO_IT, entity, type, static_cast<med_int>(f.size()), f.data()), 0);
+        const auto count = static_cast<med_int>(f.size());
+        EXPECT_GE(MEDmeshEntityFamilyNumberWr(file, mesh, MED_NO_DT, MED_NO_IT, entity, type, count, f.data()), 0);
     }
     void family(med_int number, const std::vector<std::string>& groups) const {
         std::string names;
@@ -327,7 +339,9 @@ TEST_F(MedTest, BadContentIsNamed) {
     with([](const RawMed& raw) {
         raw.nodes(unit_square);
         const med_int index[] = {1, 5}, nodes[] = {1, 2, 3, 4};
-        EXPECT_GE(MEDmeshPolygonWr(raw.file, raw.mesh, MED_NO_DT, MED_NO_IT, 0, MED_CELL, MED_NODAL, 2, index, nodes), 0);
+        const auto written =
+            MEDmeshPolygonWr(raw.file, raw.mesh, MED_NO_DT, MED_NO_IT, 0, MED_CELL, MED_NODAL, 2, index, nodes);
+        EXPECT_GE(written, 0);
     });
     expect_error<UnsupportedElementError>([&] { read_med(path_); }, "1 polygons (MED_POLYGON)");
     with([](const RawMed& raw) {
@@ -522,7 +536,8 @@ TEST_F(MedTest, FacetsOfVolumesBecomeOutwardFaceElements) {
             EXPECT_THAT(found, testing::UnorderedElementsAreArray(wanted));
             const CellTraits& ft = traits(face_type);
             for (std::size_t e = 0; ft.quadratic && e < ft.edges.size(); ++e)
-                EXPECT_EQ(q[static_cast<std::size_t>(ft.corners) + e], mean(q, std::vector<int>{ft.edges[e][0], ft.edges[e][1]}));
+                EXPECT_EQ(q[static_cast<std::size_t>(ft.corners) + e],
+                          mean(q, std::vector<int>{ft.edges[e][0], ft.edges[e][1]}));
             if (face_type == CellType::quad9) {
                 EXPECT_EQ(q[8], mean(q, std::vector<int>{0, 1, 2, 3}));
             }
@@ -570,7 +585,7 @@ TEST_F(MedTest, NotAMedFile) {
 
 TEST_F(MedTest, DamagedFilesAreRefusedOrValid) {
     std::mt19937 random(1234);
-    write_med(random_mesh(random), path_);
+    write_med(random_mesh(random, 4), path_);
     std::ifstream in(path_, std::ios::binary);
     const std::string whole{std::istreambuf_iterator<char>(in), {}};
     const fs::path damaged = directory_ / "damaged.med";
@@ -581,7 +596,7 @@ TEST_F(MedTest, DamagedFilesAreRefusedOrValid) {
         // Half of the flips hit the first bytes, where most of the structure is.
         if (k % 4 == 0) bytes.resize(random() % whole.size());
         else
-            for (unsigned n = 1 + random() % 8; n > 0; --n)
+            for (unsigned n = k % 4 == 1 ? 1 : 1 + random() % 8; n > 0; --n)
                 bytes[random() % (k % 2 ? whole.size() : 8192)] ^= static_cast<char>(1 + random() % 255);
         std::ofstream(damaged, std::ios::binary | std::ios::trunc) << bytes;
         try {
@@ -593,7 +608,9 @@ TEST_F(MedTest, DamagedFilesAreRefusedOrValid) {
             ++refused;
         }
     }
+    RecordProperty("refused", refused);
     EXPECT_GT(refused, count / 4);
+    EXPECT_LT(refused, count);
     // Nothing of the damaged files lingers: the same path, whole again, reads.
     std::ofstream(damaged, std::ios::binary | std::ios::trunc) << whole;
     expect_same(read_med(path_), read_med(damaged));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "io/io.h"
 
-#include <algorithm>
 #include <string>
 
 #include "error.h"
@@ -15,8 +14,9 @@ namespace {
 /// The extension in lower case; ".inp.gz" counts as one.
 std::string extension(const std::filesystem::path& path) {
     std::string out = path.extension().string();
-    const auto lower = [](std::string& text) {
-        std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const auto lower = [](std::string& text) {  // ASCII only, whatever the locale
+        for (char& c : text)
+            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     };
     lower(out);
     if (out == ".gz") {

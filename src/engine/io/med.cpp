@@ -354,7 +354,9 @@ private:
         const Index stored = count(entity, geometry, MED_FAMILY_NUMBER);
         if (stored < 0) damaged("the families of " + who);
         if (stored == 0) return out;
-        if (stored != n) fail("contradictory or damaged: " + std::to_string(n) + " " + who + ", but " + std::to_string(stored) + " family numbers");
+        if (stored != n)
+            fail("contradictory or damaged: " + std::to_string(n) + " " + who + ", but " + std::to_string(stored) +
+                 " family numbers");
         const MedInts raw = ints(n, "the families of " + who);
         if (MEDmeshEntityFamilyNumberRd(fid_, name_, step_, iteration_, entity, geometry, raw.get()) < 0)
             damaged("the families of " + who);
@@ -381,7 +383,9 @@ private:
         const Index stored = count(entity, geometry, MED_NUMBER);
         if (stored < 0) damaged("the numbers of " + who);
         if (stored == 0) return {};
-        if (stored != n) fail("contradictory or damaged: " + std::to_string(n) + " " + who + ", but " + std::to_string(stored) + " numbers");
+        if (stored != n)
+            fail("contradictory or damaged: " + std::to_string(n) + " " + who + ", but " + std::to_string(stored) +
+                 " numbers");
         const MedInts raw = ints(n, "the numbers of " + who);
         if (MEDmeshEntityNumberRd(fid_, name_, step_, iteration_, entity, geometry, raw.get()) < 0)
             damaged("the numbers of " + who);
@@ -485,7 +489,8 @@ private:
         const auto family_of = [&](const std::vector<std::string>& names, GroupKind kind) {
             std::vector<GroupIndex> set;
             for (const std::string& name : names) {
-                const auto [it, added] = known[static_cast<std::size_t>(kind)].try_emplace(name, static_cast<GroupIndex>(mesh_.groups.size()));
+                auto& of_kind = known[static_cast<std::size_t>(kind)];
+                const auto [it, added] = of_kind.try_emplace(name, static_cast<GroupIndex>(mesh_.groups.size()));
                 if (added) mesh_.groups.push_back({name, kind, false});
                 set.push_back(it->second);
             }
