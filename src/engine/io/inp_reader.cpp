@@ -169,11 +169,6 @@ private:
                     throw ReadError(where + "'" + name + "' includes itself");
                 if (open_.size() > 50) throw ReadError(where + "includes are nested more than 50 deep");
                 read(path);
-                // Text after the include must start on a line of its own.
-                if (auto& text = cards_.back().text; !text.empty() && !text.back().text.ends_with('\n')) {
-                    const auto newline = std::make_shared<const DeckFile>(DeckFile{path.string(), "\n"});
-                    text.push_back({newline, newline->text, text.back().line});
-                }
                 return;
             }
         throw ReadError(where + "the included file '" + name + "' does not exist");

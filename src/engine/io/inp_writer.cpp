@@ -317,13 +317,14 @@ private:
             for (Index n : mesh_.block(e.type).nodes(e.cell)) nodes.members.push_back(mesh_.node_ids[n]);
         }
         std::string what;
-        static constexpr std::string_view names[] = {" points", " segments", " faces"};
+        static constexpr std::string_view names[] = {" point", " segment", " face"};
         for (std::size_t d = 0; d < count.size(); ++d)
-            if (count[d] > 0) what += (what.empty() ? "" : " and ") + std::to_string(count[d]) + std::string(names[d]);
+            if (count[d] > 0)
+                what += (what.empty() ? "" : " and ") + std::to_string(count[d]) + std::string(names[d]) + (count[d] > 1 ? "s" : "");
         for (NewSet* set : {&surface, &nodes}) {
             std::ranges::sort(set->members);
             set->members.erase(std::unique(set->members.begin(), set->members.end()), set->members.end());
-            set->remark = "** " + what + " of element group '" + name + "', which are part of other elements";
+            set->remark = "** " + what + " of element group '" + name + "' on other elements";
         }
         if (!surface.members.empty()) {
             claim(DeckSetType::element_surface, name, name);
@@ -639,10 +640,26 @@ private:
             if (!line.is_data()) tail_.push_back(line.raw());
     }
 
+    /// Lists a set anew, but for what the NSET= and ELSET= of other cards give it already: CalculiX keeps
+    /// repeated members, and prints and loads them twice.
     void write_replaced_set(std::size_t s) {
         is_written_[s] = 1;
         const DeckSet& set = input_->sets()[s];
-        write_set(set.type, set.name, members_[s], set.unheld, "");
+        std::vector<Index> given, rest;
+        std::vector<std::array<Index, 2>> unheld = set.unheld;
+        bool defined = false;
+        for (std::size_t c = 0; c < input_->cards().size(); ++c) {
+            const Card& card = input_->cards()[c];
+            if ((card.keyword != "NODE" && card.keyword != "ELEMENT") || drops_parameter_[c] || set_index(card) != s) continue;
+            defined = true;
+            given.insert(given.end(), contributed_[c].begin(), contributed_[c].end());
+            for (const OtherElement& e : input_->other_elements())
+                if (e.card == c) std::erase(unheld, std::array<Index, 2>{e.number, 0});
+        }
+        std::ranges::sort(given);
+        std::ranges::set_difference(members_[s], given, std::back_inserter(rest));
+        if (defined && rest.empty() && unheld.empty()) return;
+        write_set(set.type, set.name, rest, unheld, "");
     }
 
     void write_set(DeckSetType type, const std::string& name, std::span<const Index> members,
