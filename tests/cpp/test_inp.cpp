@@ -461,6 +461,12 @@ TEST_F(Inp, WarnsWhereCalculixWarns) {
     EXPECT_EQ(write(mesh), cards_text(mesh));
 }
 
+TEST_F(Inp, WarnsOfCoordinatesThatCalculixCuts) {
+    const Mesh mesh = read("*NODE\n1, 0.1234567890123456789012\n2, 0.1234567890123456789e-12\n3, 0., 1.00000000000000000000d1\n");
+    EXPECT_EQ(mesh.points[1].x(), 0.1234567890123456789e-12);
+    EXPECT_THAT(mesh.solver_input->warnings(), ElementsAre(HasSubstr("deck.inp:3: 2 nodes, this one first, have coordinates of more than 20")));
+}
+
 TEST_F(Inp, ElementsWithoutPlaceInTheMeshAreKept) {
     const Mesh mesh = read(R"(*NODE
 1,0

@@ -260,17 +260,26 @@ private:
             first_node.push_back(mesh_.points.size());
             const FamilyIndex family = mesh_.families.with(0, card_groups_[c]);
             CardReader line(card);
+            Index cut = 0;
+            std::string first_cut;
             while (line.next_data_line()) {
                 const Index id = positive_number(line, "a node");
                 Vec3 x(0, 0, 0);
-                for (int k = 0; k < 3 && !line.at_end(); ++k)
+                bool fits = true;
+                for (int k = 0; k < 3 && !line.at_end(); ++k) {
                     if (!line.number(x[k]))
                         throw ReadError(line.where() + "coordinate " + std::to_string(k + 1) + " of node " + std::to_string(id) +
                                         ", '" + line.field() + "', is not a finite number");
+                    fits = fits && line.fits_calculix();
+                }
+                if (!fits && cut++ == 0) first_cut = line.where();
                 mesh_.points.push_back(x);
                 mesh_.node_ids.push_back(id);
                 mesh_.node_families.push_back(family);
             }
+            if (cut > 0)
+                input_->warnings().push_back(first_cut + std::to_string(cut) + " nodes, this one first, have coordinates of more than 20 "
+                                             "characters; CalculiX cuts them and gets other values");
         }
         if (mesh_.points.empty()) throw ReadError(shown_ + ": there are no nodes in this file");
         merge_repeated_nodes(card_of_first, first_node);

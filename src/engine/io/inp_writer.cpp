@@ -146,6 +146,8 @@ private:
             fates_[static_cast<int>(b.type)].assign(static_cast<std::size_t>(b.size()), Fate::card);
             for (Index i = 0; i < b.size(); ++i)
                 if (card_of_family_[b.families[i]] == none) {
+                    fates_[static_cast<int>(b.type)][static_cast<std::size_t>(i)] = Fate::free;
+                    if (traits(b.type).dimension == 3) continue;
                     LooseElement e{b.type, i};
                     if (traits(b.type).dimension == 0) e.fate = Fate::point;
                     loose_.push_back(e);
@@ -153,16 +155,14 @@ private:
         }
         find_owners(2);
         find_owners(1);
-        std::array<Index, cell_type_count> unwritable{};
-        for (const LooseElement& e : loose_) {
-            fates_[static_cast<int>(e.type)][e.cell] = e.fate;
-            if (is_free(e) && default_deck_label(e.type).empty()) ++unwritable[static_cast<int>(e.type)];
+        for (const LooseElement& e : loose_) fates_[static_cast<int>(e.type)][static_cast<std::size_t>(e.cell)] = e.fate;
+        for (const CellBlock& b : mesh_.blocks()) {
+            const auto free = std::ranges::count(fates_[static_cast<int>(b.type)], Fate::free);
+            if (free > 0 && default_deck_label(b.type).empty())
+                throw WriteError(std::to_string(free) + " elements of type " + std::string(traits(b.type).name) +
+                                 ": CalculiX has no such element; mesh these parts with elements it has (solids of 4, 10, 6, 15, "
+                                 "8 or 20 nodes, shells of 3, 6, 4 or 8), or write MED or VTU");
         }
-        for (int t = 0; t < cell_type_count; ++t)
-            if (unwritable[t] > 0)
-                throw WriteError(std::to_string(unwritable[t]) + " elements of type " + std::string(all_cell_types()[t].name) +
-                                 ": CalculiX has no such element; mesh these parts with tetrahedra, prisms or hexahedra of its "
-                                 "own (4, 10, 6, 15, 8 or 20 nodes), or write MED or VTU");
     }
 
     using Corners = std::array<Index, 4>;
@@ -217,7 +217,7 @@ private:
                 } else {
                     // A triangle that is itself only a face of a solid is not in the deck.
                     const bool shell = t.dimension == 2;
-                    if (shell && fates_written(b, i) == Fate::face) continue;
+                    if (shell && fate_so_far(b, i) == Fate::face) continue;
                     for (std::size_t k = 0; k < t.edges.size(); ++k)
                         offer(key_of(nodes, t.edges[k].data(), 2), {b.type, i}, shell ? static_cast<int>(k) + 3 : 0);
                 }
@@ -225,8 +225,8 @@ private:
         }
     }
 
-    /// Fate of an element while fates_ is still being worked out.
-    Fate fates_written(const CellBlock& b, Index cell) const {
+    /// Fate of an element of dimension 2 while fates_ is still being worked out.
+    Fate fate_so_far(const CellBlock& b, Index cell) const {
         if (card_of_family_[b.families[cell]] != none) return Fate::card;
         const auto it = std::ranges::lower_bound(loose_, std::pair(b.type, cell), {},
                                                  [](const LooseElement& e) { return std::pair(e.type, e.cell); });
@@ -486,8 +486,10 @@ private:
             if (same && x == mesh_.points[static_cast<std::size_t>(*node)]) put(line.raw());
             else put_node(*node);
         }
-        for (Index i = 0; i < mesh_.node_count(); ++i)
-            if (node_written_under_[static_cast<std::size_t>(i)] != c && stands_under(i, c)) put_node(i);
+        for (Index id : members_of_card_[c]) {
+            const Index node = *numbers_.node(id);
+            if (node_written_under_[static_cast<std::size_t>(node)] != c) put_node(node);
+        }
     }
 
     bool stands_under(Index node, std::size_t c) const {
@@ -532,7 +534,8 @@ private:
         std::unordered_set<Index> others;
         for (const OtherElement& e : input_->other_elements())
             if (e.card == c) others.insert(e.number);
-        std::vector<char> written(static_cast<std::size_t>(block.size()));
+        std::vector<char>& written = element_written_[static_cast<int>(type->cell)];
+        if (written.empty()) written.assign(static_cast<std::size_t>(block.size()), 0);
         std::vector<Index> wanted(count);
         std::vector<std::string_view> record;
         CardReader line(card);
@@ -608,12 +611,13 @@ private:
 
     void write_free_elements() {
         for (const CellBlock& b : mesh_.blocks()) {
+            const std::vector<Fate>& fates = fates_[static_cast<int>(b.type)];
             bool first = true;
-            for (const LooseElement& e : loose_) {
-                if (e.type != b.type || !is_free(e)) continue;
+            for (Index i = 0; i < b.size(); ++i) {
+                if (fates[static_cast<std::size_t>(i)] != Fate::free) continue;
                 if (first) put_line("*ELEMENT, TYPE=" + std::string(default_deck_label(b.type)));
                 first = false;
-                put_element({e.type, e.cell});
+                put_element({b.type, i});
             }
         }
     }
@@ -706,8 +710,8 @@ private:
     std::string any_label() const {
         for (const Card& card : input_->cards())
             if (card.keyword == "ELEMENT") return *card.parameter("TYPE");
-        for (const LooseElement& e : loose_)
-            if (is_free(e)) return std::string(default_deck_label(e.type));
+        for (const CellBlock& b : mesh_.blocks())
+            if (std::ranges::count(fates_[static_cast<int>(b.type)], Fate::free) > 0) return std::string(default_deck_label(b.type));
         return "C3D4";
     }
 
@@ -721,8 +725,8 @@ private:
     std::size_t last_node_card_ = 0, last_element_card_ = 0, last_mesh_card_ = 0;
     std::vector<std::size_t> card_of_family_;                     // *ELEMENT card of elements, or none
     std::vector<std::vector<std::size_t>> node_cards_of_family_;  // *NODE cards of nodes
-    std::vector<LooseElement> loose_;                             // by type and cell
-    std::array<std::vector<Fate>, cell_type_count> fates_;
+    std::vector<LooseElement> loose_;                             // of dimension 0 to 2, by type and cell
+    std::array<std::vector<Fate>, cell_type_count> fates_;        // of all elements
     std::vector<char> planes_;  // by family
     std::vector<std::size_t> group_of_set_;
     std::vector<std::vector<Index>> members_;  // per set: what it must have, as in SetMembers
@@ -730,7 +734,8 @@ private:
     std::vector<char> has_own_card_, is_written_;  // per set
     std::vector<NewSet> new_sets_;
     std::unordered_map<std::string, std::string> names_;  // set key -> group
-    std::vector<std::size_t> node_written_under_;
+    std::vector<std::size_t> node_written_under_;  // the *NODE card that wrote a node last
+    std::array<std::vector<char>, cell_type_count> element_written_;
     std::vector<std::string_view> tail_;
     std::string out_, eol_ = "\n";
 };

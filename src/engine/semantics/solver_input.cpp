@@ -54,6 +54,16 @@ bool fortran_number(std::string_view field, double& value) {
     return error == std::errc{} && end == s.data() + s.size() && std::isfinite(value);
 }
 
+constexpr std::ptrdiff_t calculix_width = 20;  // CalculiX reads coordinates as (f20.0)
+
+/// Whether CalculiX, which reads 20 characters of a field, gets `value` or nearly so.
+bool cut_is_harmless(std::string_view field, double value) {
+    const std::string bare = without_blanks(field);
+    double cut = 0;
+    return bare.size() <= calculix_width ||
+           (fortran_number(bare.substr(0, calculix_width), cut) && std::abs(cut - value) <= 1e-12 * std::abs(value));
+}
+
 }  // namespace
 
 GroupKind group_kind(DeckSetType type) {
@@ -191,12 +201,14 @@ bool CardReader::number(double& value) {
     if (error == std::errc{} && std::isfinite(value)) {
         const char* after = skip_blanks(q, end_);
         if (after == end_ || *after == ',') {
+            fits_ = q - p <= calculix_width || cut_is_harmless({p, static_cast<std::size_t>(q - p)}, value);
             at_ = std::min(after + 1, end_);
             return true;
         }
     }
     const std::string_view field = peek();
     if (!fortran_number(field, value)) return false;
+    fits_ = cut_is_harmless(field, value);
     skip(field);
     return true;
 }

@@ -142,6 +142,8 @@ public:
     bool integer(Index& value);
     /// Reads the next field as a finite number; an empty field is 0; false without moving on otherwise.
     bool number(double& value);
+    /// The number just read fits CalculiX's 20 characters, or is hardly different when cut to them.
+    bool fits_calculix() const { return fits_; }
     /// Reads the next field, without blanks.
     std::string field();
     /// The line has a comma as its last character.
@@ -161,6 +163,7 @@ private:
     const char* end_ = nullptr;    // end of the current line's content
     const char* next_ = nullptr;   // start of the next line
     bool is_data_ = false;
+    bool fits_ = true;
 };
 
 }  // namespace femscalpel
