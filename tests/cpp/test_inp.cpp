@@ -401,7 +401,6 @@ TEST_F(Inp, ReadsAndWritesGzip) {
     EXPECT_EQ(cards_text(again), two_tets);
     for (std::size_t size : {std::size_t{3}, packed.size() / 2, packed.size() - 1})
         EXPECT_THAT(read_error(packed.substr(0, size)), HasSubstr("bad.inp: the gzip'd file is truncated or damaged"));
-    EXPECT_EQ(describe(read_inp(file("two.inp", packed + packed.substr(0, 0)))), describe(mesh));
 }
 
 TEST_F(Inp, EveryErrorNamesFileAndLine) {
@@ -680,7 +679,7 @@ TEST_F(Inp, MeshFromAnotherFormatIsWrittenByWhatItsElementsAre) {
     const std::string text = write(box_from_med());
     EXPECT_TRUE(text.starts_with("*HEADING\nbox\n*NODE\n1, 0, 0, 0\n")) << text;
     const Mesh mesh = read(text);
-    EXPECT_EQ(mesh.points[6], Vec3(1, 1, 0) + Vec3(-1, 0, 1) * 0 + Vec3(0, 0, 1));
+    EXPECT_EQ(mesh.points[6], box_from_med().points[6]);
     EXPECT_THAT(mesh.block(CellType::quad).ids, IsEmpty());
     EXPECT_THAT(mesh.block(CellType::triangle).ids, ElementsAre(4));
     EXPECT_THAT(mesh.block(CellType::line).ids, ElementsAre(5));
@@ -716,6 +715,7 @@ TEST_F(Inp, WhatCalculixCannotHoldIsRefused) {
     mesh = box_from_med();
     set_group_members(mesh, mesh.add_group("Top", GroupKind::facet), {GroupKind::facet, {1}, {2}});
     EXPECT_THAT(write_error(mesh), HasSubstr("groups 'Top' and 'TOP' would be one element surface"));
+    EXPECT_THAT(write_error(Mesh()), HasSubstr("the mesh has no nodes"));
     EXPECT_FALSE(fs::exists(folder_ / "out.inp"));
     EXPECT_THROW(write_inp(box_from_med(), folder_ / "no" / "such" / "folder.inp"), WriteError);
 

@@ -36,8 +36,9 @@ Mesh read_inp(const std::filesystem::path& path);
 /// A mesh read from a deck goes back into its deck. Cards keep their order, place and text; lines of
 /// *NODE and *ELEMENT change only where a node or element did, further members follow the last one, and
 /// a set is listed anew (at its first card) only when its cards would no longer give its members. A set
-/// that became empty stays defined, by an empty *NODE, NSET= or *ELEMENT, ELSET= card. Sets whose group
-/// is gone from the mesh go. New things come after the deck's last mesh card.
+/// that became empty stays defined, by an empty *NODE, NSET= or *ELEMENT, ELSET= card (for surfaces CalculiX
+/// has nothing like it: cards that name an empty surface fail there). Sets whose group is gone from the
+/// mesh go. New things come after the deck's last mesh card.
 ///
 /// Elements that stand under no *ELEMENT card (made by an operator; all elements of a mesh from another
 /// format) are written by what they are, because an element in the deck always adds stiffness:
@@ -57,7 +58,8 @@ Mesh read_inp(const std::filesystem::path& path);
 ///
 /// Throws WriteError for element types CalculiX does not have (pyramids, elements with face or volume
 /// centre nodes), names over 80 characters or with commas, two groups of a kind whose names differ only in
-/// case or blanks, and when the file cannot be written; the file is then as it was before.
+/// case or blanks, a mesh without nodes, elements that take the number or lack the node of an OtherElement,
+/// and when the file cannot be written; the file is then as it was before.
 void write_inp(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace femscalpel

@@ -210,7 +210,7 @@ private:
                 card_groups_.push_back(static_cast<GroupIndex>(mesh_.groups.size()) - 1);
             } else {
                 card_groups_.push_back(-1);
-                warn_of_missing_comma(card);
+                refuse_missing_comma(card);
             }
             const auto set = set_of_card(card);
             if (!set || !seen.insert(static_cast<char>('0' + static_cast<int>(set->first)) + deck_key(set->second)).second)
@@ -230,7 +230,7 @@ private:
     }
 
     /// "*NODE NSET=A" reads as *NODE in CalculiX and loses the set; it is not what the user meant.
-    void warn_of_missing_comma(const Card& card) const {
+    void refuse_missing_comma(const Card& card) const {
         for (std::string_view keyword : {"NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"})
             if (card.keyword.starts_with(keyword) && card.keyword.find('=') != std::string::npos)
                 throw ReadError(card.where() + ": a comma is missing after *" + std::string(keyword));

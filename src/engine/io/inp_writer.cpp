@@ -78,6 +78,7 @@ public:
           members_of_card_(members_by_card(mesh, *input_)), contributed_(input_->cards().size()) {}
 
     std::string write() {
+        if (mesh_.node_count() == 0) throw WriteError("the mesh has no nodes");
         const std::string& first = input_->cards().front().text.front().file->text;
         const std::size_t newline = first.find('\n');
         if (newline != first.npos && newline > 0 && first[newline - 1] == '\r') eol_ = "\r\n";
@@ -139,7 +140,7 @@ private:
                     throw WriteError("element " + std::to_string(b.ids[i]) + " stands under two *ELEMENT cards");
     }
 
-    bool is_free(const LooseElement& e) const { return e.fate == Fate::free; }
+    static bool is_free(const LooseElement& e) { return e.fate == Fate::free; }
 
     void classify_loose_elements() {
         for (const CellBlock& b : mesh_.blocks()) {
