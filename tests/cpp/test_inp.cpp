@@ -35,7 +35,8 @@ class Inp : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / ("femscalpel_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+        folder_ =
+            fs::temp_directory_path() / ("femscalpel_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
         fs::create_directories(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
@@ -247,7 +248,9 @@ TEST_F(Inp, OddSpellingIsReadAsCalculixReadsIt) {
 }
 
 TEST_F(Inp, KeywordLinesMayContinue) {
-    const Mesh mesh = read("*NODE,\nNSET=A\n1\n2\n*NSET, NSET=B,\n** comment is data's\n1\n*NSET,NSET=C,\nGENERATE\n1,2\n*NSET,NSET=D,\nB\n");
+    const Mesh mesh = read(
+        "*NODE,\nNSET=A\n1\n2\n*NSET, NSET=B,\n** comment is "
+        "data's\n1\n*NSET,NSET=C,\nGENERATE\n1,2\n*NSET,NSET=D,\nB\n");
     EXPECT_THAT(ids(mesh, "A", GroupKind::node), ElementsAre(1, 2));
     EXPECT_THAT(ids(mesh, "B", GroupKind::node), ElementsAre(1));
     EXPECT_THAT(ids(mesh, "C", GroupKind::node), ElementsAre(1, 2));
@@ -281,7 +284,8 @@ A, 2
 3,0,1
 4,0,0,1
 )");
-    EXPECT_THAT(visible_groups(mesh), ElementsAre("facet S", "element Both", "node A", "node B", "element First", "element Second"));
+    EXPECT_THAT(visible_groups(mesh),
+                ElementsAre("facet S", "element Both", "node A", "node B", "element First", "element Second"));
     EXPECT_THAT(ids(mesh, "Both", GroupKind::element), ElementsAre(1, 2, 7, 9));
     EXPECT_THAT(ids(mesh, "A", GroupKind::node), ElementsAre(1, 3));
     EXPECT_THAT(ids(mesh, "B", GroupKind::node), ElementsAre(1, 2));
@@ -335,7 +339,8 @@ E, S3
     EXPECT_THAT(text, HasSubstr("*SURFACE, NAME=EDGE, TYPE=NODE\n2\n4\n"));
     EXPECT_THAT(text, HasSubstr("4, S2\n"));
     EXPECT_EQ(describe(read(text)), describe(changed));
-    for (const auto& [plane, label, face] : {std::tuple(true, 1, 3), {true, 4, 6}, {true, 5, 1}, {true, 6, 2}, {false, 1, 1}, {false, 5, 5}}) {
+    for (const auto& [plane, label, face] :
+         {std::tuple(true, 1, 3), {true, 4, 6}, {true, 5, 1}, {true, 6, 2}, {false, 1, 1}, {false, 5, 5}}) {
         EXPECT_EQ(face_from_label(label, plane), face);
         EXPECT_EQ(label_from_face(face, plane), label);
     }
@@ -352,7 +357,8 @@ TEST_F(Inp, ThreeNodeLinesHaveTheirMiddleNodeSecond) {
 TEST_F(Inp, MidSideNodesOfRealDecksAreBetweenTheirCorners) {
     if (!fs::exists(calculix_decks)) GTEST_SKIP() << "Debian package calculix-ccx-test is not installed";
     std::set<CellType> seen;
-    for (const char* name : {"beamp.inp.gz", "c3d15.inp.gz", "beam10p.inp.gz", "shell1.inp.gz", "ax6.inp.gz", "simplebeam.inp.gz"}) {
+    for (const char* name :
+         {"beamp.inp.gz", "c3d15.inp.gz", "beam10p.inp.gz", "shell1.inp.gz", "ax6.inp.gz", "simplebeam.inp.gz"}) {
         fs::path path = calculix_decks / name;
         if (!fs::exists(path)) path.replace_extension("");
         const Mesh mesh = read_inp(path);
@@ -369,24 +375,29 @@ TEST_F(Inp, MidSideNodesOfRealDecksAreBetweenTheirCorners) {
                 }
         }
     }
-    EXPECT_THAT(seen, testing::IsSupersetOf({CellType::hexahedron20, CellType::wedge15, CellType::tetra10, CellType::quad8,
-                                             CellType::triangle6, CellType::line3}));
+    EXPECT_THAT(seen, testing::IsSupersetOf({CellType::hexahedron20, CellType::wedge15, CellType::tetra10,
+                                             CellType::quad8, CellType::triangle6, CellType::line3}));
 }
 
 TEST_F(Inp, IncludesAreResolvedRelativeToTheirFile) {
     file("parts/nodes.txt", "1,0,0,0\n2,1,0,0\n*INCLUDE, INPUT=\"more.txt\"\n4,0,0,1");
     file("parts/more.txt", "3,0,1,0");
     file("el.inp", "*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n");
-    const std::string text = "*NODE, NSET=N\n*include, input = parts/nodes.txt\n5,1,1,1\n*INCLUDE,INPUT=el.inp\n2,2,3,4,5\n*STEP\n";
+    const std::string text =
+        "*NODE, NSET=N\n*include, input = parts/nodes.txt\n5,1,1,1\n*INCLUDE,INPUT=el.inp\n2,2,3,4,5\n*STEP\n";
     const Mesh mesh = read(text);
     EXPECT_THAT(mesh.node_ids, ElementsAre(1, 2, 3, 4, 5));
     EXPECT_THAT(ids(mesh, "E", GroupKind::element), ElementsAre(1, 2));
-    EXPECT_EQ(write(mesh), "*NODE, NSET=N\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n2,2,3,4,5\n*STEP\n");
+    EXPECT_EQ(write(mesh),
+              "*NODE, "
+              "NSET=N\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n2,2,3,4,5\n*"
+              "STEP\n");
     file("parts/more.txt", "3,0,1,zero\n");
     EXPECT_THAT(read_error(text), HasSubstr("more.txt:1: coordinate 3 of node 3, 'zero'"));
     file("parts/more.txt", "*INCLUDE, INPUT=nodes.txt\n");
     EXPECT_THAT(read_error(text), HasSubstr("more.txt:1: 'nodes.txt' includes itself"));
-    EXPECT_THAT(read_error("*NODE\n1\n\n*INCLUDE,INPUT=nowhere.inp\n"), HasSubstr("bad.inp:4: the included file 'nowhere.inp' does not exist"));
+    EXPECT_THAT(read_error("*NODE\n1\n\n*INCLUDE,INPUT=nowhere.inp\n"),
+                HasSubstr("bad.inp:4: the included file 'nowhere.inp' does not exist"));
     EXPECT_THAT(read_error("*NODE\n1\n*INCLUDE\n"), HasSubstr("bad.inp:3: *INCLUDE needs INPUT=file"));
 }
 
@@ -419,8 +430,10 @@ TEST_F(Inp, EveryErrorNamesFileAndLine) {
         {"*NODE\nA,1\n", "bad.inp:2: 'A' is not a node number"},
         {"*NODE NSET=A\n1\n", "bad.inp:1: a comma is missing after *NODE"},
         {nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3\n", "bad.inp:7: element 1 ends after 3 of its 4 nodes"},
-        {nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3\n2,1,2,3,4\n", "bad.inp:8: element 1, which starts before this line, has not its 4 nodes"},
-        {nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3,5\n", "bad.inp:7: element 1 names node 5, which the deck does not define"},
+        {nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3\n2,1,2,3,4\n",
+         "bad.inp:8: element 1, which starts before this line, has not its 4 nodes"},
+        {nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3,5\n",
+         "bad.inp:7: element 1 names node 5, which the deck does not define"},
         {nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3,x\n", "bad.inp:7: 'x' in element 1 is not a node number"},
         {nodes + "*ELEMENT,TYPE=C3D4\n1,1,,3,4\n", "bad.inp:7: '' in element 1 is not a node number"},
         {nodes + "*ELEMENT,TYPE=C3D4\n-1,1,2,3,4\n", "bad.inp:7: an element number -1"},
@@ -454,16 +467,19 @@ TEST_F(Inp, WarnsWhereCalculixWarns) {
     EXPECT_THAT(ids(mesh, "B", GroupKind::element), ElementsAre(1));
     EXPECT_THAT(ids(mesh, "C", GroupKind::node), ElementsAre(2, 3));
     EXPECT_THAT(mesh.solver_input->warnings(),
-                ElementsAre(HasSubstr("deck.inp:1: *NODE has no parameter FOO"), HasSubstr("deck.inp:6: 1 elements of type S3 are followed by more"),
+                ElementsAre(HasSubstr("deck.inp:1: *NODE has no parameter FOO"),
+                            HasSubstr("deck.inp:6: 1 elements of type S3 are followed by more"),
                             HasSubstr("deck.inp:8: node set 'A' names node 8 and 1 more that the deck does not define"),
                             HasSubstr("deck.inp:10: element set 'B' names element 7 that")));
     EXPECT_EQ(write(mesh), cards_text(mesh));
 }
 
 TEST_F(Inp, WarnsOfCoordinatesThatCalculixCuts) {
-    const Mesh mesh = read("*NODE\n1, 0.1234567890123456789012\n2, 0.1234567890123456789e-12\n3, 0., 1.00000000000000000000d1\n");
+    const Mesh mesh =
+        read("*NODE\n1, 0.1234567890123456789012\n2, 0.1234567890123456789e-12\n3, 0., 1.00000000000000000000d1\n");
     EXPECT_EQ(mesh.points[1].x(), 0.1234567890123456789e-12);
-    EXPECT_THAT(mesh.solver_input->warnings(), ElementsAre(HasSubstr("deck.inp:3: 2 nodes, this one first, have coordinates of more than 20")));
+    EXPECT_THAT(mesh.solver_input->warnings(),
+                ElementsAre(HasSubstr("deck.inp:3: 2 nodes, this one first, have coordinates of more than 20")));
 }
 
 TEST_F(Inp, ElementsWithoutPlaceInTheMeshAreKept) {
@@ -517,7 +533,9 @@ TEST_F(Inp, OnlyChangedLinesChange) {
     mesh.block(CellType::tetra).connectivity[7] = 5;
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{1, 2, 4, 5}, 3, mesh.block(CellType::tetra).families[0]);
     std::string expected = two_tets;
-    const auto replace = [&](const std::string& from, const std::string& to) { expected.replace(expected.find(from), from.size(), to); };
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        expected.replace(expected.find(from), from.size(), to);
+    };
     replace("4, 0., 0., 1.\n", "4, 0, 0, 1.25\n");
     replace("5, 1., 1., 1.\n", "5, 1., 1., 1.\n6, 1, 1, 0\n");
     replace("2, 2, 3, 4, 5\n", "2, 2, 3, 4, 6\n3, 2, 3, 5, 6\n");
@@ -612,7 +630,8 @@ TEST_F(Inp, RemovedEntitiesAndGroupsLeaveTheDeck) {
     set_group_members(out, *out.find_group("FIX"), {GroupKind::node, {}, {}});
     remove_group(out, *out.find_group("BOTTOM"));
     const std::string text = write(out);
-    EXPECT_THAT(text, HasSubstr("4, 0., 0., 1.\n** the tip\n*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n*NODE, NSET=FIX\n** material\n"));
+    EXPECT_THAT(text, HasSubstr("4, 0., 0., 1.\n** the tip\n*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n*NODE, "
+                                "NSET=FIX\n** material\n"));
     EXPECT_THAT(text, Not(HasSubstr("BOTTOM")));
     const Mesh again = read(text);
     EXPECT_THAT(ids(again, "FIX", GroupKind::node), IsEmpty());
@@ -644,7 +663,9 @@ TEST_F(Inp, FacesAndEdgesMadeByAnOperatorBecomeSurfacesAndNodeSets) {
 }
 
 TEST_F(Inp, EdgesOnShellsBecomeEdgeSurfaces) {
-    Mesh mesh = read("*NODE\n1\n2,1\n3,1,1\n4,0,1\n*ELEMENT,TYPE=S3,ELSET=E\n1,1,2,3\n2,1,3,4\n*ELEMENT,TYPE=CPS3\n3,2,3,4\n*STEP\n");
+    Mesh mesh = read(
+        "*NODE\n1\n2,1\n3,1,1\n4,0,1\n*ELEMENT,TYPE=S3,ELSET=E\n1,1,2,3\n2,1,3,4\n*ELEMENT,TYPE=CPS3\n3,2,3,4\n*"
+        "STEP\n");
     const GroupIndex g = mesh.add_group("LIP", GroupKind::element);
     mesh.add_cell(CellType::line, std::array<Index, 2>{0, 1}, 10);
     mesh.add_cell(CellType::line, std::array<Index, 2>{3, 1}, 11);
@@ -658,7 +679,8 @@ Mesh box_from_med() {
     // As from MED: a hexahedron, its skin and one edge as elements, a free shell, a free beam, a point.
     Mesh mesh;
     mesh.name = "box";
-    for (int i = 0; i < 8; ++i) mesh.add_node({double((i & 1) ^ ((i >> 1) & 1)), double((i >> 1) & 1), double(i >> 2)}, i + 1);
+    for (int i = 0; i < 8; ++i)
+        mesh.add_node({double((i & 1) ^ ((i >> 1) & 1)), double((i >> 1) & 1), double(i >> 2)}, i + 1);
     mesh.add_node({2, 0, 0}, 9);
     mesh.add_node({3, 1, 0}, 10);
     mesh.add_cell(CellType::hexahedron, std::array<Index, 8>{0, 1, 2, 3, 4, 5, 6, 7}, 1);
@@ -667,8 +689,9 @@ Mesh box_from_med() {
     mesh.add_cell(CellType::triangle, std::array<Index, 3>{1, 8, 9}, 4);
     mesh.add_cell(CellType::line, std::array<Index, 2>{8, 7}, 5);
     mesh.add_cell(CellType::vertex, std::array<Index, 1>{9}, 6);
-    const std::pair<const char*, std::vector<Index>> groups[] = {{"SOLID", {1}}, {"TOP", {2}}, {"EDGE", {3}},
-                                                                 {"PLATE", {4}}, {"ROD", {5}}, {"POINT", {6}}, {"MIXED", {1, 2}}, {"NONE", {}}};
+    const std::pair<const char*, std::vector<Index>> groups[] = {{"SOLID", {1}},    {"TOP", {2}}, {"EDGE", {3}},
+                                                                 {"PLATE", {4}},    {"ROD", {5}}, {"POINT", {6}},
+                                                                 {"MIXED", {1, 2}}, {"NONE", {}}};
     for (const auto& [name, members] : groups)
         set_group_members(mesh, mesh.add_group(name, GroupKind::element), {GroupKind::element, members, {}});
     set_group_members(mesh, mesh.add_group("TOP", GroupKind::node), {GroupKind::node, {5}, {}});
@@ -720,7 +743,8 @@ TEST_F(Inp, WhatCalculixCannotHoldIsRefused) {
     EXPECT_THROW(write_inp(box_from_med(), folder_ / "no" / "such" / "folder.inp"), WriteError);
 
     Mesh deck = read(two_tets);
-    deck.add_cell(CellType::hexahedron, std::array<Index, 8>{0, 1, 2, 3, 0, 1, 2, 3}, 9, deck.block(CellType::tetra).families[0]);
+    deck.add_cell(CellType::hexahedron, std::array<Index, 8>{0, 1, 2, 3, 0, 1, 2, 3}, 9,
+                  deck.block(CellType::tetra).families[0]);
     EXPECT_THAT(write_error(deck), HasSubstr("element 9, a hexahedron, stands under"));
     deck = read(two_tets);
     deck.add_group("fix", GroupKind::node);
@@ -745,7 +769,9 @@ TEST_F(Inp, CoordinatesFitCalculixFieldsAndReadBack) {
     for (Index i = 0; i < mesh.node_count(); ++i)
         for (int k = 0; k < 3; ++k) {
             const double x = mesh.points[i][k], y = again.points[i][k];
-            EXPECT_LE(std::abs(x - y), (std::abs(x) > 1e-90 && std::abs(x) < 1e90 ? 5e-15 : 5e-14) * std::abs(x) + 5e-324) << x;
+            EXPECT_LE(std::abs(x - y),
+                      (std::abs(x) > 1e-90 && std::abs(x) < 1e90 ? 5e-15 : 5e-14) * std::abs(x) + 5e-324)
+                << x;
             if (std::abs(x) >= 0.1 && std::abs(x) < 1e6) ++common, exact += x == y;
         }
     EXPECT_EQ(exact, common);  // coordinates of ordinary size lose nothing
@@ -826,7 +852,8 @@ TEST_F(Inp, CalculixDecksRoundTrip) {
 
 TEST_F(Inp, DamagedDecksGiveAMeshOrAReadError) {
     std::vector<std::pair<std::string, std::string>> sources = {{"two_tets", two_tets}};
-    for (const char* name : {"contact1", "branch1", "bolt", "edgeload", "planestress3", "distcoup", "simplebeam", "dashpot1"}) {
+    for (const char* name :
+         {"contact1", "branch1", "bolt", "edgeload", "planestress3", "distcoup", "simplebeam", "dashpot1"}) {
         fs::path path = calculix_decks / (std::string(name) + ".inp");
         if (!fs::exists(path)) path += ".gz";
         if (!fs::exists(path)) continue;
@@ -885,10 +912,11 @@ std::vector<std::vector<double>> result_rows(const fs::path& path) {
 TEST_F(Inp, CalculixGivesTheSameResultsForWrittenDecks) {
     if (std::system("command -v ccx >/dev/null 2>&1") != 0) GTEST_SKIP() << "ccx is not installed";
     if (!fs::exists(calculix_decks)) GTEST_SKIP() << "Debian package calculix-ccx-test is not installed";
-    const char* const names[] = {"achtel2",      "achtelc", "beam8p", "beamt",      "beam10p",     "simplebeam", "truss",
-                                 "spring1",      "spring3", "dashpot1", "planestress3", "axial",   "ax6",        "c3d15",
-                                 "c3d6",         "contact1", "contact3", "pipe",     "pret1",       "distcoup",   "solidshell1",
-                                 "beamptied1",   "beamptied2", "shell2", "shell1",   "rot1",        "dloadlinI",  "cubespring", "pipempc1"};
+    const char* const names[] = {"achtel2", "achtelc",  "beam8p",      "beamt",      "beam10p",      "simplebeam",
+                                 "truss",   "spring1",  "spring3",     "dashpot1",   "planestress3", "axial",
+                                 "ax6",     "c3d15",    "c3d6",        "contact1",   "contact3",     "pipe",
+                                 "pret1",   "distcoup", "solidshell1", "beamptied1", "beamptied2",   "shell2",
+                                 "shell1",  "rot1",     "dloadlinI",   "cubespring", "pipempc1"};
     for (const std::string name : names) {
         SCOPED_TRACE(name);
         fs::path path = calculix_decks / (name + ".inp");
@@ -901,7 +929,8 @@ TEST_F(Inp, CalculixGivesTheSameResultsForWrittenDecks) {
         write(read_inp(path), "before.inp");
         write(mesh, "after.inp");
         for (const std::string job : {"before", "after"}) {
-            const std::string command = "cd '" + folder_.string() + "' && OMP_NUM_THREADS=1 timeout 60 ccx " + job + " > " + job + ".log 2>&1";
+            const std::string command =
+                "cd '" + folder_.string() + "' && OMP_NUM_THREADS=1 timeout 60 ccx " + job + " > " + job + ".log 2>&1";
             ASSERT_EQ(std::system(command.c_str()), 0) << text_of(folder_ / (job + ".log"));
         }
         const auto before = result_rows(folder_ / "before.dat"), after = result_rows(folder_ / "after.dat");

@@ -134,7 +134,8 @@ private:
     }
 
     static bool ends_with_comma(std::string_view s) {
-        while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r' || s.back() == '\n')) s.remove_suffix(1);
+        while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r' || s.back() == '\n'))
+            s.remove_suffix(1);
         return s.ends_with(',');
     }
 
@@ -213,7 +214,8 @@ private:
                 refuse_missing_comma(card);
             }
             const auto set = set_of_card(card);
-            if (!set || !seen.insert(static_cast<char>('0' + static_cast<int>(set->first)) + deck_key(set->second)).second)
+            if (!set ||
+                !seen.insert(static_cast<char>('0' + static_cast<int>(set->first)) + deck_key(set->second)).second)
                 continue;
             if (set->first == DeckSetType::nset) nset_names.insert(set->second);
             input_->sets().push_back({set->first, set->second, set->second, {}, 0});
@@ -238,9 +240,11 @@ private:
 
     Index positive_number(CardReader& line, std::string_view what) {
         Index id = 0;
-        if (!line.integer(id)) throw ReadError(line.where() + "'" + line.field() + "' is not " + std::string(what) + " number");
+        if (!line.integer(id))
+            throw ReadError(line.where() + "'" + line.field() + "' is not " + std::string(what) + " number");
         if (id <= 0 || id > largest_number)
-            throw ReadError(line.where() + std::string(what) + " number " + std::to_string(id) + " is not between 1 and 2147483647");
+            throw ReadError(line.where() + std::string(what) + " number " + std::to_string(id) +
+                            " is not between 1 and 2147483647");
         return id;
     }
 
@@ -268,8 +272,8 @@ private:
                 bool fits = true;
                 for (int k = 0; k < 3 && !line.at_end(); ++k) {
                     if (!line.number(x[k]))
-                        throw ReadError(line.where() + "coordinate " + std::to_string(k + 1) + " of node " + std::to_string(id) +
-                                        ", '" + line.field() + "', is not a finite number");
+                        throw ReadError(line.where() + "coordinate " + std::to_string(k + 1) + " of node " +
+                                        std::to_string(id) + ", '" + line.field() + "', is not a finite number");
                     fits = fits && line.fits_calculix();
                 }
                 if (!fits && cut++ == 0) first_cut = line.where();
@@ -278,7 +282,8 @@ private:
                 mesh_.node_families.push_back(family);
             }
             if (cut > 0)
-                input_->warnings().push_back(first_cut + std::to_string(cut) + " nodes, this one first, have coordinates of more than 20 "
+                input_->warnings().push_back(first_cut + std::to_string(cut) +
+                                             " nodes, this one first, have coordinates of more than 20 "
                                              "characters; CalculiX cuts them and gets other values");
         }
         if (mesh_.points.empty()) throw ReadError(shown_ + ": there are no nodes in this file");
@@ -290,7 +295,8 @@ private:
         {
             const NumberIndex numbers(mesh_);
             bool repeated = false;
-            for (Index i = 0; i < mesh_.node_count() && !repeated; ++i) repeated = *numbers.node(mesh_.node_ids[i]) != i;
+            for (Index i = 0; i < mesh_.node_count() && !repeated; ++i)
+                repeated = *numbers.node(mesh_.node_ids[i]) != i;
             if (!repeated) return;
         }
         std::unordered_map<Index, std::size_t> first;
@@ -365,15 +371,16 @@ private:
                 }
                 Index node = 0;
                 if (!line.integer(node))
-                    throw ReadError(line.where() + "'" + line.field() + "' in element " + std::to_string(id) + " is not a node number");
+                    throw ReadError(line.where() + "'" + line.field() + "' in element " + std::to_string(id) +
+                                    " is not a node number");
                 if (node == 0 && network && k != 1) {
                     record[k++] = -1;
                     continue;
                 }
                 const auto index = nodes.node(node);
                 if (!index)
-                    throw ReadError(line.where() + "element " + std::to_string(id) + " names node " + std::to_string(node) +
-                                    ", which the deck does not define");
+                    throw ReadError(line.where() + "element " + std::to_string(id) + " names node " +
+                                    std::to_string(node) + ", which the deck does not define");
                 record[k++] = *index;
             }
             if (!line.at_end()) {
@@ -392,21 +399,21 @@ private:
             block.families.push_back(family);
         }
         if (odd > 0)
-            input_->warnings().push_back(card.where() + ": " + std::to_string(odd) + " elements of type " + *card.parameter("TYPE") +
-                                         " are followed by more than " + std::to_string(count) +
-                                         " node numbers; CalculiX ignores the rest");
+            input_->warnings().push_back(card.where() + ": " + std::to_string(odd) + " elements of type " +
+                                         *card.parameter("TYPE") + " are followed by more than " +
+                                         std::to_string(count) + " node numbers; CalculiX ignores the rest");
     }
 
     [[noreturn]] static void fail_truncated(const Card& card, Index id, std::size_t found, std::size_t count) {
         CardReader line(card), last(card);
         while (line.next_data_line()) last = line;
-        throw ReadError(last.where() + "element " + std::to_string(id) + " ends after " + std::to_string(found) + " of its " +
-                        std::to_string(count) + " nodes");
+        throw ReadError(last.where() + "element " + std::to_string(id) + " ends after " + std::to_string(found) +
+                        " of its " + std::to_string(count) + " nodes");
     }
 
     [[noreturn]] static void fail_truncated_at(const CardReader& line, Index id, std::size_t count) {
-        throw ReadError(line.where() + "element " + std::to_string(id) + ", which starts before this line, has not its " +
-                        std::to_string(count) + " nodes");
+        throw ReadError(line.where() + "element " + std::to_string(id) +
+                        ", which starts before this line, has not its " + std::to_string(count) + " nodes");
     }
 
     /// User elements have as many nodes as their *USER ELEMENT card says; without one, an element ends
@@ -427,13 +434,15 @@ private:
                 if (line.at_end()) {
                     if (count <= 0 && !line.ends_with_comma()) break;
                     if (!line.next_data_line())
-                        fail_truncated(card, element.number, element.nodes.size(), static_cast<std::size_t>(std::max<Index>(count, 0)));
+                        fail_truncated(card, element.number, element.nodes.size(),
+                                       static_cast<std::size_t>(std::max<Index>(count, 0)));
                     continue;
                 }
                 Index node = 0;
                 if (!line.integer(node) || (node != 0 && !nodes.node(node)))
                     throw ReadError(line.where() + "element " + std::to_string(element.number) + " names node " +
-                                    (node ? std::to_string(node) : "'" + line.field() + "'") + ", which the deck does not define");
+                                    (node ? std::to_string(node) : "'" + line.field() + "'") +
+                                    ", which the deck does not define");
                 element.nodes.push_back(node);
             }
             input_->other_elements().push_back(std::move(element));
@@ -488,7 +497,8 @@ private:
             std::vector<FamilyIndex> with;  // by family, computed when first needed
             const auto join = [&](FamilyIndex& f) {
                 if (static_cast<std::size_t>(f) >= with.size()) with.resize(static_cast<std::size_t>(f) + 1, -1);
-                if (with[static_cast<std::size_t>(f)] < 0) with[static_cast<std::size_t>(f)] = mesh_.families.with(f, group);
+                if (with[static_cast<std::size_t>(f)] < 0)
+                    with[static_cast<std::size_t>(f)] = mesh_.families.with(f, group);
                 f = with[static_cast<std::size_t>(f)];
             };
             for (Index member : sets[s].members) {
@@ -511,7 +521,8 @@ private:
             groups.clear();
             for (; i < facets.size() && facets[i].first == key; ++i) groups.push_back(facets[i].second);
             const auto type = static_cast<CellType>(key[0]);
-            const bool plane = planes[static_cast<std::size_t>(mesh_.block(type).families[static_cast<std::size_t>(key[1])])];
+            const bool plane =
+                planes[static_cast<std::size_t>(mesh_.block(type).families[static_cast<std::size_t>(key[1])])];
             mesh_.facets.push_back({type, static_cast<std::int8_t>(face_from_label(static_cast<int>(key[2]), plane)),
                                     mesh_.families.intern(groups), key[1]});
         }

@@ -31,8 +31,10 @@ void append_coordinate(std::string& out, double value) {
         return;
     }
     for (int digits_wanted = 17;; --digits_wanted) {
-        end = digits_wanted == 17 ? std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr
-                                  : std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits_wanted - 1).ptr;
+        end =
+            digits_wanted == 17
+                ? std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr
+                : std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits_wanted - 1).ptr;
         const char* mantissa_end = std::find(text, const_cast<char*>(end), 'e');
         std::string digits, sign;
         for (const char* p = text; p < mantissa_end; ++p) {
@@ -44,7 +46,8 @@ void append_coordinate(std::string& out, double value) {
         // 12345e-9 and .0012345 are shorter than 1.2345e-05.
         const std::string forms[] = {
             sign + digits.substr(0, 1) + "." + digits.substr(1) + "e" + std::to_string(exponent),
-            exponent < 0 ? sign + "." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits : std::string(),
+            exponent < 0 ? sign + "." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits
+                         : std::string(),
             sign + digits + "e" + std::to_string(exponent - static_cast<int>(digits.size()) + 1),
         };
         for (const std::string& form : forms)
@@ -156,13 +159,15 @@ private:
         }
         find_owners(2);
         find_owners(1);
-        for (const LooseElement& e : loose_) fates_[static_cast<int>(e.type)][static_cast<std::size_t>(e.cell)] = e.fate;
+        for (const LooseElement& e : loose_)
+            fates_[static_cast<int>(e.type)][static_cast<std::size_t>(e.cell)] = e.fate;
         for (const CellBlock& b : mesh_.blocks()) {
             const auto free = std::ranges::count(fates_[static_cast<int>(b.type)], Fate::free);
             if (free > 0 && default_deck_label(b.type).empty())
-                throw WriteError(std::to_string(free) + " elements of type " + std::string(traits(b.type).name) +
-                                 ": CalculiX has no such element; mesh these parts with elements it has (solids of 4, 10, 6, 15, "
-                                 "8 or 20 nodes, shells of 3, 6, 4 or 8), or write MED or VTU");
+                throw WriteError(
+                    std::to_string(free) + " elements of type " + std::string(traits(b.type).name) +
+                    ": CalculiX has no such element; mesh these parts with elements it has (solids of 4, 10, 6, 15, "
+                    "8 or 20 nodes, shells of 3, 6, 4 or 8), or write MED or VTU");
         }
     }
 
@@ -186,7 +191,8 @@ private:
             if (t.dimension != dimension) continue;
             const auto nodes = mesh_.block(loose_[i].type).nodes(loose_[i].cell);
             wanted.emplace_back(key_of(nodes, straight, t.corners), i);
-            for (int k = 0; k < t.corners; ++k) touched[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])] = 1;
+            for (int k = 0; k < t.corners; ++k)
+                touched[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])] = 1;
         }
         if (wanted.empty()) return;
         std::ranges::sort(wanted);
@@ -197,7 +203,8 @@ private:
                 LooseElement& e = loose_[it->second];
                 if (!is_free(e)) {
                     // A shell's edge is a face CalculiX can name, a solid's is not; then the lowest number.
-                    if ((face == 0) != (e.face == 0) ? face == 0 : mesh_.block(e.owner.type).ids[e.owner.cell] < id) continue;
+                    if ((face == 0) != (e.face == 0) ? face == 0 : mesh_.block(e.owner.type).ids[e.owner.cell] < id)
+                        continue;
                 }
                 e.fate = dimension == 2 ? Fate::face : Fate::edge;
                 e.owner = owner;
@@ -210,11 +217,13 @@ private:
             for (Index i = 0; i < b.size(); ++i) {
                 const auto nodes = b.nodes(i);
                 int near = 0;
-                for (int k = 0; k < t.corners; ++k) near += touched[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+                for (int k = 0; k < t.corners; ++k)
+                    near += touched[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
                 if (near <= dimension) continue;
                 if (dimension == 2) {
                     for (std::size_t f = 0; f < t.faces.size(); ++f)
-                        offer(key_of(nodes, t.faces[f].data(), t.faces[f][3] < 0 ? 3 : 4), {b.type, i}, static_cast<int>(f) + 1);
+                        offer(key_of(nodes, t.faces[f].data(), t.faces[f][3] < 0 ? 3 : 4), {b.type, i},
+                              static_cast<int>(f) + 1);
                 } else {
                     // A triangle that is itself only a face of a solid is not in the deck.
                     const bool shell = t.dimension == 2;
@@ -268,7 +277,8 @@ private:
                 if (mesh_.groups[g].hidden) continue;
                 if (fate != Fate::card && fate != Fate::free)
                     throw WriteError("facet group '" + mesh_.groups[g].name + "' has a face of element " +
-                                     std::to_string(b.ids[f.cell]) + ", which is itself a face of a solid and not written as element");
+                                     std::to_string(b.ids[f.cell]) +
+                                     ", which is itself a face of a solid and not written as element");
                 members[g].push_back(facet_key({f.type, f.cell}, f.face));
             }
         }
@@ -321,7 +331,8 @@ private:
         static constexpr std::string_view names[] = {" point", " segment", " face"};
         for (std::size_t d = 0; d < count.size(); ++d)
             if (count[d] > 0)
-                what += (what.empty() ? "" : " and ") + std::to_string(count[d]) + std::string(names[d]) + (count[d] > 1 ? "s" : "");
+                what += (what.empty() ? "" : " and ") + std::to_string(count[d]) + std::string(names[d]) +
+                        (count[d] > 1 ? "s" : "");
         for (NewSet* set : {&surface, &nodes}) {
             std::ranges::sort(set->members);
             set->members.erase(std::unique(set->members.begin(), set->members.end()), set->members.end());
@@ -344,25 +355,29 @@ private:
     void claim(DeckSetType type, const std::string& name, const std::string& group) {
         const std::string key = deck_key(name);
         if (key.empty() || key.size() > 80 || name.find_first_of(",\n\r") != name.npos || key.starts_with('*'))
-            throw WriteError("group '" + group + "' cannot be a CalculiX set: names have 1 to 80 characters, no comma and no "
+            throw WriteError("group '" + group +
+                             "' cannot be a CalculiX set: names have 1 to 80 characters, no comma and no "
                              "asterisk first; rename the group");
         const auto [it, is_new] = names_.emplace(name_key(type, name), group);
         if (is_new) return;
         if (it->second == group)
-            throw WriteError("group '" + group + "' would give two " + std::string(to_string(type)) + "s of that name; rename one of the groups");
-        throw WriteError("groups '" + it->second + "' and '" + group + "' would be one " + std::string(to_string(type)) +
+            throw WriteError("group '" + group + "' would give two " + std::string(to_string(type)) +
+                             "s of that name; rename one of the groups");
+        throw WriteError("groups '" + it->second + "' and '" + group + "' would be one " +
+                         std::string(to_string(type)) +
                          " in CalculiX, where case and blanks do not count; rename one of them");
     }
 
     void check_other_elements() const {
         for (const OtherElement& e : input_->other_elements()) {
             if (numbers_.cell(e.number))
-                throw WriteError("element number " + std::to_string(e.number) + " is used in the mesh and by an element of type " +
-                                 e.type + " of the deck; renumber the elements of the mesh");
+                throw WriteError("element number " + std::to_string(e.number) +
+                                 " is used in the mesh and by an element of type " + e.type +
+                                 " of the deck; renumber the elements of the mesh");
             for (Index n : e.nodes)
                 if (n != 0 && !numbers_.node(n))
-                    throw WriteError("element " + std::to_string(e.number) + " of type " + e.type + " in the deck needs node " +
-                                     std::to_string(n) + ", which the mesh has no longer");
+                    throw WriteError("element " + std::to_string(e.number) + " of type " + e.type +
+                                     " in the deck needs node " + std::to_string(n) + ", which the mesh has no longer");
         }
     }
 
@@ -404,7 +419,8 @@ private:
             for (std::size_t s = 0; s < roles_.size(); ++s) {
                 if (roles_[s].state != SetRole::by_cards) continue;
                 const DeckSet& set = input_->sets()[s];
-                if (now[s].members == members_[s] && now[s].unheld == set.unheld && now[s].absent == set.absent) continue;
+                if (now[s].members == members_[s] && now[s].unheld == set.unheld && now[s].absent == set.absent)
+                    continue;
                 roles_[s].state = SetRole::replaced;
                 roles_[s].members = members_[s];
                 changed = true;
@@ -440,7 +456,8 @@ private:
         else
             for (const DeckText& t : card.text) put(t.text);
         if (card.keyword == "NODE" || card.keyword == "ELEMENT")
-            if (const auto s = set_index(card); s && !has_own_card_[*s] && roles_[*s].state == SetRole::replaced && !is_written_[*s])
+            if (const auto s = set_index(card);
+                s && !has_own_card_[*s] && roles_[*s].state == SetRole::replaced && !is_written_[*s])
                 write_replaced_set(*s);
         if (c == last_node_card_) write_nodes_without_card();
         if (c == last_element_card_) write_free_elements();
@@ -590,8 +607,9 @@ private:
 
     void check_type(CellRef ref, const DeckElementType& type, const Card& card) const {
         if (ref.type == type.cell) return;
-        throw WriteError("element " + std::to_string(mesh_.block(ref.type).ids[ref.cell]) + ", a " + std::string(traits(ref.type).name) +
-                         ", stands under " + card.where() + ", whose elements are of type " + *card.parameter("TYPE"));
+        throw WriteError("element " + std::to_string(mesh_.block(ref.type).ids[ref.cell]) + ", a " +
+                         std::string(traits(ref.type).name) + ", stands under " + card.where() +
+                         ", whose elements are of type " + *card.parameter("TYPE"));
     }
 
     void put_element(CellRef ref) {
@@ -655,7 +673,8 @@ private:
         bool defined = false;
         for (std::size_t c = 0; c < input_->cards().size(); ++c) {
             const Card& card = input_->cards()[c];
-            if ((card.keyword != "NODE" && card.keyword != "ELEMENT") || drops_parameter_[c] || set_index(card) != s) continue;
+            if ((card.keyword != "NODE" && card.keyword != "ELEMENT") || drops_parameter_[c] || set_index(card) != s)
+                continue;
             defined = true;
             given.insert(given.end(), contributed_[c].begin(), contributed_[c].end());
             for (const OtherElement& e : input_->other_elements())
@@ -687,7 +706,8 @@ private:
                 const CellRef ref = *numbers_.cell(key / 8);
                 append_integer(out_, key / 8);
                 out_ += ", ";
-                out_ += label_name(static_cast<int>(key % 8), ref.type, planes_[mesh_.block(ref.type).families[ref.cell]]);
+                out_ +=
+                    label_name(static_cast<int>(key % 8), ref.type, planes_[mesh_.block(ref.type).families[ref.cell]]);
                 out_ += eol_;
             }
             for (const auto& [number, label] : unheld) put_line(std::to_string(number) + ", S" + std::to_string(label));
@@ -712,7 +732,8 @@ private:
         for (const Card& card : input_->cards())
             if (card.keyword == "ELEMENT") return *card.parameter("TYPE");
         for (const CellBlock& b : mesh_.blocks())
-            if (std::ranges::count(fates_[static_cast<int>(b.type)], Fate::free) > 0) return std::string(default_deck_label(b.type));
+            if (std::ranges::count(fates_[static_cast<int>(b.type)], Fate::free) > 0)
+                return std::string(default_deck_label(b.type));
         return "C3D4";
     }
 

@@ -22,7 +22,8 @@ constexpr Family families[] = {
 
 std::optional<CellType> cell_of(int dimension, int nodes) {
     for (const CellTraits& t : all_cell_types())
-        if (t.dimension == dimension && t.nodes == nodes && nodes != 7 && nodes != 9 && nodes != 18 && nodes != 27) return t.type;
+        if (t.dimension == dimension && t.nodes == nodes && nodes != 7 && nodes != 9 && nodes != 18 && nodes != 27)
+            return t.type;
     return {};
 }
 
@@ -35,10 +36,12 @@ std::optional<DeckElementType> deck_element_type(std::string_view written) {
         CellType cell;
     };
     static constexpr Named named[] = {
-        {"B31", CellType::line},       {"B31R", CellType::line},     {"B32", CellType::line3},    {"B32R", CellType::line3},
-        {"B21", CellType::line},       {"T2D2", CellType::line},     {"T3D2", CellType::line},    {"T3D3", CellType::line3},
-        {"D", CellType::line3},        {"GAPUNI", CellType::line},   {"SPRINGA", CellType::line}, {"SPRING2", CellType::line},
-        {"DASHPOTA", CellType::line},  {"SPRING1", CellType::vertex}, {"MASS", CellType::vertex}, {"DCOUP3D", CellType::vertex},
+        {"B31", CellType::line},       {"B31R", CellType::line},      {"B32", CellType::line3},
+        {"B32R", CellType::line3},     {"B21", CellType::line},       {"T2D2", CellType::line},
+        {"T3D2", CellType::line},      {"T3D3", CellType::line3},     {"D", CellType::line3},
+        {"GAPUNI", CellType::line},    {"SPRINGA", CellType::line},   {"SPRING2", CellType::line},
+        {"DASHPOTA", CellType::line},  {"SPRING1", CellType::vertex}, {"MASS", CellType::vertex},
+        {"DCOUP3D", CellType::vertex},
     };
     for (const Named& n : named)
         if (label == n.label) return DeckElementType{n.cell, false};

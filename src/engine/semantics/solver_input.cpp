@@ -123,7 +123,8 @@ std::string Card::where() const {
 }
 
 void Card::set_text(std::string new_text) {
-    const auto file = std::make_shared<const DeckFile>(DeckFile{text.empty() ? "" : text.front().file->path, std::move(new_text)});
+    const auto file =
+        std::make_shared<const DeckFile>(DeckFile{text.empty() ? "" : text.front().file->path, std::move(new_text)});
     text = {{file, file->text, text.empty() ? 1 : text.front().line}};
     head = std::min(file->text.find('\n'), file->text.size() - 1) + 1;
     parse_keyword(std::string_view(file->text).substr(0, head), keyword, parameters);

@@ -132,11 +132,12 @@ private:
         sets_[s].clean();
         if (warnings_ && absent_count_ > 0) {
             const DeckSet& set = input_.sets()[s];
-            warnings_->push_back(card.where() + ": " + std::string(to_string(set.type)) + " '" + set.name + "' names " +
-                                 (set.type == DeckSetType::nset || set.type == DeckSetType::node_surface ? "node " : "element ") +
-                                 std::to_string(first_absent_) +
-                                 (absent_count_ > 1 ? " and " + std::to_string(absent_count_ - 1) + " more" : "") +
-                                 " that the deck does not define; left out");
+            warnings_->push_back(
+                card.where() + ": " + std::string(to_string(set.type)) + " '" + set.name + "' names " +
+                (set.type == DeckSetType::nset || set.type == DeckSetType::node_surface ? "node " : "element ") +
+                std::to_string(first_absent_) +
+                (absent_count_ > 1 ? " and " + std::to_string(absent_count_ - 1) + " more" : "") +
+                " that the deck does not define; left out");
         }
     }
 
@@ -189,8 +190,8 @@ private:
         CardReader line(card);
         while (line.next_data_line()) {
             Index first = 0, last = 0, step = 1;
-            if (!line.integer(first) || line.at_end() || !line.integer(last) || (!line.at_end() && !line.integer(step)) ||
-                first < 0 || last < first || step <= 0) {
+            if (!line.integer(first) || line.at_end() || !line.integer(last) ||
+                (!line.at_end() && !line.integer(step)) || first < 0 || last < first || step <= 0) {
                 fail(line, "GENERATE needs: first number, last number, increment (a positive one)");
                 sets_[s].add_absent(1);
                 continue;
@@ -276,7 +277,8 @@ private:
         const int face = face_from_label(label, plane);
         const int faces = t.dimension == 3 ? static_cast<int>(t.faces.size()) : 2 + t.corners;
         if (face > faces) {
-            fail(line, "element " + std::to_string(id) + ", a " + std::string(t.name) + ", has no face S" + std::to_string(label));
+            fail(line, "element " + std::to_string(id) + ", a " + std::string(t.name) + ", has no face S" +
+                           std::to_string(label));
             sets_[s].add_absent(1);
             return;
         }
@@ -308,7 +310,8 @@ std::optional<std::pair<DeckSetType, std::string>> set_of_card(const Card& card)
         if (!name) return {};
         if (deck_key(*name).empty()) throw ReadError(card.where() + ": " + std::string(parameter) + "= without a name");
         if (deck_key(*name).size() > 80)
-            throw ReadError(card.where() + ": the name '" + *name + "' is longer than the 80 characters CalculiX allows");
+            throw ReadError(card.where() + ": the name '" + *name +
+                            "' is longer than the 80 characters CalculiX allows");
         return std::pair(type, *name);
     };
     const auto needed = [&](std::string_view parameter, DeckSetType type) {
