@@ -5,19 +5,11 @@
 #include <string>
 
 #include "mesh/mesh.h"
+#include "operators/interface.h"
 #include "operators/report.h"
 #include "tools/tool.h"
 
 namespace femscalpel {
-
-/// How element faces are brought onto the tool (DESIGN 3, step 2).
-enum class Method {
-    snap,    ///< move near nodes onto the tool, split what still crosses; always succeeds on a sound mesh
-    deform,  ///< the paper's 3.1.1: classify, then only move nodes; may end in QualityError
-};
-
-/// Method of that name ("snap" or "deform"); throws ToolError otherwise.
-Method method_from_name(const std::string& name);
 
 struct CrackOptions {
     std::string name = "CRACK";     ///< prefix of the new groups NAME_P, NAME_N, NAME_FRONT
@@ -30,10 +22,14 @@ struct CrackOptions {
 /// each side its own copy of the interface nodes. Lips are coincident. The input is not changed.
 ///
 /// New groups: NAME_P and NAME_N, the lip faces on the tool's positive and negative side (triangles of a
-/// volume mesh, segments of a shell mesh). The original nodes stay with the negative side.
+/// volume mesh, segments of a shell mesh). The original nodes stay with the negative side. Where the two
+/// sides hang together at interface nodes, these are the front: node group NAME_FRONT.
+///
+/// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
 /// Throws ToolError (bad name, tool misses the mesh), UnsupportedElementError (the band reaches
 /// elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
 Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {});
+
 
 }  // namespace femscalpel

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "groups/group_report.h"
 #include "mesh/mesh.h"
 
 namespace femscalpel {
@@ -29,21 +30,6 @@ struct QualitySummary {
     std::vector<ElementQuality> worst;  ///< at most ten, worst first
 };
 
-/// What happened to one group. Measures are lengths, areas or volumes, summed over the members of the
-/// group's highest dimension; 0 for node groups.
-struct GroupRecord {
-    std::string name;
-    GroupKind kind = GroupKind::node;
-    int dimension = 0;            ///< of the largest members; 0 for nodes
-    Index count_before = 0;
-    Index count_after = 0;
-    double measure_before = 0;
-    double measure_after = 0;
-    Index nodes_moved = 0;        ///< nodes of the group (or of its elements) that changed place
-    double boundary_drift = 0;    ///< largest distance of its boundary nodes from the boundary's old shape
-    std::string status;           ///< "untouched", "kept", "changed", "became empty" or "new"
-};
-
 /// What an operator did; the same for all operators.
 struct Report {
     std::string operation;  ///< "crack", "drill", ...
@@ -52,8 +38,9 @@ struct Report {
     int transition = 0;     ///< i of the i-th neighbourhood that was allowed to move
     /// Node numbers by the paper's names: ICN, ECN (interface), ITN, ETN (transition).
     std::map<std::string, std::vector<Index>> node_sets;
-    /// Number of constraints by kind: "plane" (on the tool), "tangent plane" (skin, shell), "line",
-    /// "group boundary", "fixed", "free" (no constraint).
+    /// Number of nodes by constraint, in the paper's terms: the tool's kind ("plane"), "tangent plane" (on
+    /// the skin or a shell), of these "line" (on a feature line or border line: two surfaces) and "fixed";
+    /// "group boundary" (on a border inside the material); "free" (none of these). A node can count twice.
     std::map<std::string, Index> constraints;
     QualitySummary quality_before;  ///< of the band's elements before
     QualitySummary quality_after;   ///< of the same elements and their children after

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deformation/deformation.h"
+
+#include "deformation/bar_network.h"
+
+namespace femscalpel {
+
+void deform(Deformable& d, const std::vector<int>& interface, const std::vector<int>& transition) {
+    std::vector<Vec3> given;
+    given.reserve(interface.size());
+    for (const int v : interface) given.push_back(d.band.nodes[v].at - d.band.nodes[v].start);
+    const std::vector<Vec3> spread = bar_network_displacements(d, interface, given, transition);
+    for (std::size_t k = 0; k < transition.size(); ++k) {
+        const int v = transition[k];
+        if (spread[k].isZero()) continue;
+        Vec3 x = d.band.nodes[v].at + spread[k];
+        if (!d.constraints.project(v, d.contact[v], x)) continue;
+        // Node by node the displacement is only right once all have moved, so a loss is tolerated while
+        // elements stay sound.
+        const double before = quality_around(d, v, d.band.nodes[v].at);
+        if (before < 0.5 && quality_around(d, v, x) > before) d.band.nodes[v].at = x;
+    }
+    std::vector<int> movable = interface;
+    movable.insert(movable.end(), transition.begin(), transition.end());
+    relax(d, movable);
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,678 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deformation/node_constraints.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+namespace femscalpel {
+namespace {
+
+/// Flatness and straightness tolerance relative to the size of the band: coordinates that passed
+/// through a text file with nine digits still count as plane.
+constexpr double flat_tolerance = 1e-9;
+
+class UnionFind {
+public:
+    explicit UnionFind(int count) : parent_(static_cast<std::size_t>(count)) { std::iota(parent_.begin(), parent_.end(), 0); }
+    int find(int i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void unite(int i, int j) {
+        i = find(i);
+        j = find(j);
+        if (i != j) parent_[std::max(i, j)] = std::min(i, j);
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+/// Faces of the band's tetrahedra with the one or two tetrahedra behind each: open addressing over
+/// sorted node triples.
+class FaceTable {
+public:
+    struct Entry {
+        std::array<int, 3> key{-1, -1, -1};
+        std::array<int, 3> oriented{};  // as the first tetrahedron has it, normal outwards
+        int tetra[2]{-1, -1};
+        int triangle_family = -1;  // -1: no triangle element on it
+    };
+
+    explicit FaceTable(std::size_t faces) {
+        std::size_t capacity = 64;
+        while (capacity < 2 * faces) capacity *= 2;
+        slots_.assign(capacity, -1);
+        entries_.reserve(faces);
+        mask_ = capacity - 1;
+    }
+
+    Entry& insert(std::array<int, 3> nodes) {
+        std::array<int, 3> key = nodes;
+        std::ranges::sort(key);
+        std::size_t h = hash(key) & mask_;
+        while (slots_[h] >= 0) {
+            if (entries_[slots_[h]].key == key) return entries_[slots_[h]];
+            h = (h + 1) & mask_;
+        }
+        slots_[h] = static_cast<int>(entries_.size());
+        entries_.push_back({});
+        entries_.back().key = key;
+        entries_.back().oriented = nodes;
+        return entries_.back();
+    }
+
+    Entry* find(std::array<int, 3> key) {
+        std::ranges::sort(key);
+        std::size_t h = hash(key) & mask_;
+        while (slots_[h] >= 0) {
+            if (entries_[slots_[h]].key == key) return &entries_[slots_[h]];
+            h = (h + 1) & mask_;
+        }
+        return nullptr;
+    }
+
+    std::vector<Entry>& entries() { return entries_; }
+
+private:
+    static std::size_t hash(const std::array<int, 3>& k) {
+        std::uint64_t h = static_cast<std::uint64_t>(k[0]) * 0x9e3779b97f4a7c15u;
+        h ^= static_cast<std::uint64_t>(k[1]) * 0xc2b2ae3d27d4eb4fu;
+        h ^= static_cast<std::uint64_t>(k[2]) * 0x165667b19e3779f9u;
+        return h ^ (h >> 29);
+    }
+    std::vector<int> slots_;
+    std::vector<Entry> entries_;
+    std::size_t mask_ = 0;
+};
+
+constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+Vec3 closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, Vec3& bary) {
+    // Ericson, Real-Time Collision Detection, 5.1.5.
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= 0 && d2 <= 0) return bary = {1, 0, 0}, a;
+    const Vec3 bp = p - b;
+    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+    if (d3 >= 0 && d4 <= d3) return bary = {0, 1, 0}, b;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+        const double v = d1 / (d1 - d3);
+        return bary = {1 - v, v, 0}, a + v * ab;
+    }
+    const Vec3 cp = p - c;
+    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d6 >= 0 && d5 <= d6) return bary = {0, 0, 1}, c;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+        const double w = d2 / (d2 - d6);
+        return bary = {1 - w, 0, w}, a + w * ac;
+    }
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return bary = {0, 1 - w, w}, b + w * (c - b);
+    }
+    const double denominator = 1 / (va + vb + vc);
+    const double v = vb * denominator, w = vc * denominator;
+    bary = {1 - v - w, v, w};
+    return a + ab * v + ac * w;
+}
+
+}  // namespace
+
+NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const ConstraintOptions& options) {
+    const int node_count = band.size();
+    nodes_.resize(static_cast<std::size_t>(node_count));
+    exterior_.assign(static_cast<std::size_t>(node_count), 0);
+    facets_around_.resize(static_cast<std::size_t>(node_count));
+    segments_around_.resize(static_cast<std::size_t>(node_count));
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const BandNode& n : band.nodes) {
+        low = low.cwiseMin(n.at);
+        high = high.cwiseMax(n.at);
+    }
+    // Rounding grows with the coordinates themselves, so a model far from the origin counts as larger.
+    if (node_count > 0) size_ = std::max({(high - low).norm(), 0.1 * low.cwiseAbs().maxCoeff(), 0.1 * high.cwiseAbs().maxCoeff()});
+
+    // A family counts by those of its groups whose boundary is to be kept.
+    std::vector<int> kept_family(static_cast<std::size_t>(mesh.families.size()), -1);
+    std::map<std::vector<GroupIndex>, int> kept_sets;
+    const auto is_kept = [&](GroupIndex g) {
+        return !mesh.groups[g].hidden && (options.drifting_groups.empty() || !options.drifting_groups[g]);
+    };
+    const auto kept = [&](FamilyIndex f) {
+        if (kept_family[f] < 0) {
+            std::vector<GroupIndex> set;
+            for (GroupIndex g : mesh.families.groups(f))
+                if (is_kept(g)) set.push_back(g);
+            kept_family[f] = kept_sets.emplace(std::move(set), static_cast<int>(kept_sets.size())).first->second;
+        }
+        return kept_family[f];
+    };
+    const auto family_of = [&](const CellRef& c) { return kept(mesh.block(c.type).families[c.cell]); };
+    // Several elements on one face or edge: one number for the pair, made on first sight.
+    std::map<std::array<int, 2>, int> pairs;
+    const auto combine = [&](int first, int second) {
+        return -3 - pairs.emplace(std::array{first, second}, static_cast<int>(pairs.size())).first->second;
+    };
+    constexpr int none = -1;
+    const auto movable = [&](auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
+
+    // 1. Faces of tetrahedra; which triangles are faces of tetrahedra and which are shells.
+    FaceTable table(static_cast<std::size_t>(band.tetras.size()) * 5 / 2 + 16);
+    for (int t = 0; t < band.tetras.size(); ++t)
+        for (const auto& f : outward_faces) {
+            const auto& v = band.tetras[t];
+            const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
+            if (!movable(nodes)) continue;
+            FaceTable::Entry& e = table.insert(nodes);
+            e.tetra[e.tetra[0] < 0 ? 0 : 1] = t;
+        }
+    shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
+    struct Face {
+        std::array<int, 3> nodes;
+        int kind;
+        bool internal;
+        bool shell;
+    };
+    std::vector<Face> faces;
+    std::map<std::array<int, 4>, int> kinds;
+    const auto kind_of = [&](std::array<int, 4> key) { return kinds.emplace(key, static_cast<int>(kinds.size())).first->second; };
+    for (int f = 0; f < band.facet_faces.size(); ++f)
+        if (FaceTable::Entry* e = movable(band.facet_faces[f]) ? table.find(band.facet_faces[f]) : nullptr) {
+            const int family = kept(mesh.facets[band.facet_faces.tag(f)].family);
+            e->triangle_family = e->triangle_family == none ? family : combine(e->triangle_family, family);
+        }
+    std::map<int, int> side_family;
+    for (const auto& [slot, facet] : band.facet_sides) {
+        auto [it, fresh] = side_family.emplace(slot, kept(mesh.facets[facet].family));
+        if (!fresh) it->second = combine(it->second, kept(mesh.facets[facet].family));
+    }
+    for (int t = 0; t < band.triangles.size(); ++t) {
+        const auto& v = band.triangles[t];
+        if (!movable(v)) continue;
+        int family = family_of(band.triangle_cells[t]);
+        if (const auto side = side_family.find(t); side != side_family.end()) family = combine(family, side->second);
+        if (FaceTable::Entry* e = table.find(v)) {
+            e->triangle_family = e->triangle_family == none ? family : combine(e->triangle_family, family);
+        } else {
+            shell_[t] = 1;
+            faces.push_back({v, kind_of({-2, -2, family, 0}), false, true});
+        }
+    }
+    for (const FaceTable::Entry& e : table.entries()) {
+        const int first = family_of(band.tetra_cells[e.tetra[0]]);
+        const int second = e.tetra[1] < 0 ? -1 : family_of(band.tetra_cells[e.tetra[1]]);
+        if (second >= 0 && first == second && e.triangle_family == none) continue;
+        faces.push_back({e.oriented, kind_of({std::min(first, second), std::max(first, second), e.triangle_family, 1}), second >= 0, false});
+    }
+
+    // 2. Edges of those faces: smooth ones join faces to surfaces, the others are creases.
+    std::vector<std::pair<std::uint64_t, int>> edges;
+    edges.reserve(faces.size() * 3);
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const std::array<int, 2> e{faces[f].nodes[k], faces[f].nodes[(k + 1) % 3]};
+            if (movable(e)) edges.push_back({edge_key(e[0], e[1]), f});
+        }
+    std::ranges::sort(edges);
+    loose_.assign(static_cast<std::size_t>(band.lines.size()), 0);
+    std::map<std::uint64_t, int> line_family;
+    for (int l = 0; l < band.lines.size(); ++l) {
+        const auto& v = band.lines[l];
+        const auto holds = [&](const auto& list) {
+            return std::ranges::any_of(list.around(v[0]), [&](int s) { return std::ranges::find(list[s], v[1]) != list[s].end(); });
+        };
+        if (!holds(band.tetras) && !holds(band.triangles)) {
+            loose_[l] = 1;
+            for (int n : v) nodes_[n].freedom = NodeFreedom::fixed;
+        } else if (movable(v)) {
+            const int family = family_of(band.line_cells[l]);
+            auto [it, fresh] = line_family.emplace(edge_key(v[0], v[1]), family);
+            if (!fresh) it->second = combine(it->second, family);
+        }
+    }
+    for (int f = 0; f < band.facet_edges.size(); ++f) {
+        const auto& v = band.facet_edges[f];
+        if (!movable(v)) continue;
+        const int family = kept(mesh.facets[band.facet_edges.tag(f)].family);
+        auto [it, fresh] = line_family.emplace(edge_key(v[0], v[1]), family);
+        if (!fresh) it->second = combine(it->second, family);
+    }
+    const double smooth = -std::cos(options.feature_angle * std::numbers::pi / 180);
+    const auto is_smooth = [&](std::uint64_t key, int f, int g) {
+        if (faces[f].kind != faces[g].kind) return false;
+        const int a = static_cast<int>(key >> 32), b = static_cast<int>(key & 0xffffffffu);
+        const Vec3 along = (band.nodes[b].at - band.nodes[a].at).normalized();
+        const auto across = [&](int face) {
+            for (int v : faces[face].nodes)
+                if (v != a && v != b) {
+                    const Vec3 w = band.nodes[v].at - band.nodes[a].at;
+                    return Vec3((w - along * along.dot(w)).normalized());
+                }
+            return Vec3(Vec3::Zero());
+        };
+        return across(f).dot(across(g)) < smooth;
+    };
+    UnionFind joined(static_cast<int>(faces.size()));
+    std::map<std::vector<int>, int> crease_kinds;
+    struct Crease {
+        std::array<int, 2> nodes;
+        int kind;
+        bool border;
+    };
+    std::vector<Crease> creases;
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t end = i;
+        while (end < edges.size() && edges[end].first == edges[i].first) ++end;
+        const std::uint64_t key = edges[i].first;
+        const auto line = line_family.find(key);
+        if (end - i == 2 && line == line_family.end() && is_smooth(key, edges[i].second, edges[i + 1].second)) {
+            joined.unite(edges[i].second, edges[i + 1].second);
+        } else {
+            std::vector<int> kind{line == line_family.end() ? none : line->second};
+            for (std::size_t k = i; k < end; ++k) kind.push_back(faces[edges[k].second].kind);
+            std::sort(kind.begin() + 1, kind.end());
+            // A segment on a smooth surface does not part it.
+            if (end - i == 2 && is_smooth(key, edges[i].second, edges[i + 1].second)) joined.unite(edges[i].second, edges[i + 1].second);
+            const int k = crease_kinds.emplace(std::move(kind), static_cast<int>(crease_kinds.size())).first->second;
+            creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k,
+                               end - i == 1 && faces[edges[i].second].shell});
+        }
+        if (line != line_family.end()) line_family.erase(line);
+        i = end;
+    }
+    for (const auto& [key, family] : line_family) {  // segments inside the material
+        const int k = crease_kinds.emplace(std::vector<int>{family}, static_cast<int>(crease_kinds.size())).first->second;
+        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false});
+    }
+
+    // 3. Surfaces.
+    const auto mid_of = [&](int a, int b) -> std::optional<Vec3> {
+        const auto it = band.mid_nodes.find(edge_key(a, b));
+        return it == band.mid_nodes.end() ? std::nullopt : std::optional<Vec3>(mesh.points[it->second]);
+    };
+    std::vector<int> surface_of(faces.size(), -1);
+    facets_.resize(faces.size());
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+        const int root = joined.find(f);
+        if (surface_of[root] < 0) {
+            surface_of[root] = static_cast<int>(surfaces_.size());
+            surfaces_.push_back({});
+            surfaces_.back().internal = faces[f].internal;
+            surfaces_.back().shell = faces[f].shell;
+        }
+        Facet& facet = facets_[f];
+        facet.node = faces[f].nodes;
+        facet.surface = surface_of[root];
+        for (int k = 0; k < 3; ++k) {
+            facet.corner[k] = band.nodes[facet.node[k]].at;
+            facets_around_[facet.node[k]].push_back(f);
+        }
+        for (int k = 0; k < 3; ++k) {
+            const auto mid = mid_of(facet.node[k], facet.node[(k + 1) % 3]);
+            const Vec3 chord = (facet.corner[k] + facet.corner[(k + 1) % 3]) / 2;
+            facet.mid[k] = mid.value_or(chord);
+            facet.curved = facet.curved || (facet.mid[k] - chord).norm() > flat_tolerance * size_;
+        }
+        band.skin.add(facet.node, facet.surface);
+        if (!faces[f].internal && !faces[f].shell)
+            for (int v : facet.node) exterior_[v] = 1;
+    }
+    // The plane of a surface: through its largest facet, the best defined normal.
+    std::vector<double> largest(surfaces_.size(), -1);
+    for (const Facet& f : facets_) {
+        const Vec3 n = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]);
+        if (n.norm() > largest[f.surface]) {
+            largest[f.surface] = n.norm();
+            surfaces_[f.surface].normal = n.normalized();
+            surfaces_[f.surface].origin = f.corner[0];
+        }
+    }
+    for (const Facet& f : facets_) {
+        Surface& s = surfaces_[f.surface];
+        for (int k = 0; k < 3; ++k)
+            for (const Vec3& p : {f.corner[k], f.mid[k]})
+                if (std::abs(s.normal.dot(p - s.origin)) > flat_tolerance * size_) s.flat = false;
+    }
+
+    // 4. Curves: creases joined at nodes where exactly two of one kind meet without a kink.
+    std::vector<std::vector<int>> creases_at(static_cast<std::size_t>(node_count));
+    for (int c = 0; c < static_cast<int>(creases.size()); ++c)
+        for (int v : creases[c].nodes) creases_at[v].push_back(c);
+    const auto direction_from = [&](int c, int from) {
+        const auto& e = creases[c].nodes;
+        return (band.nodes[e[0] == from ? e[1] : e[0]].at - band.nodes[from].at).normalized();
+    };
+    UnionFind chained(static_cast<int>(creases.size()));
+    std::vector<char> passes(static_cast<std::size_t>(node_count), 0);
+    for (int v = 0; v < node_count; ++v) {
+        const auto& c = creases_at[v];
+        if (c.size() != 2 || creases[c[0]].kind != creases[c[1]].kind) continue;
+        if (direction_from(c[0], v).dot(direction_from(c[1], v)) >= smooth) continue;
+        passes[v] = 1;
+        chained.unite(c[0], c[1]);
+    }
+    std::vector<int> curve_of(creases.size(), -1);
+    segments_.resize(creases.size());
+    for (int c = 0; c < static_cast<int>(creases.size()); ++c) {
+        const int root = chained.find(c);
+        Segment& segment = segments_[c];
+        segment.node = creases[c].nodes;
+        for (int k = 0; k < 2; ++k) {
+            segment.end[k] = band.nodes[segment.node[k]].at;
+            segments_around_[segment.node[k]].push_back(c);
+        }
+        const Vec3 chord = (segment.end[0] + segment.end[1]) / 2;
+        segment.mid = mid_of(segment.node[0], segment.node[1]).value_or(chord);
+        segment.curved = (segment.mid - chord).norm() > flat_tolerance * size_;
+        if (curve_of[root] < 0) {
+            curve_of[root] = static_cast<int>(curves_.size());
+            curves_.push_back({true, creases[c].border, segment.end[0], (segment.end[1] - segment.end[0]).normalized()});
+        }
+        segment.curve = curve_of[root];
+        band.creases.add(segment.node, segment.curve);
+        if (creases[c].border)
+            for (int v : segment.node) exterior_[v] = 1;
+    }
+    // The direction of a curve: from its first segment to the end farthest away, the best defined one.
+    std::vector<double> reach(curves_.size(), 0);
+    for (const Segment& s : segments_)
+        for (const Vec3& p : s.end) {
+            Curve& c = curves_[s.curve];
+            const double length = (p - c.origin).norm();
+            if (length > reach[s.curve]) {
+                reach[s.curve] = length;
+                c.direction = (p - c.origin) / length;
+            }
+        }
+    for (const Segment& s : segments_) {
+        Curve& c = curves_[s.curve];
+        for (const Vec3& p : {s.end[0], s.end[1], s.mid})
+            if (c.direction.cross(p - c.origin).norm() > flat_tolerance * size_) c.straight = false;
+    }
+
+    // 5. Freedom of each node.
+    std::vector<int> neighbours;
+    for (int v = 0; v < node_count; ++v) {
+        NodeConstraint& c = nodes_[v];
+        if (c.freedom == NodeFreedom::fixed) continue;
+        if (!band.nodes[v].movable() || !band.vertices.around(v).empty()) {
+            c.freedom = NodeFreedom::fixed;
+            continue;
+        }
+        // An isolated member of a node group (IE) does not move.
+        const FamilyIndex family = mesh.node_families[band.nodes[v].global];
+        for (GroupIndex g : mesh.families.groups(family)) {
+            if (!is_kept(g)) continue;
+            band.neighbours(v, neighbours);
+            if (std::ranges::none_of(neighbours, [&](int w) {
+                    return mesh.families.contains(mesh.node_families[band.nodes[w].global], g);
+                }))
+                c.freedom = NodeFreedom::fixed;
+        }
+        if (c.freedom == NodeFreedom::fixed) continue;
+        const auto& around = facets_around_[v];
+        if (!creases_at[v].empty()) {
+            c.freedom = passes[v] ? NodeFreedom::curve : NodeFreedom::fixed;
+            if (passes[v]) {
+                c.hint = creases_at[v][0];
+                c.shape = segments_[c.hint].curve;
+            }
+        } else if (!around.empty()) {
+            // One closed fan of one surface; two sheets that touch in this node alone pin it.
+            std::vector<int> fan{around[0]};
+            for (std::size_t k = 0; k < fan.size(); ++k)
+                for (int f : around)
+                    if (std::ranges::find(fan, f) == fan.end()) {
+                        int shared = 0;
+                        for (int w : facets_[f].node) shared += std::ranges::find(facets_[fan[k]].node, w) != facets_[fan[k]].node.end();
+                        if (shared >= 2) fan.push_back(f);
+                    }
+            const bool one = fan.size() == around.size() &&
+                             std::ranges::all_of(around, [&](int f) { return facets_[f].surface == facets_[around[0]].surface; });
+            c.freedom = one ? NodeFreedom::surface : NodeFreedom::fixed;
+            c.hint = around[0];
+            c.shape = facets_[around[0]].surface;
+        }
+    }
+}
+
+NodeConstraint NodeConstraints::on_edge(const BandMesh& band, int a, int b) const {
+    const int crease = band.creases.find({a, b});
+    if (crease >= 0) {
+        const int origin = band.creases.origin(crease);
+        return {NodeFreedom::curve, segments_[origin].curve, origin};
+    }
+    for (const int s : band.skin.around(a)) {
+        const auto& v = band.skin[s];
+        if (std::ranges::find(v, b) == v.end()) continue;
+        const int origin = band.skin.origin(s);
+        return {NodeFreedom::surface, facets_[origin].surface, origin};
+    }
+    return {};
+}
+
+void NodeConstraints::add_node(const BandMesh& band, int node) {
+    nodes_.resize(static_cast<std::size_t>(band.size()));
+    exterior_.resize(static_cast<std::size_t>(band.size()), 0);
+    nodes_[node] = on_edge(band, band.births[node - band.original_nodes()].a, node);
+    for (const int s : band.skin.around(node)) {
+        const Surface& surface = surfaces_[band.skin.tag(s)];
+        if (!surface.internal && !surface.shell) exterior_[node] = 1;
+    }
+    for (const int s : band.creases.around(node))
+        if (curves_[band.creases.tag(s)].border) exterior_[node] = 1;
+}
+
+bool NodeConstraints::is_on_skin(const BandMesh& band, int node) const {
+    return std::ranges::any_of(band.skin.around(node), [&](int s) { return !surfaces_[band.skin.tag(s)].internal; });
+}
+
+bool NodeConstraints::is_on_internal(const BandMesh& band, int node) const {
+    return std::ranges::any_of(band.skin.around(node), [&](int s) { return surfaces_[band.skin.tag(s)].internal; });
+}
+
+NodeConstraints::Foot NodeConstraints::foot_on(const Facet& f, const Vec3& x) {
+    Vec3 bary;
+    Foot foot;
+    foot.at = closest_on_triangle(f.corner[0], f.corner[1], f.corner[2], x, bary);
+    foot.normal = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]).normalized();
+    if (f.curved) {
+        // Closest point of the six-node face: Gauss-Newton in its parameters from the flat foot.
+        double u = bary[1], v = bary[2];
+        for (int iteration = 0; iteration < 12; ++iteration) {
+            const double w = 1 - u - v;
+            const Vec3 p = w * (2 * w - 1) * f.corner[0] + u * (2 * u - 1) * f.corner[1] + v * (2 * v - 1) * f.corner[2] +
+                           4 * w * u * f.mid[0] + 4 * u * v * f.mid[1] + 4 * v * w * f.mid[2];
+            const Vec3 pu = (1 - 4 * w) * f.corner[0] + (4 * u - 1) * f.corner[1] + 4 * (w - u) * f.mid[0] + 4 * v * (f.mid[1] - f.mid[2]);
+            const Vec3 pv = (1 - 4 * w) * f.corner[0] + (4 * v - 1) * f.corner[2] + 4 * (w - v) * f.mid[2] + 4 * u * (f.mid[1] - f.mid[0]);
+            foot.at = p;
+            foot.normal = pu.cross(pv).normalized();
+            Eigen::Matrix2d m;
+            m << pu.dot(pu), pu.dot(pv), pu.dot(pv), pv.dot(pv);
+            const Eigen::Vector2d step = m.inverse() * Eigen::Vector2d(pu.dot(x - p), pv.dot(x - p));
+            double nu = u + step[0], nv = v + step[1];
+            nu = std::clamp(nu, 0.0, 1.0);
+            nv = std::clamp(nv, 0.0, 1.0);
+            if (nu + nv > 1) {
+                const double excess = (nu + nv - 1) / 2;
+                nu = std::clamp(nu - excess, 0.0, 1.0);
+                nv = 1 - nu;
+            }
+            if (std::abs(nu - u) + std::abs(nv - v) < 1e-14) break;
+            u = nu;
+            v = nv;
+        }
+    }
+    foot.distance2 = (foot.at - x).squaredNorm();
+    return foot;
+}
+
+NodeConstraints::Foot NodeConstraints::foot_on(const Segment& s, const Vec3& x) {
+    const Vec3 along = s.end[1] - s.end[0];
+    double t = std::clamp(along.dot(x - s.end[0]) / along.squaredNorm(), 0.0, 1.0);
+    Foot foot;
+    foot.at = s.end[0] + t * along;
+    foot.normal = along.normalized();
+    if (s.curved) {
+        for (int iteration = 0; iteration < 12; ++iteration) {
+            const Vec3 p = (1 - t) * (1 - 2 * t) * s.end[0] + t * (2 * t - 1) * s.end[1] + 4 * t * (1 - t) * s.mid;
+            const Vec3 pt = (4 * t - 3) * s.end[0] + (4 * t - 1) * s.end[1] + 4 * (1 - 2 * t) * s.mid;
+            foot.at = p;
+            foot.normal = pt.normalized();
+            const double next = std::clamp(t + pt.dot(x - p) / pt.squaredNorm(), 0.0, 1.0);
+            if (std::abs(next - t) < 1e-14) break;
+            t = next;
+        }
+    }
+    foot.distance2 = (foot.at - x).squaredNorm();
+    return foot;
+}
+
+NodeConstraints::Foot NodeConstraints::surface_foot(const NodeConstraint& c, const Vec3& x) const {
+    const Surface& s = surfaces_[c.shape];
+    if (s.flat) {
+        Foot foot;
+        const double d = s.normal.dot(x - s.origin);
+        foot.at = x - d * s.normal;
+        foot.normal = s.normal;
+        foot.distance2 = d * d;
+        foot.facet = c.hint;
+        return foot;
+    }
+    // Walk over the surface from the hint: look at the facets around the best one's corners.
+    Foot best = foot_on(facets_[c.hint], x);
+    best.facet = c.hint;
+    for (int step = 0; step < 64; ++step) {
+        const int from = best.facet;
+        for (int v : facets_[from].node)
+            for (int f : facets_around_[v]) {
+                if (f == from || facets_[f].surface != c.shape) continue;
+                Foot foot = foot_on(facets_[f], x);
+                if (foot.distance2 < best.distance2) {
+                    best = foot;
+                    best.facet = f;
+                }
+            }
+        if (best.facet == from) break;
+    }
+    return best;
+}
+
+NodeConstraints::Foot NodeConstraints::curve_foot(const NodeConstraint& c, const Vec3& x) const {
+    const Curve& curve = curves_[c.shape];
+    if (curve.straight) {
+        Foot foot;
+        foot.at = curve.origin + curve.direction.dot(x - curve.origin) * curve.direction;
+        foot.normal = curve.direction;
+        foot.distance2 = (foot.at - x).squaredNorm();
+        foot.facet = c.hint;
+        return foot;
+    }
+    Foot best = foot_on(segments_[c.hint], x);
+    best.facet = c.hint;
+    for (int step = 0; step < 256; ++step) {
+        const int from = best.facet;
+        for (int v : segments_[from].node)
+            for (int s : segments_around_[v]) {
+                if (s == from || segments_[s].curve != c.shape) continue;
+                Foot foot = foot_on(segments_[s], x);
+                if (foot.distance2 < best.distance2) {
+                    best = foot;
+                    best.facet = s;
+                }
+            }
+        if (best.facet == from) break;
+    }
+    return best;
+}
+
+bool NodeConstraints::project(const NodeConstraint& c, const Tool* tool, Vec3& x) const {
+    const double tight = 1e-14 * size_;
+    if (c.freedom == NodeFreedom::fixed) return !tool || std::abs(tool->distance(x)) <= 1e-10 * size_;
+    if (c.freedom == NodeFreedom::free) {
+        if (!tool) return true;
+        for (int i = 0; i < 30; ++i) {
+            const double d = tool->distance(x);
+            if (std::abs(d) <= tight) return true;
+            x -= d * tool->normal(x);
+        }
+        return std::abs(tool->distance(x)) <= 1e-12 * size_;
+    }
+    NodeConstraint at = c;
+    const bool surface = c.freedom == NodeFreedom::surface;
+    const bool exact = surface ? surfaces_[c.shape].flat : curves_[c.shape].straight;
+    const double accept = exact ? 1e-12 * size_ : 1e-9 * size_;
+    if (!tool) {
+        x = (surface ? surface_foot(at, x) : curve_foot(at, x)).at;
+        return true;
+    }
+    for (int i = 0; i < 60; ++i) {
+        const Foot foot = surface ? surface_foot(at, x) : curve_foot(at, x);
+        at.hint = foot.facet;
+        const double off_shape = std::sqrt(foot.distance2);
+        const double d = tool->distance(x);
+        if (off_shape <= (exact ? tight : accept) && std::abs(d) <= tight) return true;
+        // From the foot, along the shape, onto the tool's tangent plane.
+        const Vec3 n = tool->normal(foot.at);
+        const double from_foot = tool->distance(foot.at);
+        Vec3 along;
+        if (surface) along = n - n.dot(foot.normal) * foot.normal;
+        else along = n.dot(foot.normal) * foot.normal;
+        const double slope = along.squaredNorm();
+        if (slope < 1e-6) return false;  // parallel within 0.06 degrees
+        x = foot.at - (from_foot / slope) * along;
+    }
+    // At a kink of a faceted surface the steps may alternate between two facets: close enough counts.
+    const Foot foot = surface ? surface_foot(at, x) : curve_foot(at, x);
+    if (std::sqrt(foot.distance2) > (exact ? accept : 1e-6 * size_)) return false;
+    return std::abs(tool->distance(x)) <= 1e-12 * size_;
+}
+
+int NodeConstraints::tangents(int node, const Tool* tool, const Vec3& x, Eigen::Matrix3d& basis) const {
+    const NodeConstraint& c = nodes_[node];
+    std::array<Vec3, 2> normal;
+    int count = 0;
+    switch (c.freedom) {
+        case NodeFreedom::fixed: return 0;
+        case NodeFreedom::curve:
+            if (tool) return 0;
+            basis.col(0) = curve_foot(c, x).normal;
+            return 1;
+        case NodeFreedom::surface: normal[count++] = surface_foot(c, x).normal; break;
+        case NodeFreedom::free: break;
+    }
+    if (tool) normal[count++] = tool->normal(x);
+    if (count == 0) {
+        basis.setIdentity();
+        return 3;
+    }
+    if (count == 1) {
+        basis.col(0) = normal[0].unitOrthogonal();
+        basis.col(1) = normal[0].cross(basis.col(0));
+        return 2;
+    }
+    const Vec3 t = normal[0].cross(normal[1]);
+    if (t.norm() < 1e-3) return 0;
+    basis.col(0) = t.normalized();
+    return 1;
+}
+
+double NodeConstraints::distance(const NodeConstraint& c, const Vec3& x) const {
+    if (c.freedom == NodeFreedom::surface) return std::sqrt(surface_foot(c, x).distance2);
+    if (c.freedom == NodeFreedom::curve) return std::sqrt(curve_foot(c, x).distance2);
+    return 0;
+}
+
+std::optional<Vec3> NodeConstraints::surface_normal(const NodeConstraint& c, const Vec3& x) const {
+    if (c.freedom != NodeFreedom::surface) return {};
+    return surface_foot(c, x).normal;
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesh/band_mesh.h"
+#include "tools/tool.h"
+
+namespace femscalpel {
+
+/// What a node has to stay on, the tool apart.
+enum class NodeFreedom : std::uint8_t {
+    free,     ///< inside the material: may go anywhere
+    surface,  ///< on one smooth surface: skin, shell, or the border of a group
+    curve,    ///< on a feature line or the border line of a group: two surfaces
+    fixed,    ///< a corner, an end, an isolated group node, a point where something else is attached
+};
+
+struct NodeConstraint {
+    NodeFreedom freedom = NodeFreedom::free;
+    int shape = -1;  ///< surface or curve the node stays on
+    int hint = -1;   ///< facet of that shape it was last seen on
+};
+
+/// Which groups' boundaries are kept, and what counts as a feature line.
+struct ConstraintOptions {
+    double feature_angle = 30;           ///< degrees
+    std::vector<bool> drifting_groups;   ///< by group index: boundary may drift; empty = all are kept
+};
+
+/// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of
+/// groups (DESIGN 3, step 4; paper, 3.1.2 and 4.1), and each node's place on it.
+///
+/// Surfaces are the input's own triangles, taken apart at feature lines and group borders; a surface
+/// whose triangles are coplanar is treated as the exact plane. Second-order faces are followed as the
+/// curved faces they are. Curves likewise.
+class NodeConstraints {
+public:
+    /// Analyses `band` and fills its `skin` and `creases` (tag: surface or curve index).
+    NodeConstraints(BandMesh& band, const Mesh& mesh, const ConstraintOptions& options);
+
+    const NodeConstraint& operator[](int node) const { return nodes_[node]; }
+
+    /// Must be called after BandMesh::split_edge() made `node`: it keeps to what its edge was on.
+    void add_node(const BandMesh& band, int node);
+
+    /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
+    NodeConstraint on_edge(const BandMesh& band, int a, int b) const;
+
+    /// Moves `x` to a near point that satisfies the node's constraints and, if `tool` is given, lies on it.
+    /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined.
+    bool project(int node, const Tool* tool, Vec3& x) const { return project(nodes_[node], tool, x); }
+    bool project(const NodeConstraint& constraint, const Tool* tool, Vec3& x) const;
+
+    /// Orthonormal columns spanning the directions the node may move in at `x`; 0 to 3 columns.
+    int tangents(int node, const Tool* tool, const Vec3& x, Eigen::Matrix3d& basis) const;
+
+    /// Distance of `x` to the node's surface or curve in the input; 0 for free nodes.
+    double distance(const NodeConstraint& constraint, const Vec3& x) const;
+
+    /// The normal of the surface a node lies on, at `x`, or nothing.
+    std::optional<Vec3> surface_normal(const NodeConstraint& constraint, const Vec3& x) const;
+
+    bool is_flat(int surface) const { return surfaces_[surface].flat; }
+
+    /// Whether a node is on the outside in the paper's sense (3.1.2): on a face of only one tetrahedron,
+    /// or, where there are only shells, on an edge of only one triangle.
+    bool is_exterior(int node) const { return exterior_[node] != 0; }
+
+    /// Whether a node lies on the skin of a solid or on a shell.
+    bool is_on_skin(const BandMesh& band, int node) const;
+
+    /// Whether a node lies on a surface inside the material: a border between groups.
+    bool is_on_internal(const BandMesh& band, int node) const;
+
+    /// Whether the triangle element in this slot is no face of a tetrahedron (a shell of its own).
+    bool is_shell(int triangle_origin) const { return shell_[triangle_origin] != 0; }
+
+    /// Whether the segment in this slot is no edge of a tetrahedron or triangle (a beam, a spring, ...).
+    bool is_loose(int line_origin) const { return loose_[line_origin] != 0; }
+
+private:
+    struct Facet {               // a reference triangle, by input positions
+        std::array<Vec3, 3> corner;
+        std::array<Vec3, 3> mid;  // of edges 01, 12, 20
+        bool curved = false;
+        std::array<int, 3> node;
+        int surface = -1;
+    };
+    struct Surface {
+        bool flat = true;
+        bool internal = false;  // between two tetrahedra
+        bool shell = false;
+        Vec3 normal = Vec3::Zero();
+        Vec3 origin = Vec3::Zero();
+    };
+    struct Segment {
+        std::array<Vec3, 2> end;
+        Vec3 mid = Vec3::Zero();
+        bool curved = false;
+        std::array<int, 2> node;
+        int curve = -1;
+    };
+    struct Curve {
+        bool straight = true;
+        bool border = false;  // of a shell
+        Vec3 origin = Vec3::Zero();
+        Vec3 direction = Vec3::Zero();
+    };
+    struct Foot {
+        Vec3 at = Vec3::Zero();
+        Vec3 normal = Vec3::Zero();  // of a surface; tangent of a curve
+        double distance2 = 0;
+        int facet = -1;
+    };
+
+    static Foot foot_on(const Facet& facet, const Vec3& x);
+    static Foot foot_on(const Segment& segment, const Vec3& x);
+    Foot surface_foot(const NodeConstraint& c, const Vec3& x) const;
+    Foot curve_foot(const NodeConstraint& c, const Vec3& x) const;
+
+    std::vector<NodeConstraint> nodes_;
+    std::vector<Facet> facets_;
+    std::vector<Surface> surfaces_;
+    std::vector<Segment> segments_;
+    std::vector<Curve> curves_;
+    std::vector<std::vector<int>> facets_around_;    // by input node
+    std::vector<std::vector<int>> segments_around_;  // by input node
+    std::vector<char> exterior_;
+    std::vector<char> shell_;
+    std::vector<char> loose_;
+    double size_ = 1;  // of the band, for tolerances
+};
+
+}  // namespace femscalpel

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deformation/relaxation.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "mesh/quality.h"
+
+namespace femscalpel {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The face opposite corner k, seen so that the volume is positive towards k.
+constexpr int opposite_face[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
+/// One element as a function of the position x of one of its corners:
+/// 1 / mean ratio = S(x) / (c M(x)^e), S the sum of squared edges, M volume or area, linear in x.
+struct Term {
+    Vec3 gradient;      // of M
+    double offset;      // M = gradient.x + offset
+    Vec3 corner_sum;    // of the other corners
+    double constant;    // S = edges |x|^2 - 2 x.corner_sum + constant
+    double edges;       // 3 or 2
+    double exponent;    // 2/3 or 1
+    double scale;       // 1 / c
+
+    double inverse_quality(const Vec3& x) const {
+        const double measure = gradient.dot(x) + offset;
+        if (!(measure > 0)) return infinity;
+        const double squares = edges * x.squaredNorm() - 2 * x.dot(corner_sum) + constant;
+        if (exponent == 1) return scale * squares / measure;
+        const double root = std::cbrt(measure);
+        return scale * squares / (root * root);
+    }
+};
+
+/// The elements around one node, relative to the node's own position for accuracy.
+class Star {
+public:
+    void gather(const Deformable& d, int node) {
+        terms_.clear();
+        const BandMesh& band = d.band;
+        origin_ = band.nodes[node].at;
+        static const double tetra_scale = 1 / (12 * std::cbrt(9.0));
+        static const double shell_scale = 1 / (4 * std::sqrt(3.0));
+        for (const int t : band.tetras.around(node)) {
+            const auto& v = band.tetras[t];
+            const int k = static_cast<int>(std::ranges::find(v, node) - v.begin());
+            const Vec3 a = band.nodes[v[opposite_face[k][0]]].at - origin_;
+            const Vec3 b = band.nodes[v[opposite_face[k][1]]].at - origin_;
+            const Vec3 c = band.nodes[v[opposite_face[k][2]]].at - origin_;
+            Term term;
+            term.gradient = (b - a).cross(c - a) / 6;
+            term.offset = -term.gradient.dot(a);
+            term.corner_sum = a + b + c;
+            term.constant = a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() + (c - a).squaredNorm() +
+                            (c - b).squaredNorm();
+            term.edges = 3;
+            term.exponent = 2.0 / 3;
+            term.scale = tetra_scale;
+            terms_.push_back(term);
+        }
+        for (const int t : band.triangles.around(node)) {
+            const int origin = band.triangles.origin(t);
+            if (!d.constraints.is_shell(origin)) continue;
+            const auto& v = band.triangles[t];
+            const int k = static_cast<int>(std::ranges::find(v, node) - v.begin());
+            const Vec3 a = band.nodes[v[(k + 1) % 3]].at - origin_;
+            const Vec3 b = band.nodes[v[(k + 2) % 3]].at - origin_;
+            Term term;
+            term.gradient = d.shell_normals[origin].cross(b - a) / 2;
+            term.offset = -term.gradient.dot(a);
+            term.corner_sum = a + b;
+            term.constant = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm();
+            term.edges = 2;
+            term.exponent = 1;
+            term.scale = shell_scale;
+            terms_.push_back(term);
+        }
+    }
+
+    bool empty() const { return terms_.empty(); }
+
+    double worst(const Vec3& x) const {
+        double largest = 0;
+        const Vec3 y = x - origin_;
+        for (const Term& t : terms_) largest = std::max(largest, t.inverse_quality(y));
+        return 1 / largest;
+    }
+
+    double value(const Vec3& x, int doublings) const {
+        double sum = 0;
+        const Vec3 y = x - origin_;
+        for (const Term& t : terms_) sum += power(t.inverse_quality(y), doublings);
+        return sum;
+    }
+
+    double derivatives(const Vec3& x, int doublings, Vec3& gradient, Eigen::Matrix3d& hessian) const {
+        gradient.setZero();
+        hessian.setZero();
+        const Vec3 y = x - origin_;
+        const double p = 1 << doublings;
+        double sum = 0;
+        for (const Term& t : terms_) {
+            const double measure = t.gradient.dot(y) + t.offset;
+            if (!(measure > 0)) return infinity;
+            const double squares = t.edges * y.squaredNorm() - 2 * y.dot(t.corner_sum) + t.constant;
+            const Vec3 grad_squares = 2 * (t.edges * y - t.corner_sum);
+            const double u = power(t.inverse_quality(y), doublings);
+            const Vec3 squares_part = grad_squares / squares;
+            const Vec3 measure_part = t.gradient / measure;
+            const Vec3 log_gradient = squares_part - t.exponent * measure_part;
+            sum += u;
+            gradient += p * u * log_gradient;
+            hessian += p * u *
+                       (p * log_gradient * log_gradient.transpose() - squares_part * squares_part.transpose() +
+                        t.exponent * measure_part * measure_part.transpose());
+            hessian.diagonal().array() += p * u * 2 * t.edges / squares;
+        }
+        return sum;
+    }
+
+private:
+    static double power(double u, int doublings) {
+        for (int k = 0; k < doublings; ++k) u *= u;
+        return u;
+    }
+    std::vector<Term> terms_;
+    Vec3 origin_ = Vec3::Zero();
+};
+
+}  // namespace
+
+Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
+    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size()), nullptr) {
+    shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
+    for (int t = 0; t < band.triangles.size(); ++t) {
+        const auto& v = band.triangles[t];
+        const Vec3& a = band.nodes[v[0]].at;
+        shell_normals[t] = (band.nodes[v[1]].at - a).cross(band.nodes[v[2]].at - a).normalized();
+    }
+}
+
+int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
+    const int node = band.split_edge(a, b, at);
+    contact.push_back(tool);
+    constraints.add_node(band, node);
+    return node;
+}
+
+double tetra_quality(const Deformable& d, int tetra) {
+    const auto& v = d.band.tetras[tetra];
+    const auto& n = d.band.nodes;
+    return mean_ratio(n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at);
+}
+
+double shell_quality(const Deformable& d, int triangle) {
+    const auto& v = d.band.triangles[triangle];
+    const Vec3 &a = d.band.nodes[v[0]].at, &b = d.band.nodes[v[1]].at, &c = d.band.nodes[v[2]].at;
+    const double turned = (b - a).cross(c - a).dot(d.shell_normals[d.band.triangles.origin(triangle)]);
+    return std::copysign(mean_ratio(a, b, c), turned);
+}
+
+double quality_around(const Deformable& d, int node, const Vec3& x) {
+    thread_local Star star;
+    star.gather(d, node);
+    return star.empty() ? 1 : star.worst(x);
+}
+
+long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options) {
+    BandMesh& band = d.band;
+    std::vector<char> may_move(static_cast<std::size_t>(band.size()), 0);
+    for (const int v : movable) may_move[v] = 1;
+    std::vector<char> dirty(static_cast<std::size_t>(band.size()), 0);
+    std::vector<int> active, next;
+    Star star;
+    long moves = 0;
+    for (int sweep = 0; sweep < 2 * options.sweeps; ++sweep) {
+        const bool last_stage = sweep >= options.sweeps;
+        if (sweep % options.sweeps == 0) active = movable;
+        if (active.empty()) continue;
+        const int doublings = last_stage ? 4 : 3;
+        next.clear();
+        for (const int v : active) dirty[v] = 0;
+        for (const int v : active) {
+            BandNode& node = band.nodes[v];
+            const Tool* tool = d.contact[v];
+            star.gather(d, v);
+            if (star.empty()) continue;
+            const double worst = star.worst(node.at);
+            if (worst >= options.target) continue;
+            Eigen::Matrix3d basis;
+            const int freedom = d.constraints.tangents(v, tool, node.at, basis);
+            if (freedom == 0) continue;
+            const auto tangent = basis.leftCols(freedom);
+            const Vec3 before = node.at;
+            Vec3 gradient;
+            Eigen::Matrix3d hessian;
+            double value = star.derivatives(node.at, doublings, gradient, hessian);
+            for (int iteration = 0; iteration < 3; ++iteration) {
+                const Eigen::VectorXd g = tangent.transpose() * gradient;
+                Eigen::MatrixXd h = tangent.transpose() * hessian * tangent;
+                Eigen::LDLT<Eigen::MatrixXd> factors(h);
+                if (factors.info() != Eigen::Success || !factors.isPositive()) {
+                    h.diagonal().array() += h.norm();
+                    factors.compute(h);
+                }
+                const Vec3 step = -(tangent * factors.solve(g));
+                double length = 1;
+                bool accepted = false;
+                for (int halving = 0; halving < 7; ++halving, length *= 0.5) {
+                    Vec3 x = node.at + length * step;
+                    if (!d.constraints.project(v, tool, x)) continue;
+                    const double tried = star.value(x, doublings);
+                    if (tried < value) {
+                        accepted = true;
+                        const bool little = value - tried < 1e-3 * value;
+                        node.at = x;
+                        value = tried;
+                        if (little) iteration = 99;
+                        break;
+                    }
+                }
+                if (!accepted) break;
+                if (iteration < 2) value = star.derivatives(node.at, doublings, gradient, hessian);
+            }
+            if (node.at == before) continue;
+            ++moves;
+            const double reach = band.mean_edge_length(v);
+            if ((node.at - before).norm() < 1e-3 * reach) continue;
+            const auto wake = [&](const auto& list) {
+                for (const int s : list.around(v))
+                    for (const int w : list[s])
+                        if (may_move[w] && !dirty[w]) {
+                            dirty[w] = 1;
+                            next.push_back(w);
+                        }
+            };
+            wake(band.tetras);
+            wake(band.triangles);
+        }
+        active.swap(next);
+    }
+    return moves;
+}
+
+}  // namespace femscalpel

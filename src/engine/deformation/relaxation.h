@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include "deformation/node_constraints.h"
+#include "mesh/band_mesh.h"
+#include "tools/tool.h"
+
+namespace femscalpel {
+
+/// The state an operator deforms: a band, what its nodes have to stay on, and which tool each node lies on.
+struct Deformable {
+    BandMesh band;
+    NodeConstraints constraints;
+    std::vector<const Tool*> contact;  ///< by node: the tool it must stay on, or null
+    std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
+
+    Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
+
+    /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
+    int split_edge(int a, int b, const Vec3& at, const Tool* tool);
+};
+
+/// Mean ratios of a band's tetrahedra and shells with its nodes where they are; negative when inverted
+/// (a shell: when turned over against the input's normal).
+double tetra_quality(const Deformable& d, int tetra);
+double shell_quality(const Deformable& d, int triangle);
+
+/// Smallest quality of the elements around a node, were it at `x`.
+double quality_around(const Deformable& d, int node, const Vec3& x);
+
+struct RelaxationOptions {
+    double target = 0.55;  ///< nodes all of whose elements are better than this are left alone
+    int sweeps = 8;        ///< at most, for each exponent
+};
+
+/// Moves nodes for better shape (DESIGN 3, step 5): minimises the sum of (1 / mean ratio)^p over the
+/// elements around each node, node after node, by a safeguarded Newton step in the node's tangent
+/// space, p = 8 and then 16. Inverse mean ratio and block coordinate descent as in Munson, "Mesh
+/// shape-quality optimization using the inverse mean-ratio metric", Math. Program. 110 (2007).
+///
+/// Only `movable` nodes move, only near elements worse than the target, and no step makes a node's
+/// objective worse, so nothing inverts. Returns the number of node moves.
+long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options = {});
+
+}  // namespace femscalpel

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// Simplices of one dimension over local nodes, with node adjacency kept up to date while edges are
+/// split. `origin` is the slot of the ancestor a simplex was split from (its own slot if original).
+template <std::size_t N>
+class SimplexList {
+public:
+    using Nodes = std::array<int, N>;
+
+    int size() const { return static_cast<int>(nodes_.size()); }
+    const Nodes& operator[](int s) const { return nodes_[s]; }
+    /// False for a simplex that merge() removed; its nodes must not be used any more.
+    bool alive(int s) const { return origin_[s] >= 0; }
+    int origin(int s) const { return origin_[s]; }
+    int tag(int s) const { return tag_[s]; }
+    void set_tag(int s, int tag) { tag_[s] = tag; }
+    const std::vector<int>& around(int node) const { return around_[node]; }
+
+    void resize_nodes(int count) { around_.resize(static_cast<std::size_t>(count)); }
+    void reserve(std::size_t count) {
+        nodes_.reserve(count);
+        origin_.reserve(count);
+        tag_.reserve(count);
+    }
+
+    int add(const Nodes& nodes, int tag) {
+        const int s = size();
+        nodes_.push_back(nodes);
+        origin_.push_back(s);
+        tag_.push_back(tag);
+        for (int v : nodes) around_[v].push_back(s);
+        return s;
+    }
+
+    /// Bisects every simplex that holds nodes a and b at node p. The part with a stays in its slot, the
+    /// part with b gets a new one and inherits origin and tag. Orientation is kept.
+    void split(int a, int b, int p) {
+        // around_[a] keeps its slots; only around_[b] and those of the opposite nodes change.
+        for (const int s : around_[a]) {
+            if (std::ranges::find(nodes_[s], b) == nodes_[s].end()) continue;
+            Nodes child = nodes_[s];
+            std::ranges::replace(child, a, p);
+            std::ranges::replace(nodes_[s], b, p);
+            const int c = size();
+            nodes_.push_back(child);
+            origin_.push_back(origin_[s]);
+            tag_.push_back(tag_[s]);
+            std::ranges::replace(around_[b], s, c);
+            around_[p].push_back(s);
+            for (int v : child)
+                if (v != b) around_[v].push_back(c);
+        }
+    }
+
+    /// Moves node p onto its neighbour t: simplices with both vanish, in the others t takes p's place.
+    void merge(int p, int t) {
+        for (const int s : around_[p]) {
+            if (std::ranges::find(nodes_[s], t) != nodes_[s].end()) {
+                for (int v : nodes_[s])
+                    if (v != p) std::erase(around_[v], s);
+                origin_[s] = -1;
+            } else {
+                std::ranges::replace(nodes_[s], p, t);
+                around_[t].push_back(s);
+            }
+        }
+        around_[p].clear();
+    }
+
+    /// Slot of a simplex with exactly these nodes in any order, or -1.
+    int find(const Nodes& wanted) const {
+        for (const int s : around_[wanted[0]])
+            if (std::ranges::all_of(wanted, [&](int v) { return std::ranges::find(nodes_[s], v) != nodes_[s].end(); })) return s;
+        return -1;
+    }
+
+private:
+    std::vector<Nodes> nodes_;
+    std::vector<int> origin_;
+    std::vector<int> tag_;
+    std::vector<std::vector<int>> around_;
+};
+
+/// Undirected edge as a 64-bit key.
+inline std::uint64_t edge_key(int a, int b) {
+    if (a > b) std::swap(a, b);
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
+}
+
+/// A node of a BandMesh.
+struct BandNode {
+    Vec3 at;             ///< where it is now
+    Vec3 start;          ///< where it was in the input, or where it was born
+    Index global = -1;   ///< index in the input mesh; -1 for a node born here
+    int level = 0;       ///< how many edges away from the tool's elements; -1 for the fixed outer ring
+    bool movable() const { return level >= 0; }
+};
+
+/// The part of a mesh near a tool, by corner nodes, made to be changed: moved and split. It holds every
+/// element with at least one node of the band, so all elements around a movable node are present.
+///
+/// `tetras`, `triangles`, `lines` are elements (tag: index into `cells` of the list); `skin` and `creases`
+/// are faces and edges of the geometry to be kept (tag: surface or curve of NodeConstraints), split along.
+class BandMesh {
+public:
+    std::vector<BandNode> nodes;
+    SimplexList<4> tetras;
+    SimplexList<3> triangles;
+    SimplexList<2> lines;
+    SimplexList<1> vertices;
+    SimplexList<3> skin;
+    SimplexList<2> creases;
+    SimplexList<3> facet_faces;  ///< facets of tetrahedra, normal out of their element (tag: index in Mesh::facets)
+    SimplexList<2> facet_edges;  ///< facets on edges of triangles, in their direction (tag likewise)
+    std::vector<std::pair<int, int>> facet_sides;  ///< facets that are a whole side of a triangle: (slot, index)
+    std::vector<CellRef> tetra_cells;     ///< by slot of the original element
+    std::vector<CellRef> triangle_cells;
+    std::vector<CellRef> line_cells;
+    std::vector<CellRef> vertex_cells;
+
+    /// Mid-side node of the input mesh on an edge between two nodes of the input mesh, if quadratic.
+    std::unordered_map<std::uint64_t, Index> mid_nodes;
+
+    /// The ends of the edge a node was born on, by node minus original_nodes().
+    struct Birth {
+        int a;
+        int b;
+    };
+    std::vector<Birth> births;
+
+    int size() const { return static_cast<int>(nodes.size()); }
+
+    /// False for a node born here that was merged away again.
+    bool in_use(int node) const {
+        return !is_new(node) || !tetras.around(node).empty() || !triangles.around(node).empty();
+    }
+    int original_nodes() const { return size() - static_cast<int>(births.size()); }
+    bool is_new(int node) const { return node >= original_nodes(); }
+
+    /// Splits the edge a-b in every list at a new node and returns it.
+    int split_edge(int a, int b, const Vec3& at);
+
+    /// Removes node p by moving it onto its neighbour t, in every list.
+    void merge_node(int p, int t);
+
+    /// Nodes joined to `node` by an edge of an element (tetrahedron, triangle or segment), each once.
+    void neighbours(int node, std::vector<int>& out) const;
+
+    /// Mean length of the edges at a node.
+    double mean_edge_length(int node) const;
+};
+
+/// Copies the elements of `mesh` that have a node with 0 <= level[node]; `level` is -1 elsewhere.
+/// Throws UnsupportedElementError naming the elements when one of them is not a simplex.
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level);
+
+}  // namespace femscalpel

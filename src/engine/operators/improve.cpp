@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/improve.h"
+
+#include <cmath>
+
+#include "mesh/quality.h"
+
+namespace femscalpel {
+namespace {
+
+/// Elements worse than this get their longest edge bisected, in so many rounds at most.
+constexpr double split_below = 0.25;
+constexpr int split_rounds = 8;
+
+class Improver {
+public:
+    Improver(Interface& f, const Tool& tool) : f_(f), d_(f.d), band_(f.d.band), tool_(tool) {}
+
+    /// Merges new nodes of bad elements away; true if any was.
+    bool merge_nodes(double goal) {
+        bool any = false;
+        for (const auto& [quality, nodes] : bad_elements(goal))
+            for (const int p : nodes) any = (p >= 0 && band_.is_new(p) && band_.nodes[p].global < 0 && try_merge(p)) || any;
+        return any;
+    }
+
+    /// Bisects the longest edge of each bad element; true if any was.
+    bool split_long_edges(double limit) {
+        bool any = false;
+        for (const auto& [quality, v] : bad_elements(limit)) {
+            const int corners = v[3] < 0 ? 3 : 4;
+            int a = -1, b = -1;
+            double longest = 0;
+            for (int i = 0; i < corners; ++i)
+                for (int j = 0; j < i; ++j) {
+                    const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).squaredNorm();
+                    if (length > longest && (band_.nodes[v[i]].movable() || band_.nodes[v[j]].movable())) {
+                        longest = length;
+                        a = v[i];
+                        b = v[j];
+                    }
+                }
+            // An earlier split of this round may have taken the edge.
+            if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
+            const Tool* tool = d_.contact[a] && d_.contact[a] == d_.contact[b] ? d_.contact[a] : nullptr;
+            Vec3 at = (band_.nodes[a].at + band_.nodes[b].at) / 2;
+            const Vec3 chord = at;
+            if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), tool, at) || (at - chord).norm() > 0.1 * std::sqrt(longest)) at = chord;
+            d_.split_edge(a, b, at, tool);
+            f_.distance.push_back(tool ? 0 : tool_.distance(at));
+            any = true;
+        }
+        return any;
+    }
+
+private:
+    using Element = std::pair<double, std::array<int, 4>>;
+
+    std::vector<Element> bad_elements(double goal) const {
+        std::vector<Element> bad;
+        for (int t = 0; t < band_.tetras.size(); ++t)
+            if (band_.tetras.alive(t))
+                if (const double q = tetra_quality(d_, t); q < goal) bad.push_back({q, band_.tetras[t]});
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (band_.triangles.alive(t) && d_.constraints.is_shell(band_.triangles.origin(t)))
+                if (const double q = shell_quality(d_, t); q < goal) {
+                    const auto& v = band_.triangles[t];
+                    bad.push_back({q, {v[0], v[1], v[2], -1}});
+                }
+        std::ranges::sort(bad);
+        return bad;
+    }
+
+    template <std::size_t N>
+    static bool joined(const SimplexList<N>& list, int a, int b) {
+        return std::ranges::any_of(list.around(a), [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
+    }
+
+    /// Whether moving p onto t keeps everything p stands for.
+    bool may_merge(int p, int t) {
+        if (d_.contact[p] != nullptr && d_.contact[t] != d_.contact[p]) return false;
+        const NodeConstraint& c = d_.constraints[p];
+        // On a surface or crease the edge p-t itself must run in it.
+        if (!band_.creases.around(p).empty()) {
+            if (c.freedom != NodeFreedom::curve || !joined(band_.creases, p, t)) return false;
+        } else if (!band_.skin.around(p).empty() && !joined(band_.skin, p, t)) {
+            return false;
+        }
+        if (!band_.lines.around(p).empty() && !joined(band_.lines, p, t)) return false;
+        return true;
+    }
+
+    /// Link condition: every node next to both p and t forms a triangle (tetrahedron face) with them.
+    bool link_is_sound(int p, int t) {
+        band_.neighbours(p, near_p_);
+        band_.neighbours(t, near_t_);
+        common_.clear();
+        std::ranges::set_intersection(near_p_, near_t_, std::back_inserter(common_));
+        for (const int w : common_) {
+            const auto holds = [&](const auto& list) {
+                return std::ranges::any_of(list.around(p), [&](int s) {
+                    return std::ranges::find(list[s], t) != list[s].end() && std::ranges::find(list[s], w) != list[s].end();
+                });
+            };
+            if (!holds(band_.tetras) && !holds(band_.triangles)) return false;
+        }
+        // The same on surfaces and creases, whose own links are smaller.
+        for (const int w : common_) {
+            const bool skin_p = joined(band_.skin, p, w), skin_t = joined(band_.skin, t, w);
+            if (skin_p && skin_t && joined(band_.skin, p, t) && band_.skin.find({p, t, w}) < 0) return false;
+            if (joined(band_.creases, p, w) && joined(band_.creases, t, w)) return false;
+        }
+        return true;
+    }
+
+    double quality_merged(int p, int t) const {
+        const Vec3& at = band_.nodes[t].at;
+        double worst = 1;
+        const auto point = [&](int v) -> const Vec3& { return v == p ? at : band_.nodes[v].at; };
+        for (const int s : band_.tetras.around(p)) {
+            const auto& v = band_.tetras[s];
+            if (std::ranges::find(v, t) == v.end())
+                worst = std::min(worst, mean_ratio(point(v[0]), point(v[1]), point(v[2]), point(v[3])));
+        }
+        for (const int s : band_.triangles.around(p)) {
+            const auto& v = band_.triangles[s];
+            if (std::ranges::find(v, t) != v.end() || !d_.constraints.is_shell(band_.triangles.origin(s))) continue;
+            const double turned =
+                (point(v[1]) - point(v[0])).cross(point(v[2]) - point(v[0])).dot(d_.shell_normals[band_.triangles.origin(s)]);
+            worst = std::min(worst, std::copysign(mean_ratio(point(v[0]), point(v[1]), point(v[2])), turned));
+        }
+        return worst;
+    }
+
+    bool try_merge(int p) {
+        if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return false;
+        band_.neighbours(p, candidates_);
+        double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;
+        int target = -1;
+        for (const int t : candidates_) {
+            if (!may_merge(p, t)) continue;
+            const double q = quality_merged(p, t);
+            if (q > best && link_is_sound(p, t)) {
+                best = q;
+                target = t;
+            }
+        }
+        if (target < 0) return false;
+        band_.merge_node(p, target);
+        d_.contact[p] = nullptr;
+        return true;
+    }
+
+    Interface& f_;
+    Deformable& d_;
+    BandMesh& band_;
+    const Tool& tool_;
+    std::vector<int> near_p_, near_t_, common_, candidates_;
+};
+
+}  // namespace
+
+void improve(Interface& f, const Tool& tool, double goal) {
+    Improver improver(f, tool);
+    const auto relax_again = [&] {
+        find_node_sets(f);
+        std::vector<int> movable = f.nodes;
+        movable.insert(movable.end(), f.transition.begin(), f.transition.end());
+        relax(f.d, movable);
+    };
+    for (int round = 0; round < 4 && improver.merge_nodes(goal); ++round) relax_again();
+    for (int round = 0; round < split_rounds && improver.split_long_edges(split_below); ++round) {
+        relax_again();
+        if (improver.merge_nodes(goal)) relax_again();
+    }
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/interface.h"
+
+#include <sstream>
+
+namespace femscalpel {
+
+Method method_from_name(const std::string& name) {
+    if (name == "snap") return Method::snap;
+    if (name == "deform") return Method::deform;
+    throw ToolError("method '" + name + "' is unknown; it is \"snap\" or \"deform\"");
+}
+
+std::string_view to_string(Method method) { return method == Method::snap ? "snap" : "deform"; }
+
+void find_node_sets(Interface& f) {
+    const BandMesh& band = f.d.band;
+    std::vector<int> depth(static_cast<std::size_t>(band.size()), -1);
+    f.nodes.clear();
+    f.transition.clear();
+    for (int v = 0; v < band.size(); ++v)
+        if (f.d.contact[v]) {
+            depth[v] = 0;
+            f.nodes.push_back(v);
+        }
+    std::vector<int> front = f.nodes, next, neighbours;
+    for (int level = 1; level <= f.bandwidth; ++level) {
+        next.clear();
+        for (const int v : front) {
+            const auto visit = [&](const auto& list) {
+                for (const int s : list.around(v))
+                    for (const int w : list[s])
+                        if (depth[w] < 0 && band.nodes[w].movable()) {
+                            depth[w] = level;
+                            next.push_back(w);
+                        }
+            };
+            visit(band.tetras);
+            visit(band.triangles);
+        }
+        f.transition.insert(f.transition.end(), next.begin(), next.end());
+        front.swap(next);
+    }
+    std::ranges::sort(f.transition);
+}
+
+namespace {
+
+struct Bad {
+    Index id;
+    double quality;
+};
+
+/// Elements of the band worse than `limit`, by number.
+std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) {
+    std::vector<Bad> bad;
+    const auto note = [&](const CellRef& c, double q) {
+        if (!(q > limit)) bad.push_back({mesh.block(c.type).ids[c.cell], q});
+    };
+    const BandMesh& band = f.d.band;
+    for (int t = 0; t < band.tetras.size(); ++t)
+        if (band.tetras.alive(t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
+    for (int t = 0; t < band.triangles.size(); ++t)
+        if (band.triangles.alive(t) && f.d.constraints.is_shell(band.triangles.origin(t)))
+            note(band.triangle_cells[band.triangles.origin(t)], shell_quality(f.d, t));
+    std::ranges::sort(bad, {}, [](const Bad& b) { return std::pair(b.id, b.quality); });
+    return bad;
+}
+
+std::string name_them(const std::vector<Bad>& bad) {
+    std::ostringstream text;
+    text << (bad.size() == 1 ? "element" : "elements");
+    for (std::size_t k = 0; k < bad.size() && k < 5; ++k) text << (k ? ", " : " ") << bad[k].id;
+    if (bad.size() > 5) text << ", ...";
+    return text.str();
+}
+
+/// Mean ratio below which an element counts as flat.
+constexpr double flat = 1e-6;
+
+}  // namespace
+
+void check_input_shape(Interface& f, const Mesh& mesh) {
+    const std::vector<Bad> bad = worse_than(flat, f, mesh);
+    if (!bad.empty())
+        throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
+                           name_them(bad) + "); repair them first");
+    const std::vector<Bad> poor = worse_than(0.1, f, mesh);
+    if (!poor.empty())
+        f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) + " element(s) with mean ratio below 0.1 near the tool (" +
+                             name_them(poor) + ")");
+}
+
+void check_shape(const Interface& f, const Mesh& mesh) {
+    const std::vector<Bad> bad = worse_than(flat, f, mesh);
+    if (!bad.empty())
+        throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +
+                           "): the tool passes too close to a corner or crease there. Move it a little");
+}
+
+}  // namespace femscalpel

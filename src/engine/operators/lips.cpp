@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/lips.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace femscalpel {
+namespace {
+
+constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+class Opener {
+public:
+    explicit Opener(const Interface& f) : f_(f), band_(f.d.band) {}
+
+    Lips open() {
+        out_.tetras.resize(static_cast<std::size_t>(band_.tetras.size()));
+        for (int t = 0; t < band_.tetras.size(); ++t) out_.tetras[t] = band_.tetras[t];
+        out_.triangles.resize(static_cast<std::size_t>(band_.triangles.size()));
+        for (int t = 0; t < band_.triangles.size(); ++t) out_.triangles[t] = band_.triangles[t];
+        out_.lines.resize(static_cast<std::size_t>(band_.lines.size()));
+        for (int l = 0; l < band_.lines.size(); ++l) out_.lines[l] = band_.lines[l];
+        find_open_faces();
+        find_open_edges();
+        for (const int v : out_.interface_nodes) part_node(v);
+        place_attached();
+        make_lips();
+        return std::move(out_);
+    }
+
+private:
+    bool on_tool(int v) const { return f_.d.contact[v] != nullptr; }
+
+    template <std::size_t N>
+    int side(const std::array<int, N>& nodes) const {
+        for (const int v : nodes)
+            if (!on_tool(v)) return f_.distance[v] > 0 ? 1 : -1;
+        return 0;
+    }
+
+    void find_open_faces() {
+        struct Behind {
+            int tetra[2]{-1, -1};
+            std::array<int, 3> nodes[2];
+        };
+        std::map<std::array<int, 3>, Behind> faces;
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!on_tool(v)) continue;
+            for (const int t : band_.tetras.around(v)) {
+                const auto& n = band_.tetras[t];
+                for (const auto& f : outward_faces) {
+                    const std::array<int, 3> nodes{n[f[0]], n[f[1]], n[f[2]]};
+                    if (!std::ranges::all_of(nodes, [&](int w) { return on_tool(w); })) continue;
+                    std::array<int, 3> key = nodes;
+                    std::ranges::sort(key);
+                    if (key[0] != v) continue;  // each face once, from its smallest node
+                    Behind& b = faces[key];
+                    const int k = b.tetra[0] < 0 ? 0 : 1;
+                    b.tetra[k] = t;
+                    b.nodes[k] = nodes;
+                }
+            }
+        }
+        for (const auto& [key, b] : faces) {
+            if (b.tetra[1] < 0 || side(band_.tetras[b.tetra[0]]) * side(band_.tetras[b.tetra[1]]) >= 0) continue;
+            for (int k = 0; k < 2; ++k) open_faces_.push_back({b.nodes[k], b.tetra[k]});
+            for (int k = 0; k < 3; ++k) open_edges_.insert(edge_key(key[k], key[(k + 1) % 3]));
+            face_keys_.insert(key);
+            interface_.insert(key.begin(), key.end());
+        }
+    }
+
+    void find_open_edges() {
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!on_tool(v)) continue;
+            std::map<int, std::vector<int>> edges;  // other end -> shells
+            for (const int t : band_.triangles.around(v))
+                if (is_shell(t))
+                    for (const int w : band_.triangles[t])
+                        if (w > v && on_tool(w)) edges[w].push_back(t);
+            for (const auto& [w, shells] : edges) {
+                bool positive = false, negative = false;
+                for (const int t : shells) {
+                    positive = positive || side(band_.triangles[t]) > 0;
+                    negative = negative || side(band_.triangles[t]) < 0;
+                }
+                if (!positive || !negative) continue;
+                open_edges_.insert(edge_key(v, w));
+                shell_edges_.push_back({v, w});
+                interface_.insert({v, w});
+            }
+        }
+        out_.interface_nodes.assign(interface_.begin(), interface_.end());
+    }
+
+    bool is_shell(int t) const { return f_.d.constraints.is_shell(band_.triangles.origin(t)); }
+
+    /// Parts of the elements around an interface node; gives all but one a copy.
+    void part_node(int v) {
+        // Items: tetrahedra first, then shells.
+        std::vector<int> items;
+        const auto& tetras = band_.tetras.around(v);
+        items.insert(items.end(), tetras.begin(), tetras.end());
+        const int shells_from = static_cast<int>(items.size());
+        for (const int t : band_.triangles.around(v))
+            if (is_shell(t)) items.push_back(t);
+        const int count = static_cast<int>(items.size());
+        std::vector<int> part(static_cast<std::size_t>(count)), item_side(static_cast<std::size_t>(count));
+        std::iota(part.begin(), part.end(), 0);
+        const auto find = [&](int i) {
+            while (part[i] != i) i = part[i] = part[part[i]];
+            return i;
+        };
+        std::vector<char> touches(static_cast<std::size_t>(count), 0);
+        std::map<std::pair<int, int>, int> first;  // (neighbour, side or 0) -> item
+        for (int i = 0; i < count; ++i) {
+            const auto visit = [&](const auto& nodes) {
+                item_side[i] = side(nodes) > 0 ? 1 : -1;
+                for (const int w : nodes) {
+                    if (w == v) continue;
+                    // Elements that share an edge belong together, unless the edge is open and they
+                    // are on different sides of it.
+                    const bool open = on_tool(w) && open_edges_.contains(edge_key(v, w));
+                    if (open) touches[i] = 1;
+                    const auto [it, fresh] = first.emplace(std::pair(w, open ? item_side[i] : 0), i);
+                    if (!fresh) {
+                        const int a = find(i), b = find(it->second);
+                        part[std::max(a, b)] = std::min(a, b);
+                    }
+                }
+            };
+            if (i < shells_from) visit(band_.tetras[items[i]]);
+            else visit(band_.triangles[items[i]]);
+        }
+        struct Part {
+            int size = 0, side = 0;
+            bool touches = false;
+        };
+        std::map<int, Part> parts;
+        for (int i = 0; i < count; ++i) {
+            Part& p = parts[find(i)];
+            ++p.size;
+            p.side += item_side[i];
+            p.touches = p.touches || touches[i];
+        }
+        // Parts that hang on in this node alone go with the largest part of their side.
+        std::map<int, int> goes_to;
+        const auto largest = [&](std::optional<bool> positive) {
+            int best = -1;
+            for (const auto& [root, p] : parts)
+                if (p.touches && (!positive || (p.side > 0) == *positive) && (best < 0 || p.size > parts[best].size)) best = root;
+            return best;
+        };
+        for (const auto& [root, p] : parts) {
+            goes_to[root] = root;
+            if (p.touches) continue;
+            const int with = largest(p.side > 0);
+            goes_to[root] = with >= 0 ? with : largest({});
+        }
+        int keeps = largest(false);
+        if (keeps < 0) keeps = largest({});
+        std::map<int, int> copy;
+        for (const auto& [root, p] : parts)
+            if (p.touches && root != keeps) {
+                copy[root] = band_.size() + static_cast<int>(out_.copy_of.size());
+                out_.copy_of.push_back(v);
+                if (p.side > 0) positive_copy_.emplace(v, copy[root]);
+            }
+        if (copy.empty()) {
+            out_.front_nodes.push_back(v);
+            return;
+        }
+        doubled_.insert(v);
+        for (int i = 0; i < count; ++i) {
+            const auto it = copy.find(goes_to[find(i)]);
+            if (it == copy.end()) continue;
+            if (i < shells_from) std::ranges::replace(out_.tetras[items[i]], v, it->second);
+            else std::ranges::replace(out_.triangles[items[i]], v, it->second);
+        }
+    }
+
+    /// The nodes, copies in place, that the hosts of an attached element give it: one entry per side.
+    template <std::size_t N>
+    std::vector<std::array<int, N>> images(const std::array<int, N>& nodes) const {
+        std::vector<std::array<int, N>> out;
+        const auto look = [&](const auto& list, const auto& placed, auto skip) {
+            for (const int s : list.around(nodes[0])) {
+                if (skip(s)) continue;
+                std::array<int, N> image;
+                bool host = true;
+                for (std::size_t k = 0; k < N; ++k) {
+                    const auto at = std::ranges::find(list[s], nodes[k]);
+                    host = host && at != list[s].end();
+                    if (host) image[k] = placed[s][at - list[s].begin()];
+                }
+                if (host && std::ranges::find(out, image) == out.end()) out.push_back(image);
+            }
+        };
+        look(band_.tetras, out_.tetras, [](int) { return false; });
+        look(band_.triangles, out_.triangles, [&](int s) { return !is_shell(s); });
+        // The original nodes first.
+        std::ranges::stable_sort(out, {}, [&](const auto& image) { return image != nodes; });
+        return out;
+    }
+
+    template <std::size_t N>
+    bool any_doubled(const std::array<int, N>& nodes) const {
+        return std::ranges::any_of(nodes, [&](int v) { return doubled_.contains(v); });
+    }
+
+    void place_attached() {
+        for (int t = 0; t < band_.triangles.size(); ++t) {
+            if (!band_.triangles.alive(t) || is_shell(t) || !any_doubled(band_.triangles[t])) continue;
+            const auto found = images(band_.triangles[t]);
+            if (found.empty()) continue;
+            out_.triangles[t] = found[0];
+            for (std::size_t k = 1; k < found.size(); ++k) out_.triangle_twins.push_back({t, found[k]});
+        }
+        int loose = 0, masses = 0;
+        for (int l = 0; l < band_.lines.size(); ++l) {
+            if (!band_.lines.alive(l) || !any_doubled(band_.lines[l])) continue;
+            if (f_.d.constraints.is_loose(band_.lines.origin(l))) {
+                // A beam or spring follows its other end's side.
+                if (side(band_.lines[l]) > 0)
+                    for (int& v : out_.lines[l])
+                        if (const auto copy = positive_copy_.find(v); copy != positive_copy_.end()) v = copy->second;
+                ++loose;
+                continue;
+            }
+            const auto found = images(band_.lines[l]);
+            if (found.empty()) continue;
+            out_.lines[l] = found[0];
+            for (std::size_t k = 1; k < found.size(); ++k) out_.line_twins.push_back({l, found[k]});
+        }
+        for (int p = 0; p < band_.vertices.size(); ++p) masses += any_doubled(band_.vertices[p]);
+        if (loose > 0)
+            out_.warnings.push_back(std::to_string(loose) + " segment element(s) (beam, spring) end on doubled nodes; each stays on the side it lies on");
+        if (masses > 0)
+            out_.warnings.push_back(std::to_string(masses) + " point element(s) sit on doubled nodes; they stay on the negative side");
+        int flat = 0;
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            flat += band_.triangles.alive(t) && is_shell(t) && side(band_.triangles[t]) == 0;
+        if (flat > 0)
+            out_.warnings.push_back(std::to_string(flat) + " shell element(s) lie in the tool's surface; they stay on the negative side");
+    }
+
+    void make_lips() {
+        // Elements that already lie on a lip join its group; the first one met per place.
+        std::map<std::array<int, 3>, int> triangle_at;
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (band_.triangles.alive(t) && face_keys_.contains(sorted(band_.triangles[t]))) triangle_at.emplace(sorted(out_.triangles[t]), t);
+        for (std::size_t k = 0; k < out_.triangle_twins.size(); ++k)
+            triangle_at.emplace(sorted(out_.triangle_twins[k].nodes), -1 - static_cast<int>(k));
+        for (const auto& [nodes, tetra] : open_faces_) {
+            std::array<int, 3> image;
+            for (int k = 0; k < 3; ++k)
+                image[k] = out_.tetras[tetra][std::ranges::find(band_.tetras[tetra], nodes[k]) - band_.tetras[tetra].begin()];
+            const auto at = triangle_at.find(sorted(image));
+            out_.faces.push_back({image, side(band_.tetras[tetra]) > 0, at == triangle_at.end() ? Lips::fresh : at->second,
+                                  band_.tetra_cells[band_.tetras.origin(tetra)].type == CellType::tetra10});
+        }
+        std::map<std::array<int, 2>, int> line_at;
+        for (int l = 0; l < band_.lines.size(); ++l)
+            if (band_.lines.alive(l)) line_at.emplace(sorted(out_.lines[l]), l);
+        for (std::size_t k = 0; k < out_.line_twins.size(); ++k) line_at.emplace(sorted(out_.line_twins[k].nodes), -1 - static_cast<int>(k));
+        for (const auto& edge : shell_edges_) {
+            std::set<std::array<int, 2>> seen;
+            for (const int t : band_.triangles.around(edge[0])) {
+                if (!is_shell(t) || std::ranges::find(band_.triangles[t], edge[1]) == band_.triangles[t].end()) continue;
+                const int s = side(band_.triangles[t]);
+                if (s == 0) continue;
+                std::array<int, 2> image;
+                for (int k = 0; k < 2; ++k)
+                    image[k] = out_.triangles[t][std::ranges::find(band_.triangles[t], edge[k]) - band_.triangles[t].begin()];
+                if (!seen.insert(image).second) continue;
+                const auto at = line_at.find(sorted(image));
+                out_.edges.push_back({image, s > 0, at == line_at.end() ? Lips::fresh : at->second,
+                                      band_.triangle_cells[band_.triangles.origin(t)].type == CellType::triangle6});
+            }
+        }
+    }
+
+    template <std::size_t N>
+    static std::array<int, N> sorted(std::array<int, N> nodes) {
+        std::ranges::sort(nodes);
+        return nodes;
+    }
+
+    const Interface& f_;
+    const BandMesh& band_;
+    Lips out_;
+    std::vector<std::pair<std::array<int, 3>, int>> open_faces_;  // both sides of each: nodes outwards, tetrahedron
+    std::vector<std::array<int, 2>> shell_edges_;
+    std::unordered_set<std::uint64_t> open_edges_;
+    std::set<std::array<int, 3>> face_keys_;
+    std::set<int> interface_;
+    std::set<int> doubled_;
+    std::unordered_map<int, int> positive_copy_;
+};
+
+}  // namespace
+
+Lips open_lips(const Interface& interface) { return Opener(interface).open(); }
+
+}  // namespace femscalpel

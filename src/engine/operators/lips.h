@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "operators/interface.h"
+
+namespace femscalpel {
+
+/// A band taken apart along its interface (DESIGN 3, step 6; paper, 3.1.3): which elements get copies of
+/// which nodes, and the two lips. Node numbers from BandMesh::size() on are copies.
+struct Lips {
+    std::vector<int> copy_of;  ///< source of each copied node
+
+    /// Corner nodes of each element by slot, copies in place; elements not listed keep theirs.
+    std::vector<std::array<int, 4>> tetras;
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<std::array<int, 2>> lines;
+
+    /// An element on the crack that needs a second copy, for the other side.
+    template <std::size_t N>
+    struct Twin {
+        int slot;
+        std::array<int, N> nodes;
+    };
+    std::vector<Twin<3>> triangle_twins;
+    std::vector<Twin<2>> line_twins;
+
+    /// A face (edge, for shells) of a lip. `element`: slot of an element that already lies there, or
+    /// minus one minus the index of a twin, or `fresh`.
+    static constexpr int fresh = 1 << 30;
+    template <std::size_t N>
+    struct Face {
+        std::array<int, N> nodes;
+        bool positive;
+        int element;
+        bool second_order;
+    };
+    std::vector<Face<3>> faces;  ///< normals out of the material
+    std::vector<Face<2>> edges;
+
+    std::vector<int> interface_nodes;  ///< nodes of open faces and edges, ascending
+    std::vector<int> front_nodes;      ///< of them, those that stay single
+    std::vector<std::string> warnings;
+};
+
+/// Takes the band apart wherever elements on both sides of the tool share a face (an edge, for shells)
+/// whose nodes all lie on the tool. At each interface node the elements fall into parts that are joined
+/// by other faces and edges; the largest part on the negative side keeps the node, every other gets a
+/// copy. Nodes with one part (a front) stay single.
+Lips open_lips(const Interface& interface);
+
+}  // namespace femscalpel

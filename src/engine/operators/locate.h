@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "tools/tool.h"
+
+namespace femscalpel {
+
+/// Where a tool meets a mesh (DESIGN 3, step 1).
+struct Location {
+    std::vector<double> distance;    ///< signed, by node
+    std::vector<std::int8_t> level;  ///< 0: node of an element the tool touches; k: k edges away; -1: farther than `levels`
+    double tolerance = 0;            ///< nodes nearer than this lie on the tool
+    Index crossed = 0;               ///< triangles and tetrahedra the tool passes through
+};
+
+/// Measures all nodes and finds those within `levels` edges of the elements the tool touches. One pass
+/// over the nodes, one over the elements and one per level, unless `adjacency` (elements around nodes) is
+/// given, which makes the levels cost only the band.
+///
+/// Throws ToolError when the tool misses the mesh: says how far away it is, and on which side.
+class Adjacency;
+Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency* adjacency = nullptr);
+
+/// Elements around each node, triangles and tetrahedra and whatever else shares a node. Linear time and memory.
+class Adjacency {
+public:
+    explicit Adjacency(const Mesh& mesh);
+
+    /// Calls visit(type, cell) for the elements around a node.
+    template <class Visit>
+    void around(Index node, Visit visit) const {
+        for (Index k = start_[node]; k < start_[node + 1]; ++k) {
+            const std::int64_t v = cells_[k];
+            visit(static_cast<CellType>(v % cell_type_count), static_cast<Index>(v / cell_type_count));
+        }
+    }
+
+private:
+    std::vector<Index> start_;
+    std::vector<std::int64_t> cells_;
+};
+
+}  // namespace femscalpel

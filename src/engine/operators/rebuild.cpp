@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/rebuild.h"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "mesh/quality.h"
+
+namespace femscalpel {
+namespace {
+
+class Rebuilder {
+public:
+    Rebuilder(const Mesh& input, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {}
+
+    Rebuilt run(const std::string& positive, const std::string& negative) {
+        out_.mesh = input_;
+        Mesh& mesh = out_.mesh;
+        next_node_ = input_.largest_node_id() + 1;
+        next_cell_ = input_.largest_cell_id() + 1;
+        write_nodes();
+        write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
+        write_cells(band_.triangles, lips_.triangles, band_.triangle_cells, triangle_cell_);
+        write_cells(band_.lines, lips_.lines, band_.line_cells, line_cell_);
+        write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
+        write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
+        write_lips(positive, negative);
+        straighten_bad_tetrahedra();
+        write_facets();
+        remove_cells();
+        out_.elements_removed = static_cast<Index>(removed_.size());
+        out_.elements_added = mesh.cell_count() - input_.cell_count() + out_.elements_removed;
+        return std::move(out_);
+    }
+
+private:
+    bool moved(int v) const { return band_.nodes[v].global >= 0 && band_.nodes[v].at != input_.points[band_.nodes[v].global]; }
+
+    void write_nodes() {
+        Mesh& mesh = out_.mesh;
+        out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
+        for (int v = 0; v < band_.size(); ++v) {
+            const BandNode& n = band_.nodes[v];
+            if (!band_.in_use(v)) continue;
+            if (n.global >= 0) {
+                out_.node[v] = n.global;
+                mesh.points[n.global] = n.at;
+                continue;
+            }
+            const auto& [a, b] = band_.births[v - band_.original_nodes()];
+            out_.node[v] = mesh.add_node(n.at, next_node_++, mesh.families.intersect(family(a), family(b)));
+            ++out_.nodes_split;
+        }
+        for (std::size_t k = 0; k < lips_.copy_of.size(); ++k) {
+            const Index source = out_.node[lips_.copy_of[k]];
+            out_.node[band_.size() + static_cast<int>(k)] = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
+            ++out_.nodes_doubled;
+        }
+    }
+
+    /// Node family of a band node, also of one that was merged away after others were born on its edges.
+    FamilyIndex family(int v) {
+        if (out_.node[v] >= 0) return out_.mesh.node_families[out_.node[v]];
+        const auto& [a, b] = band_.births[v - band_.original_nodes()];
+        return out_.mesh.families.intersect(family(a), family(b));
+    }
+
+    /// The mid-side node between the images of two band nodes.
+    Index mid_node(int a, int b, int image_a, int image_b) {
+        const auto known = mids_.find(edge_key(image_a, image_b));
+        if (known != mids_.end()) return known->second;
+        Mesh& mesh = out_.mesh;
+        Index mid;
+        if (image_a != a || image_b != b) {
+            const Index source = mid_node(a, b, a, b);
+            mid = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
+            ++out_.nodes_doubled;
+        } else {
+            const auto original = band_.mid_nodes.find(edge_key(a, b));
+            if (original != band_.mid_nodes.end()) {
+                mid = original->second;
+                if (moved(a) || moved(b)) mesh.points[mid] = half_way(a, b);
+            } else {
+                mid = mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
+                ++out_.nodes_split;
+            }
+        }
+        mids_.emplace(edge_key(image_a, image_b), mid);
+        mid_ends_.emplace(mid, std::array<Index, 2>{out_.node[image_a], out_.node[image_b]});
+        return mid;
+    }
+
+    Vec3 half_way(int a, int b) const {
+        const Tool* tool = f_.d.contact[a] && f_.d.contact[a] == f_.d.contact[b] ? f_.d.contact[a] : nullptr;
+        const Vec3 chord = (band_.nodes[a].at + band_.nodes[b].at) / 2;
+        Vec3 at = chord;
+        const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
+        if (f_.d.constraints.project(f_.d.constraints.on_edge(band_, a, b), tool, at) && (at - chord).norm() < 0.25 * length) return at;
+        return chord;
+    }
+
+    /// Full connectivity of an element from its corners.
+    template <std::size_t N>
+    std::vector<Index> connectivity(CellType type, const std::array<int, N>& corners, const std::array<int, N>& images) {
+        const CellTraits& t = traits(type);
+        std::vector<Index> nodes;
+        for (int image : images) nodes.push_back(out_.node[image]);
+        if (t.quadratic)
+            for (const auto& e : t.edges) nodes.push_back(mid_node(corners[e[0]], corners[e[1]], images[e[0]], images[e[1]]));
+        return nodes;
+    }
+
+    template <std::size_t N>
+    void write_cells(const SimplexList<N>& list, const std::vector<std::array<int, N>>& images, const std::vector<CellRef>& cells,
+                     std::vector<Index>& written) {
+        Mesh& mesh = out_.mesh;
+        written.assign(static_cast<std::size_t>(list.size()), -1);
+        std::vector<char> seated(cells.size(), 0);
+        std::vector<int> changed;
+        for (int s = 0; s < list.size(); ++s) {
+            if (!list.alive(s)) continue;
+            const CellRef& cell = cells[list.origin(s)];
+            const std::vector<Index> nodes = connectivity(cell.type, list[s], images[s]);
+            CellBlock& block = mesh.block(cell.type);
+            if (!seated[list.origin(s)]) {
+                seated[list.origin(s)] = 1;
+                written[s] = cell.cell;
+                Index* at = block.connectivity.data() + cell.cell * traits(cell.type).nodes;
+                const bool same = std::equal(nodes.begin(), nodes.end(), at);
+                if (!same) std::ranges::copy(nodes, at);
+                if (!same || std::ranges::any_of(list[s], [&](int v) { return moved(v); })) {
+                    out_.before.push_back(cell);
+                    out_.after.push_back(cell);
+                }
+            } else {
+                written[s] = mesh.add_cell(cell.type, nodes, next_cell_++, block.families[cell.cell]);
+                out_.after.push_back({cell.type, written[s]});
+            }
+        }
+        for (std::size_t o = 0; o < cells.size(); ++o)
+            if (!seated[o]) {
+                removed_.push_back(cells[o]);
+                out_.before.push_back(cells[o]);
+            }
+    }
+
+    template <std::size_t N>
+    void write_twins(const std::vector<Lips::Twin<N>>& twins, const SimplexList<N>& list, const std::vector<CellRef>& cells,
+                     std::vector<CellRef>& written) {
+        for (const auto& twin : twins) {
+            const CellRef& cell = cells[list.origin(twin.slot)];
+            const std::vector<Index> nodes = connectivity(cell.type, list[twin.slot], twin.nodes);
+            const Index made = out_.mesh.add_cell(cell.type, nodes, next_cell_++, out_.mesh.block(cell.type).families[cell.cell]);
+            written.push_back({cell.type, made});
+            out_.after.push_back(written.back());
+        }
+    }
+
+    void write_lips(const std::string& positive, const std::string& negative) {
+        Mesh& mesh = out_.mesh;
+        const GroupIndex group[2] = {mesh.add_group(negative, GroupKind::element), mesh.add_group(positive, GroupKind::element)};
+        const auto join = [&](CellType type, Index cell, bool side) {
+            FamilyIndex& family = mesh.block(type).families[cell];
+            family = mesh.families.with(family, group[side]);
+        };
+        const auto write = [&](const auto& lips, const auto& cells, const auto& written, const auto& twins, CellType linear, CellType quadratic) {
+            for (const auto& lip : lips) {
+                if (lip.element == Lips::fresh) {
+                    auto corners = lip.nodes;
+                    for (int& v : corners)
+                        if (v >= band_.size()) v = lips_.copy_of[v - band_.size()];
+                    const CellType type = lip.second_order ? quadratic : linear;
+                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, mesh.families.with(0, group[lip.positive]));
+                    out_.after.push_back({type, made});
+                } else if (lip.element >= 0) {
+                    join(cells(lip.element).type, written[lip.element], lip.positive);
+                } else {
+                    const CellRef& twin = twins[-1 - lip.element];
+                    join(twin.type, twin.cell, lip.positive);
+                }
+            }
+        };
+        write(lips_.faces, [&](int s) { return band_.triangle_cells[band_.triangles.origin(s)]; }, triangle_cell_, triangle_twin_,
+              CellType::triangle, CellType::triangle6);
+        write(lips_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_, CellType::line, CellType::line3);
+    }
+
+    /// Curved mid-side nodes can fold an element whose corners are sound: then they go to the chord.
+    void straighten_bad_tetrahedra() {
+        Mesh& mesh = out_.mesh;
+        const CellBlock& block = mesh.block(CellType::tetra10);
+        std::set<Index> straightened;
+        for (bool again = true; again;) {
+            again = false;
+            for (const CellRef& cell : out_.after) {
+                if (cell.type != CellType::tetra10) continue;
+                const auto n = block.nodes(cell.cell);
+                std::array<Vec3, 10> at;
+                for (int k = 0; k < 10; ++k) at[k] = mesh.points[n[k]];
+                if (smallest_jacobian(at) > 0.05 * signed_volume(at[0], at[1], at[2], at[3])) continue;
+                for (int k = 4; k < 10; ++k) {
+                    const auto ends = mid_ends_.find(n[k]);
+                    if (ends == mid_ends_.end()) continue;
+                    const Vec3 chord = (mesh.points[ends->second[0]] + mesh.points[ends->second[1]]) / 2;
+                    const bool was_in_input = n[k] < input_.node_count();
+                    if (mesh.points[n[k]] == chord || (was_in_input && mesh.points[n[k]] == input_.points[n[k]])) continue;
+                    mesh.points[n[k]] = chord;
+                    straightened.insert(n[k]);
+                    again = true;
+                }
+            }
+        }
+        if (!straightened.empty())
+            out_.warnings.push_back(std::to_string(straightened.size()) +
+                                    " mid-side node(s) were put half way between their corners, off the curved skin, to keep elements valid");
+    }
+
+    void write_facets() {
+        if (band_.facet_faces.size() == 0 && band_.facet_edges.size() == 0 && band_.facet_sides.empty()) return;
+        Mesh& mesh = out_.mesh;
+        std::vector<char> replaced(mesh.facets.size(), 0);
+        std::vector<Facet> fresh;
+        constexpr int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};  // CalculiX's order, normals inwards
+        for (int s = 0; s < band_.facet_faces.size(); ++s) {
+            replaced[band_.facet_faces.tag(s)] = 1;
+            if (!band_.facet_faces.alive(s)) continue;
+            const auto& v = band_.facet_faces[s];
+            for (const int t : band_.tetras.around(v[0]))
+                for (int k = 0; k < 4; ++k) {
+                    const auto& n = band_.tetras[t];
+                    const std::array<int, 3> outwards{n[faces[k][0]], n[faces[k][2]], n[faces[k][1]]};
+                    for (int turn = 0; turn < 3; ++turn)
+                        if (v[0] == outwards[turn] && v[1] == outwards[(turn + 1) % 3] && v[2] == outwards[(turn + 2) % 3])
+                            fresh.push_back({band_.tetra_cells[band_.tetras.origin(t)].type, static_cast<std::int8_t>(k + 1),
+                                             mesh.facets[band_.facet_faces.tag(s)].family, tetra_cell_[t]});
+                }
+        }
+        for (int s = 0; s < band_.facet_edges.size(); ++s) {
+            const Facet& parent = mesh.facets[band_.facet_edges.tag(s)];
+            replaced[band_.facet_edges.tag(s)] = 1;
+            if (!band_.facet_edges.alive(s)) continue;
+            const auto& v = band_.facet_edges[s];
+            for (const int t : band_.triangles.around(v[0])) {
+                const CellRef& cell = band_.triangle_cells[band_.triangles.origin(t)];
+                if (cell.type != parent.type || cell.cell != parent.cell) continue;
+                for (int k = 0; k < 3; ++k)
+                    if (band_.triangles[t][k] == v[0] && band_.triangles[t][(k + 1) % 3] == v[1])
+                        fresh.push_back({cell.type, static_cast<std::int8_t>(k + 3), parent.family, triangle_cell_[t]});
+            }
+        }
+        for (const auto& [slot, tag] : band_.facet_sides) {
+            const Facet& parent = mesh.facets[tag];
+            replaced[tag] = 1;
+            for (int t = 0; t < band_.triangles.size(); ++t)
+                if (band_.triangles.alive(t) && band_.triangles.origin(t) == slot)
+                    fresh.push_back({parent.type, parent.face, parent.family, triangle_cell_[t]});
+        }
+        std::size_t k = 0;
+        std::erase_if(mesh.facets, [&](const Facet&) { return replaced[k++] != 0; });
+        mesh.facets.insert(mesh.facets.end(), fresh.begin(), fresh.end());
+        std::ranges::stable_sort(mesh.facets, {}, [](const Facet& f) { return std::tuple(f.type, f.cell, f.face); });
+    }
+
+    /// Drops elements all of whose parts were merged away.
+    void remove_cells() {
+        if (removed_.empty()) return;
+        for (CellBlock& block : out_.mesh.blocks()) {
+            std::vector<char> gone(static_cast<std::size_t>(block.size()), 0);
+            bool any = false;
+            for (const CellRef& c : removed_)
+                if (c.type == block.type) {
+                    gone[c.cell] = 1;
+                    any = true;
+                }
+            if (!any) continue;
+            std::vector<Index> shift(gone.size());
+            Index kept = 0;
+            const int n = traits(block.type).nodes;
+            for (std::size_t c = 0; c < gone.size(); ++c) {
+                shift[c] = kept;
+                if (gone[c]) continue;
+                std::copy_n(block.connectivity.begin() + static_cast<std::ptrdiff_t>(c) * n, n, block.connectivity.begin() + kept * n);
+                block.ids[kept] = block.ids[c];
+                block.families[kept] = block.families[c];
+                ++kept;
+            }
+            block.connectivity.resize(static_cast<std::size_t>(kept * n));
+            block.ids.resize(static_cast<std::size_t>(kept));
+            block.families.resize(static_cast<std::size_t>(kept));
+            for (Facet& f : out_.mesh.facets)
+                if (f.type == block.type) f.cell = shift[f.cell];
+            for (CellRef& c : out_.after)
+                if (c.type == block.type) c.cell = shift[c.cell];
+        }
+    }
+
+    const Mesh& input_;
+    const Interface& f_;
+    const BandMesh& band_;
+    const Lips& lips_;
+    Rebuilt out_;
+    Index next_node_ = 1, next_cell_ = 1;
+    std::vector<Index> tetra_cell_, triangle_cell_, line_cell_;  // by slot: index in the new mesh
+    std::vector<CellRef> triangle_twin_, line_twin_;
+    std::vector<CellRef> removed_;
+    std::unordered_map<std::uint64_t, Index> mids_;              // by image edge
+    std::unordered_map<Index, std::array<Index, 2>> mid_ends_;
+};
+
+}  // namespace
+
+Rebuilt rebuild(const Mesh& input, const Interface& interface, const Lips& lips, const std::string& positive, const std::string& negative) {
+    return Rebuilder(input, interface, lips).run(positive, negative);
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "operators/interface.h"
+#include "operators/lips.h"
+
+namespace femscalpel {
+
+/// A band written back into its mesh.
+struct Rebuilt {
+    Mesh mesh;
+    std::vector<Index> node;             ///< index in `mesh` of each band node, then of each copy; -1 if unused
+    std::vector<CellRef> before;         ///< elements of the input that were changed (indices in the input)
+    std::vector<CellRef> after;          ///< what they became, and what was added (indices in `mesh`)
+    Index nodes_split = 0;
+    Index nodes_doubled = 0;
+    Index elements_added = 0;
+    Index elements_removed = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Copies `input` with the band's changes: moved nodes, split elements, doubled nodes, lip elements in
+/// the groups `positive` and `negative` (appended to the mesh's groups). Everything else is the input's, bit
+/// for bit. Children inherit the groups of their parent; a node born on an edge is in the node groups of
+/// both ends; a copied node is in all groups of its original. New numbers start above the largest in use.
+///
+/// Mid-side nodes follow their edges in the band: half way, on the surface or curve the edge is on; where
+/// that would spoil an element's Jacobian at its integration points, on the chord.
+Rebuilt rebuild(const Mesh& input, const Interface& interface, const Lips& lips, const std::string& positive, const std::string& negative);
+
+}  // namespace femscalpel
