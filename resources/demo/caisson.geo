@@ -5,12 +5,12 @@
 //   -setnumber solid 1  plates with their thickness, tetrahedra
 // Groups whose name starts with SUPPORT, POINT or GAUGE are meant as groups of nodes.
 SetFactory("OpenCASCADE");
-DefineConstant[ solid = 0, order = 1, size = 20 ];
+DefineConstant[ solid = 0, order = 1, size = 36 ];
 
 length = 1200;   // of the box along x, outside
 width = 480;     // along y
 height = 360;    // along z
-t = 20;          // thickness of every plate
+t = 24;          // thickness of every plate
 hanger = 160;    // height of a hanger above the roof
 web = 80;        // T stiffener: depth of its web
 flange = 100;    //              breadth of its flange
@@ -214,7 +214,18 @@ x0 = 0; x1 = length; y0 = 0; y1 = width; z0 = -deep; z1 = z0; name = "GAUGE_FLOO
 x0 = rows[0] - flange / 2; x1 = rows[0] + flange / 2; y0 = -web - t; y1 = o; z0 = height - o; z1 = z0;
 name = "GAUGE_HANGER_1"; Call InBox;
 
-Mesh.MeshSizeMin = size;
+// Size `size`, half of it in the hanger that will be cracked.
+Field[1] = Box;
+Field[1].VIn = size / 2;
+Field[1].VOut = size;
+Field[1].Thickness = 2 * size;
+Field[1].XMin = rows[0] - flange / 2; Field[1].XMax = rows[0] + flange / 2;
+Field[1].YMin = -web - t;             Field[1].YMax = 0;
+Field[1].ZMin = height;               Field[1].ZMax = height + hanger;
+Background Field = 1;
+Mesh.MeshSizeExtendFromBoundary = 0;
+Mesh.MeshSizeFromPoints = 0;
+Mesh.MeshSizeMin = size / 2;
 Mesh.MeshSizeMax = size;
 Mesh.ElementOrder = order;
 Mesh.SecondOrderLinear = 1;
