@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Makes FemScalpel's document objects, for scripts and macros.
+
+    import ObjectsFemScalpel
+
+    crack = ObjectsFemScalpel.makeCrack(doc, doc.FEMMeshGmsh, origin=(50, 0, 0), normal=(1, 0, 0))
+    doc.recompute()
+    print("\\n".join(crack.GroupReport))
+    ObjectsFemScalpel.putIntoAnalysis(crack)
+"""
+
+import FreeCAD
+
+from femscalpelobjects.crack import Crack
+
+
+def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
+              group_name="CRACK", feature_angle=30.0):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane.
+
+    The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
+
+    Parameters
+    ----------
+    doc : App.Document
+    source : Fem::FemMeshObject
+        The mesh to crack; any FEM mesh object of the document, also another crack.
+    name : str
+        Name of the new object.
+    placement : App.Placement, optional
+        The plane is the XY plane of this placement, its z axis points to the positive side.
+    origin, normal : App.Vector or three numbers, optional
+        The plane in another form; not together with `placement`. Both default to the middle of the mesh and z.
+    method : {"snap", "deform"}
+        See femscalpel.crack.
+    transition : int
+        Rings of elements around the plane that may move; 0: automatic.
+    group_name : str
+        Prefix of the new mesh groups: ``group_name_P`` and ``group_name_N`` are the lips. Face elements; if the
+        source is a solid mesh without face elements, groups of nodes (FreeCAD's solver writers would lose face loads
+        on a mesh with some face elements only).
+    feature_angle : float
+        Degrees; skin edges sharper than this keep their shape.
+
+    Returns
+    -------
+    App.DocumentObject
+        A Fem::FemMeshObjectPython. Its properties Warnings, GroupReport, MinimumQuality etc. say what was done;
+        after a recompute its Proxy.report is the femscalpel.Report.
+
+    Raises
+    ------
+    TypeError, ValueError
+        `source` is not a FEM mesh object of `doc`, or the plane is given twice or has a zero normal.
+    """
+    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
+        raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
+    if source.Document != doc:
+        raise ValueError(f"source '{source.Label}' is in another document")
+    plane = _plane_placement(source, placement, origin, normal)
+    obj = doc.addObject("Fem::FemMeshObjectPython", name)
+    Crack(obj)
+    obj.PlanePlacement = plane
+    obj.Method = method
+    obj.Transition = transition
+    obj.GroupName = group_name
+    obj.FeatureAngle = feature_angle
+    obj.Source = source
+    if FreeCAD.GuiUp:
+        obj.ViewObject.Proxy = 0  # shows the object with FreeCAD's own view provider
+    return obj
+
+
+def putIntoAnalysis(obj):
+    """Puts `obj` into the FEM analysis its source mesh is in, in the source's place, and returns the analysis.
+
+    A FreeCAD analysis solves the one mesh it contains. Loads, supports and materials need no change. For a crack of a
+    crack, the first mesh of the chain that is in an analysis is replaced. Raises ValueError when there is none.
+    """
+    mesh = obj.Source
+    while mesh is not None:
+        for analysis in _analyses(obj.Document):
+            if mesh in analysis.Group:
+                analysis.removeObject(mesh)
+                if obj not in analysis.Group:
+                    analysis.addObject(obj)
+                return analysis
+        mesh = getattr(mesh, "Source", None)
+    raise ValueError(f"the mesh that '{obj.Label}' is made from is in no analysis")
+
+
+def takeOutOfAnalysis(obj):
+    """Undoes putIntoAnalysis(): the source mesh takes its place back. Returns the analysis.
+
+    Raises ValueError when `obj` is in no analysis.
+    """
+    for analysis in _analyses(obj.Document):
+        if obj in analysis.Group:
+            analysis.removeObject(obj)
+            if obj.Source is not None and obj.Source not in analysis.Group:
+                analysis.addObject(obj.Source)
+            return analysis
+    raise ValueError(f"'{obj.Label}' is in no analysis")
+
+
+def _analyses(doc):
+    return doc.findObjects("Fem::FemAnalysis")
+
+
+def _plane_placement(source, placement, origin, normal):
+    if placement is not None:
+        if origin is not None or normal is not None:
+            raise ValueError("give the plane as placement, or as origin and normal, not both")
+        return FreeCAD.Placement(placement)
+    base = source.FemMesh.BoundBox.Center if origin is None else FreeCAD.Vector(*origin)
+    direction = FreeCAD.Vector(0, 0, 1) if normal is None else FreeCAD.Vector(*normal)
+    if not direction.Length > 0:
+        raise ValueError("normal is the zero vector; give a direction")
+    return FreeCAD.Placement(base, FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), direction))

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "mesh/mesh.h"
+
+namespace py = pybind11;
+
+namespace femscalpel::bindings {
+namespace {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "points are viewed as an (n, 3) array");
+
+using CellArrays = std::tuple<std::string, IndexArray, IndexArray>;    // type name, (m, k) nodes, (m,) numbers
+using GroupArrays = std::tuple<std::string, std::string, IndexArray>;  // name, kind, numbers
+
+GroupKind kind_from_name(const std::string& name) {
+    for (GroupKind kind : {GroupKind::node, GroupKind::element, GroupKind::facet})
+        if (to_string(kind) == name) return kind;
+    throw Error("unknown group kind '" + name + "': it must be 'node', 'element' or 'facet'");
+}
+
+GroupIndex require_group(const Mesh& mesh, const std::string& name, const std::string& kind) {
+    const auto group = mesh.find_group(name, kind_from_name(kind));
+    if (!group) throw Error("the mesh has no " + kind + " group '" + name + "'");
+    return *group;
+}
+
+/// Numbers as Python gives them: (n,) for nodes and elements, (n, 2) for facets.
+GroupMembers members_from(GroupKind kind, const std::string& name, const IndexArray& ids) {
+    GroupMembers out;
+    out.kind = kind;
+    if (kind != GroupKind::facet) {
+        if (ids.ndim() != 1) throw Error("group '" + name + "': ids must be a one-dimensional array of numbers");
+        out.ids = to_vector(ids);
+        return out;
+    }
+    if (ids.size() == 0) return out;
+    if (ids.ndim() != 2 || ids.shape(1) != 2)
+        throw Error("facet group '" + name + "': ids must be an array of shape (n, 2), element number and local face number");
+    for (py::ssize_t i = 0; i < ids.shape(0); ++i) {
+        out.ids.push_back(ids.at(i, 0));
+        out.faces.push_back(ids.at(i, 1));
+    }
+    return out;
+}
+
+py::array_t<std::int64_t> to_array(const GroupMembers& members) {
+    if (members.kind != GroupKind::facet) return copied<std::int64_t>(members.ids);
+    py::array_t<std::int64_t> out({static_cast<py::ssize_t>(members.ids.size()), py::ssize_t{2}});
+    auto a = out.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < a.shape(0); ++i) {
+        a(i, 0) = members.ids[static_cast<std::size_t>(i)];
+        a(i, 1) = members.faces[static_cast<std::size_t>(i)];
+    }
+    return out;
+}
+
+std::shared_ptr<Mesh> make_mesh(const RealArray& points, const IndexArray& node_ids, const std::vector<CellArrays>& cells,
+                                const std::vector<GroupArrays>& groups) {
+    auto mesh = std::make_shared<Mesh>();
+    if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");
+    const auto n = static_cast<std::size_t>(points.shape(0));
+    mesh->points.resize(n);
+    for (std::size_t i = 0; i < n; ++i) mesh->points[i] = Eigen::Map<const Vec3>(points.data() + 3 * i);
+    mesh->node_ids = to_vector(node_ids);
+    mesh->node_families.assign(n, 0);
+    for (const auto& [type_name, nodes, ids] : cells) {
+        const CellTraits& type = traits(cell_type_from_name(type_name));
+        if (nodes.ndim() != 2 || nodes.shape(1) != type.nodes)
+            throw Error("cells['" + type_name + "'] must have the shape (m, " + std::to_string(type.nodes) + ")");
+        CellBlock& block = mesh->block(type.type);
+        block.connectivity = to_vector(nodes);
+        block.ids = to_vector(ids);
+        block.families.assign(block.ids.size(), 0);
+    }
+    mesh->validate();
+    std::vector<GroupMembers> members;
+    for (const auto& [name, kind, ids] : groups) {
+        mesh->add_group(name, kind_from_name(kind));
+        members.push_back(members_from(kind_from_name(kind), name, ids));
+    }
+    if (!members.empty()) assign_groups(*mesh, members);
+    return mesh;
+}
+
+py::dict cells(const py::object& self) {
+    const Mesh& mesh = self.cast<const Mesh&>();
+    py::dict out;
+    for (const CellBlock& b : mesh.blocks())
+        if (b.size() > 0)
+            out[py::str(std::string(traits(b.type).name))] = view(b.connectivity.data(), {b.size(), traits(b.type).nodes}, self);
+    return out;
+}
+
+py::dict cell_ids(const py::object& self) {
+    const Mesh& mesh = self.cast<const Mesh&>();
+    py::dict out;
+    for (const CellBlock& b : mesh.blocks())
+        if (b.size() > 0) out[py::str(std::string(traits(b.type).name))] = view(b.ids.data(), {b.size()}, self);
+    return out;
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+    module.def("cell_types", [] {
+        py::dict out;
+        for (const CellTraits& t : all_cell_types())
+            out[py::str(std::string(t.name))] = py::make_tuple(t.dimension, t.nodes, t.corners);
+        return out;
+    }, "Element types by name: (dimension, nodes, corners).");
+
+    py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
+        .def(py::init(&make_mesh), py::arg("points"), py::arg("node_ids"), py::arg("cells"), py::arg("groups"))
+        .def_property_readonly("points", [](const py::object& self) {
+            const Mesh& mesh = self.cast<const Mesh&>();
+            const double* data = mesh.points.empty() ? nullptr : mesh.points.front().data();
+            return view(data, {mesh.node_count(), 3}, self);
+        })
+        .def_property_readonly("node_ids", [](const py::object& self) {
+            const Mesh& mesh = self.cast<const Mesh&>();
+            return view(mesh.node_ids.data(), {mesh.node_count()}, self);
+        })
+        .def_property_readonly("cells", &cells)
+        .def_property_readonly("cell_ids", &cell_ids)
+        .def_readwrite("name", &Mesh::name)
+        .def_readwrite("unit", &Mesh::unit)
+        .def_property_readonly("dimension", &Mesh::dimension)
+        .def_property_readonly("node_count", &Mesh::node_count)
+        .def_property_readonly("cell_count", &Mesh::cell_count)
+        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return mesh.solver_input != nullptr; })
+        .def("copy", [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }, py::call_guard<py::gil_scoped_release>())
+        .def("validate", &Mesh::validate, py::call_guard<py::gil_scoped_release>())
+        .def("groups", [](const Mesh& mesh) {
+            std::vector<std::pair<std::string, std::string>> out;
+            for (const Group& g : mesh.groups)
+                if (!g.hidden) out.emplace_back(g.name, to_string(g.kind));
+            return out;
+        })
+        .def("group_ids", [](const Mesh& mesh, const std::string& name, const std::string& kind) {
+            return to_array(group_members(mesh, require_group(mesh, name, kind)));
+        })
+        .def("add_group", [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
+            const GroupMembers members = members_from(kind_from_name(kind), name, ids);
+            const GroupIndex group = mesh.add_group(name, members.kind);
+            try {
+                set_group_members(mesh, group, members);
+            } catch (...) {
+                remove_group(mesh, group);
+                throw;
+            }
+        })
+        .def("set_group_ids", [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
+            set_group_members(mesh, require_group(mesh, name, kind), members_from(kind_from_name(kind), name, ids));
+        })
+        .def("remove_group", [](Mesh& mesh, const std::string& name, const std::string& kind) {
+            remove_group(mesh, require_group(mesh, name, kind));
+        })
+        .def("rename_group", [](Mesh& mesh, const std::string& old_name, const std::string& new_name, const std::string& kind) {
+            const GroupIndex group = require_group(mesh, old_name, kind);
+            const auto taken = mesh.find_group(new_name, kind_from_name(kind));
+            if (taken && *taken != group) throw Error("the mesh already has a " + kind + " group '" + new_name + "'");
+            mesh.groups[static_cast<std::size_t>(group)].name = new_name;
+        });
+}
+
+}  // namespace femscalpel::bindings

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "operators/crack.h"
+#include "operators/scalpel.h"
+
+namespace py = pybind11;
+
+namespace femscalpel::bindings {
+namespace {
+
+py::dict to_dict(const QualitySummary& quality) {
+    py::dict out;
+    out["count"] = quality.count;
+    out["minimum"] = quality.minimum;
+    out["mean"] = quality.mean;
+    out["histogram"] = copied<Index>(quality.histogram);
+    py::list worst;
+    for (const ElementQuality& e : quality.worst) worst.append(py::make_tuple(e.id, e.mean_ratio));
+    out["worst"] = worst;
+    return out;
+}
+
+py::dict to_dict(const GroupRecord& record) {
+    py::dict out;
+    out["name"] = record.name;
+    out["kind"] = std::string(to_string(record.kind));
+    out["dimension"] = record.dimension;
+    out["count_before"] = record.count_before;
+    out["count_after"] = record.count_after;
+    out["measure_before"] = record.measure_before;
+    out["measure_after"] = record.measure_after;
+    out["nodes_moved"] = record.nodes_moved;
+    out["boundary_drift"] = record.boundary_drift;
+    out["status"] = record.status;
+    return out;
+}
+
+py::dict to_dict(const Report& report) {
+    py::dict out;
+    out["operation"] = report.operation;
+    out["name"] = report.name;
+    out["method"] = report.method;
+    out["transition"] = report.transition;
+    py::dict node_sets;
+    for (const auto& [name, ids] : report.node_sets) node_sets[py::str(name)] = copied<Index>(ids);
+    out["node_sets"] = node_sets;
+    out["constraints"] = py::cast(report.constraints);
+    out["quality_before"] = to_dict(report.quality_before);
+    out["quality_after"] = to_dict(report.quality_after);
+    py::list groups;
+    for (const GroupRecord& record : report.groups) groups.append(to_dict(record));
+    out["groups"] = groups;
+    out["nodes_added"] = report.nodes_added;
+    out["nodes_split"] = report.nodes_split;
+    out["nodes_doubled"] = report.nodes_doubled;
+    out["nodes_moved"] = report.nodes_moved;
+    out["elements_added"] = report.elements_added;
+    out["elements_removed"] = report.elements_removed;
+    out["max_displacement"] = report.max_displacement;
+    py::dict seconds;
+    for (const auto& [step, s] : report.seconds) seconds[py::str(step)] = s;
+    out["seconds"] = seconds;
+    out["warnings"] = report.warnings;
+    return out;
+}
+
+CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle) {
+    CrackOptions out;
+    out.name = name;
+    out.method = method_from_name(method);
+    out.transition = transition;
+    out.feature_angle = feature_angle;
+    return out;
+}
+
+/// Runs `operation` without the interpreter lock and returns (mesh, report as a dict).
+template <class Operation>
+py::tuple run(Operation operation) {
+    std::shared_ptr<Mesh> mesh;
+    Report report;
+    {
+        py::gil_scoped_release release;
+        Result result = operation();
+        mesh = std::make_shared<Mesh>(std::move(result.mesh));
+        report = std::move(result.report);
+    }
+    return py::make_tuple(mesh, to_dict(report));
+}
+
+}  // namespace
+
+void bind_operators(py::module_& module) {
+    module.def("crack", [](const Mesh& mesh, const Tool& tool, const std::string& name, const std::string& method,
+                           std::optional<int> transition, double feature_angle) {
+        const CrackOptions o = options(name, method, transition, feature_angle);
+        return run([&] { return crack(mesh, tool, o); });
+    });
+
+    py::class_<Scalpel>(module, "Scalpel")
+        // The session gets its own copy, so that groups added to the Python mesh later do not reach it.
+        .def(py::init([](const Mesh& mesh) { return Scalpel(std::make_shared<const Mesh>(mesh)); }),
+             py::call_guard<py::gil_scoped_release>())
+        .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
+        .def("crack", [](const Scalpel& scalpel, const Tool& tool, const std::string& name, const std::string& method,
+                         std::optional<int> transition, double feature_angle) {
+            const CrackOptions o = options(name, method, transition, feature_angle);
+            return run([&] { return scalpel.crack(tool, o); });
+        });
+}
+
+}  // namespace femscalpel::bindings

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <array>
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "error.h"
+#include "tools/plane.h"
+
+namespace py = pybind11;
+
+namespace femscalpel::bindings {
+namespace {
+
+using Triple = std::array<double, 3>;
+
+Eigen::Vector3d vector(const Triple& t) { return {t[0], t[1], t[2]}; }
+Triple triple(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+void bind_tools(py::module_& module) {
+    py::class_<Tool>(module, "Tool")
+        .def_property_readonly("kind", &Tool::kind)
+        .def_property_readonly("feature_size", &Tool::feature_size)
+        .def("distances", [](const Tool& tool, const RealArray& points) {
+            if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");
+            py::array_t<double> out(points.shape(0));
+            for (py::ssize_t i = 0; i < points.shape(0); ++i)
+                out.mutable_at(i) = tool.distance(Eigen::Map<const Eigen::Vector3d>(points.data() + 3 * i));
+            return out;
+        });
+    py::class_<Plane, Tool>(module, "Plane")
+        .def(py::init([](const Triple& origin, const Triple& normal) { return Plane(vector(origin), vector(normal)); }),
+             py::arg("origin"), py::arg("normal"))
+        .def_property_readonly("origin", [](const Plane& plane) { return triple(plane.origin()); })
+        .def_property_readonly("unit_normal", [](const Plane& plane) { return triple(plane.unit_normal()); });
+}
+
+}  // namespace femscalpel::bindings

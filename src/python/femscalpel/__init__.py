@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cracks, drills and cuts finite-element meshes directly, and keeps every mesh group right.
+
+    import femscalpel as fs
+
+    mesh = fs.read("model.med")
+    result = fs.crack(mesh, fs.Plane(origin=(7.3, 5, 5), normal=(0.9, 0.3, 0.2)), name="CRACK")
+    print(result.report.to_text())
+    fs.write(result.mesh, "cracked.med")
+
+Lengths are in the mesh's own unit. The input mesh is never changed: an operator returns a new, valid mesh
+or raises an error of class :class:`Error`.
+"""
+
+from ._engine import Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
+from .interop import from_meshio, to_meshio
+from .mesh import Group, Groups, Mesh
+from .meshfile import read, write
+from .operators import Result, Scalpel, crack
+from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
+from .tools import Plane, Tool
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "ElementQuality",
+    "Error",
+    "Group",
+    "GroupRecord",
+    "Groups",
+    "Mesh",
+    "Plane",
+    "Quality",
+    "QualityError",
+    "QualitySummary",
+    "ReadError",
+    "Report",
+    "Result",
+    "Scalpel",
+    "Tool",
+    "ToolError",
+    "UnsupportedElementError",
+    "WriteError",
+    "crack",
+    "from_meshio",
+    "read",
+    "to_meshio",
+    "write",
+]

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What an operator did, as data, as text and as CSV."""
+
+import csv
+import dataclasses
+import os
+from dataclasses import dataclass
+from typing import Dict, List, NamedTuple
+
+import numpy as np
+
+
+class ElementQuality(NamedTuple):
+    """An element number and its mean ratio."""
+
+    id: int
+    mean_ratio: float
+
+
+@dataclass(frozen=True, eq=False)
+class QualitySummary:
+    """Shape quality of a set of elements: mean ratio of the corner nodes, 1 equilateral, 0 degenerate."""
+
+    count: int  #: number of elements
+    minimum: float
+    mean: float
+    histogram: np.ndarray  #: (20,) int64; bar k counts mean ratios in [k, k + 1) / 20
+    worst: List[ElementQuality]  #: at most ten, worst first
+
+    @classmethod
+    def _from_engine(cls, fields: dict) -> "QualitySummary":
+        return cls(**{**fields, "worst": [ElementQuality(*e) for e in fields["worst"]]})
+
+
+class Quality(NamedTuple):
+    """Quality of the elements near the tool, before and after (the same elements and their children)."""
+
+    before: QualitySummary
+    after: QualitySummary
+
+
+@dataclass(frozen=True)
+class GroupRecord:
+    """What happened to one group.
+
+    A measure is the sum of lengths, areas or volumes of the members of the group's highest dimension, in the
+    mesh's unit; 0 for node groups.
+    """
+
+    name: str
+    kind: str  #: "node", "element" or "facet"
+    dimension: int  #: of the largest members; 0 for nodes
+    count_before: int
+    count_after: int
+    measure_before: float
+    measure_after: float
+    nodes_moved: int  #: nodes of the group, or of its elements, that changed place
+    boundary_drift: float  #: largest distance of its boundary nodes from the boundary's old shape
+    status: str  #: "untouched", "kept", "changed", "became empty" or "new"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Report:
+    """What an operator did; the same for all operators. Lengths are in the mesh's unit."""
+
+    operation: str  #: "crack", ...
+    name: str  #: prefix of the groups it made
+    method: str  #: "snap" or "deform"
+    transition: int  #: number of rings around the tool that were allowed to move
+    node_sets: Dict[str, np.ndarray]  #: node numbers: ICN, ECN (interface), ITN, ETN (transition), as in the paper
+    constraints: Dict[str, int]  #: number of constraints on moving nodes by kind: "plane", "tangent plane", ...
+    quality: Quality  #: near the tool, before and after
+    groups: List[GroupRecord]
+    nodes_added: int  #: by splitting and by doubling
+    nodes_split: int  #: of them, born on split edges
+    nodes_doubled: int  #: of them, copies of interface nodes
+    nodes_moved: int
+    elements_added: int
+    elements_removed: int
+    max_displacement: float
+    seconds: Dict[str, float]  #: by step, in order
+    warnings: List[str]
+
+    @classmethod
+    def _from_engine(cls, fields: dict) -> "Report":
+        fields = dict(fields)
+        before, after = (QualitySummary._from_engine(fields.pop(key)) for key in ("quality_before", "quality_after"))
+        groups = [GroupRecord(**g) for g in fields.pop("groups")]
+        return cls(quality=Quality(before, after), groups=groups, **fields)
+
+    def to_text(self) -> str:
+        """Summary, warnings and the table of groups as aligned text."""
+        before, after = self.quality
+        facts = [
+            ("nodes", f"{self.nodes_added} added ({self.nodes_split} on split edges, {self.nodes_doubled} doubled), "
+                      f"{self.nodes_moved} moved by at most {self.max_displacement:.4g}"),
+            ("elements", f"{self.elements_added} added, {self.elements_removed} removed"),
+            ("node sets", _counts({name: len(ids) for name, ids in self.node_sets.items()})),
+            ("constraints", _counts(self.constraints)),
+            ("mean ratio", f"minimum {before.minimum:.3f} -> {after.minimum:.3f}, mean {before.mean:.3f} -> {after.mean:.3f} "
+                           f"({before.count} -> {after.count} elements near the tool)"),
+            ("seconds", f"{sum(self.seconds.values()):.3f}"
+                        + (f" ({_counts({k: f'{s:.3f}' for k, s in self.seconds.items()})})" if self.seconds else "")),
+        ]
+        lines = [f"{self.operation} {self.name}: method {self.method}, transition {self.transition}"]
+        lines += [f"  {label:<12} {fact}" for label, fact in facts]
+        lines += [f"  {'warning':<12} {warning}" for warning in self.warnings] or [f"  {'warnings':<12} none"]
+        return "\n".join(lines + ["", *self._group_table()]) + "\n"
+
+    def _group_table(self) -> List[str]:
+        header = ("group", "kind", "status", "count", "->", "after", "measure", "->", "after", "change", "moved", "drift")
+        rows = [header]
+        for g in self.groups:
+            measured = g.kind != "node" and g.dimension > 0
+            if measured and g.measure_before:
+                change = f"{(g.measure_after - g.measure_before) / g.measure_before:+.1e}"
+            else:
+                change = "-"
+            unit = {0: "", 1: "L", 2: "A", 3: "V"}[g.dimension] if measured else ""
+            rows.append((
+                g.name, g.kind + (f" {unit}" if unit else ""), g.status, str(g.count_before), "->", str(g.count_after),
+                f"{g.measure_before:.6g}" if measured else "-", "->", f"{g.measure_after:.6g}" if measured else "-", change,
+                str(g.nodes_moved), f"{g.boundary_drift:.2g}",
+            ))
+        widths = [max(len(row[i]) for row in rows) for i in range(len(header))]
+        lines = [" ".join(cell.ljust(w) if i < 3 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip()
+                 for row in rows]
+        return [lines[0], "-" * len(lines[0]), *lines[1:]] if self.groups else ["no groups"]
+
+    def to_csv(self, file) -> None:
+        """Writes the table of groups as CSV, one row per group, columns as in :class:`GroupRecord`.
+
+        `file` is a path, or an open text file.
+        """
+        if isinstance(file, (str, os.PathLike)):
+            with open(file, "w", newline="", encoding="utf-8") as opened:
+                self.to_csv(opened)
+            return
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([field.name for field in dataclasses.fields(GroupRecord)])
+        writer.writerows(dataclasses.astuple(group) for group in self.groups)
+
+    def __str__(self) -> str:
+        return self.to_text()
+
+    def __repr__(self) -> str:
+        return (f"<Report {self.operation} {self.name!r}: {self.nodes_added} nodes added, {self.nodes_moved} moved, "
+                f"mean ratio at least {self.quality.after.minimum:.3f}, {len(self.warnings)} warnings>")
+
+
+def _counts(values: dict) -> str:
+    return ", ".join(f"{key} {value}" for key, value in values.items()) or "none"
