@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// What the TYPE of an *ELEMENT card says about its elements.
+struct DeckElementType {
+    CellType cell = CellType::tetra;
+    /// Plane stress, plane strain and axisymmetric elements count their edges S1, S2, ... and call their
+    /// faces SN and SP; shells count negative and positive side first.
+    bool plane = false;
+};
+
+/// Element types CalculiX 2.20 knows, and C3D5; suffixes for integration and formulation (R, I, T, H,
+/// ...), heat transfer (DC3D8, DCAX4, ...) and fluid (F3D8) variants included. None for others.
+/// CalculiX and VTK number the nodes of all of them alike, except that three-node lines (B32, T3D3, D)
+/// have their middle node second.
+std::optional<DeckElementType> deck_element_type(std::string_view label);
+
+/// The label for elements that no card says more about: solids C3D*, shells S*, beams B*; empty for
+/// types CalculiX has not.
+std::string_view default_deck_label(CellType type);
+
+/// Exchanges CalculiX's and the mesh's node order in place; its own inverse.
+void swap_node_order(CellType type, std::span<Index> nodes);
+
+/// Mesh face number (Facet::face) of surface label S1 to S6, given as 1 to 6; SN is 5 and SP is 6.
+int face_from_label(int label, bool plane);
+/// The inverse of face_from_label().
+int label_from_face(int face, bool plane);
+/// The label as CalculiX writes it: "S3", "SPOS" (shells), "SN" (plane elements).
+std::string_view label_name(int label, CellType type, bool plane);
+/// Label number of "S3", "SNEG", "SPOS", "SN" or "SP"; 0 for anything else.
+int label_from_name(std::string_view name);
+
+}  // namespace femscalpel
