@@ -34,7 +34,7 @@ MAT_S355, GRAV, 9810., 0., 0., -1.
 MAT_S460, GRAV, 9810., 0., 0., -1.
 *CLOAD
 LINE_LOAD, 3, {line_load:.6g}
-POINT_LOAD, 3, -20000.
+POINT_LOAD, 3, -8000.
 *NODE FILE, OUTPUT={output}
 U
 *EL FILE
@@ -90,7 +90,7 @@ def write_deck(model: Model, path: Path) -> None:
         np.isin(model.cell_ids[next(b for b in model.cells if b.startswith("line"))], model.groups["LINE_LOAD"][1])]))
     lines.append(LOADS.format(
         pressure="*DSLOAD\nPRESSURE, P, 0.6" if solid else "*DLOAD\nPRESSURE, P, 0.6",
-        line_load=-60000.0 / line_nodes,
+        line_load=-30000.0 / line_nodes,
         output="3D" if solid else "2D",
         prints="".join(f"*NODE PRINT, NSET={s}, TOTALS=ONLY\nRF\n" for s in SUPPORT_NAMES)).rstrip())
     path.write_text("\n".join(lines) + "\n")

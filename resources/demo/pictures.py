@@ -21,7 +21,8 @@ PARTS = {
     "ROOF": "#a9c8e8", "FLOOR": "#5a7fa8", "SIDE_A": "#7fa9d1", "SIDE_B": "#6b93bd", "END_A": "#93d0c4", "END_B": "#63b0a3",
     "DIAPHRAGM": "#b9a7d6", "LONGITUDINALS": "#8fbf6b",
 }
-STRESS_MAP = plt.get_cmap("turbo")
+STRESS_MAP = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "stress", ["#e3e9f0", "#9cc3e4", "#4fae9b", "#f0d040", "#ef7d29", "#b0131c"])
 DIRECTION = np.array([-0.62, -1.0, 0.62])  # from the scene to the eye
 HANGER = np.array([200.0, -50.0, 445.0])   # middle of the cracked hanger
 
@@ -36,7 +37,7 @@ class Mesh:
     part: np.ndarray              # (m,) index into PARTS
     lines: dict[str, np.ndarray]  # edge group -> (k, 2)
     nodes: dict[str, np.ndarray]  # node group -> rows
-    lips: np.ndarray              # (k, 2) the crack's border, or for shells the crack itself; empty without a crack
+    lips: np.ndarray              # (k, 2) border of both lips, for shells the lips themselves; empty without a crack
 
 
 def prepare(mesh) -> Mesh:
@@ -65,12 +66,14 @@ def prepare(mesh) -> Mesh:
             nodes[name] = np.array([row_of[i] for i in members], int)
         elif group.kind == "element" and members and members[0] in rows.get("line", {}):
             lines[name] = np.array([cells["line"][rows["line"][i]][:2] for i in members])
-        elif group.kind == "element" and name == "CRACK_P" and members:
+        elif group.kind == "element" and name in ("CRACK_P", "CRACK_N") and members:
             triangles = np.array([cells["triangle"][rows["triangle"][i]][:3] for i in members])
             edges = np.sort(np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
             edges, count = np.unique(edges, axis=0, return_counts=True)
-            lips = edges[count == 1]
-    return Mesh(mesh.points, row_of, surface, part, lines, nodes, lines.get("CRACK_P", lips))
+            lips = np.vstack([lips, edges[count == 1]])
+    for name in ("CRACK_P", "CRACK_N"):
+        lips = np.vstack([lips, lines.get(name, lips[:0])])
+    return Mesh(mesh.points, row_of, surface, part, lines, nodes, lips)
 
 
 def by_node(mesh: Mesh, values: dict[int, np.ndarray]) -> np.ndarray:
@@ -126,11 +129,11 @@ def _surface(mesh: Mesh, points, cell_colours=None, node_colours=None, edges=Tru
     actor = _actor(poly)
     look = actor.GetProperty()
     look.SetInterpolationToFlat()
-    look.SetAmbient(0.35)
-    look.SetDiffuse(0.7)
+    look.SetAmbient(0.6)
+    look.SetDiffuse(0.45)
     if edges:
         look.EdgeVisibilityOn()
-        look.SetEdgeColor(0.15, 0.18, 0.22)
+        look.SetEdgeColor(0.27, 0.31, 0.36)
         look.SetLineWidth(1.0)
     return actor
 
@@ -210,7 +213,7 @@ def _mesh_scene(mesh: Mesh, size, marks: float, focus, scale) -> np.ndarray:
     actors = [_surface(mesh, points, cell_colours=_colours(PARTS.values())[mesh.part]),
               _tubes(points, mesh.lines["WELD_STIFFENERS"], "#1a1a1a", 3 * marks),
               _tubes(points, mesh.lines["LINE_LOAD"], "#c2185b", 6 * marks),
-              _spheres(points[mesh.nodes["SUPPORTS"]], "#c62828", 8 * marks),
+              _spheres(points[mesh.nodes["SUPPORTS"]], "#c62828", 7 * marks),
               _spheres(points[mesh.nodes["GAUGE_HANGER_1"]], "#2e7d32", 9 * marks),
               _spheres(points[mesh.nodes["GAUGE_FLOOR"]], "#2e7d32", 9 * marks),
               _arrows_down(points[mesh.nodes["POINT_LOAD"]], "#c2185b", 130)]
@@ -257,12 +260,14 @@ def opened_picture(path: Path, title: str, states, magnification: float) -> None
                                                      (states[1], (900, 1250), ZOOM)):
         colours = (STRESS_MAP(np.clip(stress / top, 0, 1))[:, :3] * 255).astype(np.uint8)
         points = mesh.points + magnification * displacement
-        view = dict(view, scale=190) if view is ZOOM else view
-        scenes.append(_render([_surface(mesh, points, node_colours=colours)], size, **view))
+        actors = [_surface(mesh, points, node_colours=colours, edges=view is not WHOLE)]
+        if len(mesh.lips):
+            actors.append(_tubes(points, mesh.lips, "#d50000", 3 if view is WHOLE else 1.2))
+        scenes.append(_render(actors, size, **dict(view, scale=190) if view is ZOOM else view))
     figure = plt.figure(figsize=(15, 9.2), dpi=100)
     grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1], left=0.01, right=0.92, top=0.9, bottom=0.02, wspace=0.02, hspace=0.08)
     for place, scene, caption in zip((grid[0, 0], grid[1, 0], grid[:, 1]), scenes, (
-            "Before", "After: the cracked hanger is idle, its neighbours carry more", "After: the crack opens")):
+            "Before", "After: the cracked hanger is idle, its neighbours carry more", "After: the crack (lips in red) opens")):
         _show(figure.add_subplot(place), scene, caption)
     scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, top), STRESS_MAP)
     bar = figure.colorbar(scale, cax=figure.add_axes((0.935, 0.15, 0.015, 0.6)))
