@@ -109,7 +109,8 @@ def write_document(out: Path) -> None:
     say("FreeCAD: caisson.FCStd with parametric cracks")
     environment = dict(os.environ, FEMSCALPEL_DEMO_OUTPUT=str(out), FEMSCALPEL_DEMO_PLANE=repr(PLANE))
     script = Path(__file__).with_name("make_document.py")
-    done = subprocess.run(["freecadcmd", "-M", str(WORKBENCH), str(script)], env=environment, text=True,
+    # The script comes first: FreeCAD 0.20 hands the arguments before it to Python, which does not know -M.
+    done = subprocess.run(["freecadcmd", str(script), "-M", str(WORKBENCH)], env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     (out / "freecad.log").write_text(done.stdout)
     if "document saved" not in done.stdout:
