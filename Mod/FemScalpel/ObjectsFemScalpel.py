@@ -51,7 +51,8 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     Raises
     ------
     TypeError, ValueError
-        `source` is not a FEM mesh object of `doc`, or the plane is given twice or has a zero normal.
+        `source` is not a FEM mesh object of `doc`, the plane is given twice or has a zero normal, or an option is
+        not one the property takes. Nothing is added then.
     """
     if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
         raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
@@ -59,13 +60,17 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         raise ValueError(f"source '{source.Label}' is in another document")
     plane = _plane_placement(source, placement, origin, normal)
     obj = doc.addObject("Fem::FemMeshObjectPython", name)
-    Crack(obj)
-    obj.PlanePlacement = plane
-    obj.Method = method
-    obj.Transition = transition
-    obj.GroupName = group_name
-    obj.FeatureAngle = feature_angle
-    obj.Source = source
+    try:
+        Crack(obj)
+        obj.PlanePlacement = plane
+        obj.Method = method
+        obj.Transition = transition
+        obj.GroupName = group_name
+        obj.FeatureAngle = feature_angle
+        obj.Source = source
+    except Exception:
+        doc.removeObject(obj.Name)
+        raise
     if FreeCAD.GuiUp:
         obj.ViewObject.Proxy = 0  # shows the object with FreeCAD's own view provider
     return obj

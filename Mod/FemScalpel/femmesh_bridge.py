@@ -8,8 +8,8 @@ What the two do not share:
 - FemMesh has no facet groups, no means to add point (0D) elements and none to add the element types in `NOT_ADDABLE`:
   facet groups and point elements are left out with a warning, the other types raise femscalpel.WriteError.
 - FemMesh allows several groups of one name and type; all but the first get a suffix "_2", "_3", ... and a warning.
-- FreeCAD documents keep FemMesh in a form that renumbers nodes and elements from 1 and drops empty groups. That
-  happens when a document is saved and loaded, not here.
+- FreeCAD itself drops the empty groups of a FemMesh whenever it copies it, for example into a document object, and
+  renumbers nodes and elements from 1 when it saves a document.
 """
 
 from collections import deque

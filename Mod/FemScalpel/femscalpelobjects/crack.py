@@ -43,8 +43,9 @@ class Crack:
     When the crack cannot be made the object is left without a mesh, with FreeCAD's error mark and the reason, so that
     no outdated mesh can be mistaken for the result.
 
-    FreeCAD documents renumber meshes and drop empty groups when they are saved. A loaded object is therefore marked for
-    recompute: that gives the mesh the numbers it has when made from Source.
+    FreeCAD drops empty groups whenever a mesh is given to a document object, and renumbers nodes and elements from 1 when
+    a document is saved. So a loaded object and a loaded Source may number the same element differently; a recompute
+    (obj.touch(), then doc.recompute()) makes the mesh anew and brings the numbers together again.
     """
 
     Type = "FemScalpel::Crack"
@@ -78,7 +79,6 @@ class Crack:
 
     def onDocumentRestored(self, obj):
         self.add_properties(obj)
-        obj.touch()
 
     def onChanged(self, obj, prop):
         # While a document loads, a link may be set before what it points to is complete.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -23,6 +25,13 @@ namespace {
 
 // Neither library is thread-safe.
 std::mutex library_mutex;
+
+/// Keeps HDF5 from printing its error stack. MED-fichier does so too, with an older call that leaves HDF5
+/// confused when it closes at the end of the program; hence once more at the end.
+struct QuietHdf5 {
+    QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+    ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+};
 
 /// An element type as MED knows it.
 struct MedType {
@@ -127,22 +136,38 @@ bool check_dataset(hid_t object) {
     return good;
 }
 
+herr_t visit_link(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
+
+/// MED-fichier finds families by the order they were made in, an index that can be damaged by itself.
+bool check_creation_order(hid_t group) {
+    const hid_t properties = H5Gget_create_plist(group);
+    if (properties < 0) return false;
+    unsigned order = 0;
+    const bool known = H5Pget_link_creation_order(properties, &order) >= 0;
+    H5Pclose(properties);
+    if (!known) return false;
+    hsize_t first = 0;
+    return !(order & H5P_CRT_ORDER_INDEXED) ||
+           H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_NATIVE, &first, visit_link, nullptr) >= 0;
+}
+
 herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void*) {
     const char* slash = std::strrchr(path, '/');
     if (std::strlen(slash ? slash + 1 : path) > MED_NAME_SIZE || std::strlen(path) > longest_path) return -1;
-    if (info->num_attrs == 0 && info->type != H5O_TYPE_DATASET) return 0;
+    const bool family_list = slash && (std::strcmp(slash, "/ELEME") == 0 || std::strcmp(slash, "/NOEUD") == 0);
+    if (info->num_attrs == 0 && info->type != H5O_TYPE_DATASET && !family_list) return 0;
     const hid_t object = H5Oopen(root, path, H5P_DEFAULT);
     if (object < 0) return -1;
     hsize_t first = 0;
     bool good = H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &first, check_attribute, nullptr) >= 0;
     if (good && info->type == H5O_TYPE_DATASET) good = check_dataset(object);
+    if (good && family_list) good = check_creation_order(object);
     H5Oclose(object);
     return good ? 0 : -1;
 }
 
 /// Whether the parts of the file MED-fichier reads a mesh from can be walked and fit its buffers.
 bool sound(const std::string& path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) return false;
     MedFile closer(file);
@@ -222,7 +247,6 @@ public:
         if (std::FILE* probe = std::fopen(path_.c_str(), "rb")) std::fclose(probe);
         else fail(std::string("cannot be read: ") + std::strerror(errno));
 
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
         if (H5Fis_hdf5(path_.c_str()) <= 0) fail("not a MED file (nor any HDF5 file)");
         if (!sound(path_)) fail("truncated or damaged: its structure cannot be read");
         med_bool hdf_good = MED_FALSE, med_good = MED_FALSE;
@@ -801,6 +825,7 @@ private:
 
 Mesh read_med(const std::filesystem::path& path) {
     const std::lock_guard lock(library_mutex);
+    const QuietHdf5 quiet;
     try {
         return Reader(path).read();
     } catch (const std::bad_alloc&) {
@@ -810,6 +835,7 @@ Mesh read_med(const std::filesystem::path& path) {
 
 void write_med(const Mesh& mesh, const std::filesystem::path& path) {
     const std::lock_guard lock(library_mutex);
+    const QuietHdf5 quiet;
     Writer(mesh, path).write();
 }
 

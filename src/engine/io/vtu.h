@@ -7,6 +7,19 @@
 
 namespace femscalpel {
 
+/// Writes a mesh as VTK XML unstructured grid, for ParaView: appended raw data, compressed with zlib.
+///
+/// Elements stand in the order of CellType. Point data: "NodeNumber", "Family" and per node group an
+/// array of its name, 1 for members, else 0. Cell data: "ElementNumber", "Family" and per element group
+/// the same; per facet group a bit mask of local faces (face 1 is bit 0). An array whose name is taken
+/// within its section gets "_" appended. Hidden groups are left out. Bytes of group names that are not
+/// UTF-8 are taken as Latin-1.
+///
+/// The corners of a linear wedge are turned round, since VTK wants the normal of its base outside; this
+/// is what meshio does, so that reading the file there gives this mesh.
+///
+/// Written by way of AtomicFile. The mesh must be valid (Mesh::validate). Throws WriteError that names the
+/// path: not writable, disk full.
 void write_vtu(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace femscalpel

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "io/vtu.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "error.h"
+#include "io/atomic_file.h"
+
+namespace femscalpel {
+namespace {
+
+/// VTK's cell type numbers in the order of CellType (vtkCellType.h).
+constexpr std::array<std::uint8_t, cell_type_count> vtk_types = {1,  3,  21, 5,  22, 34, 9,  23, 28, 10,
+                                                                24, 14, 27, 13, 26, 32, 12, 25, 29};
+
+/// Length of the valid UTF-8 character that `text` begins with; 0 if there is none.
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned lead = byte(0);
+    const std::size_t n = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3
+                          : lead >= 0xF0 && lead < 0xF5                 ? 4 : 0;
+    if (n == 0 || text.size() < n) return 0;
+    for (std::size_t i = 1; i < n; ++i)
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+    // Overlong forms, surrogates and what lies beyond Unicode.
+    if (lead == 0xE0 && byte(1) < 0xA0) return 0;
+    if (lead == 0xED && byte(1) >= 0xA0) return 0;
+    if (lead == 0xF0 && byte(1) < 0x90) return 0;
+    if (lead == 0xF4 && byte(1) >= 0x90) return 0;
+    return n;
+}
+
+/// Text as an XML attribute value; control characters, which XML cannot hold, become "_".
+std::string escaped(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        std::size_t n = utf8_length(text);
+        const auto c = static_cast<unsigned char>(text[0]);
+        if (n == 0) {  // Latin-1
+            out += static_cast<char>(0xC0 | (c >> 6));
+            out += static_cast<char>(0x80 | (c & 0x3F));
+            n = 1;
+        } else if (c < 0x20) out += '_';
+        else if (c == '&') out += "&amp;";
+        else if (c == '<') out += "&lt;";
+        else if (c == '>') out += "&gt;";
+        else if (c == '"') out += "&quot;";
+        else out += text.substr(0, n);
+        text.remove_prefix(n);
+    }
+    return out;
+}
+
+/// Appends a value's bytes.
+template <class T>
+void put(std::string& out, T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    out.append(bytes, sizeof(T));
+}
+
+/// The file: the XML of its head and the compressed arrays that follow.
+class Document {
+public:
+    std::string xml;
+    std::string data;
+
+    /// One array, of `components` values each, as a DataArray element and a compressed block.
+    template <class T>
+    void array(std::string_view type, std::string_view name, const std::vector<T>& values, int components = 1) {
+        xml += "<DataArray type=\"";
+        xml += type;
+        xml += "\" Name=\"" + escaped(name) + "\" NumberOfComponents=\"" + std::to_string(components) +
+               "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
+        compress(reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T));
+    }
+
+private:
+    // vtkZLibDataCompressor's layout: number of blocks, their size, the last one's if it is smaller
+    // (else 0), then the compressed sizes, then the blocks.
+    void compress(const unsigned char* bytes, std::size_t size) {
+        constexpr std::size_t block_size = 1 << 18;
+        const std::size_t blocks = (size + block_size - 1) / block_size;
+        const std::size_t head = data.size();
+        put<std::uint64_t>(data, blocks);
+        put<std::uint64_t>(data, block_size);
+        put<std::uint64_t>(data, size % block_size);
+        data.append(blocks * sizeof(std::uint64_t), '\0');
+        std::vector<unsigned char> packed(compressBound(block_size));
+        for (std::size_t b = 0; b < blocks; ++b) {
+            uLongf length = packed.size();
+            const std::size_t here = std::min(block_size, size - b * block_size);
+            // With a buffer of this size only lack of memory can make it fail.
+            if (compress2(packed.data(), &length, bytes + b * block_size, static_cast<uLong>(here), Z_BEST_SPEED) != Z_OK)
+                throw std::bad_alloc();
+            const auto stored = static_cast<std::uint64_t>(length);
+            std::memcpy(data.data() + head + (3 + b) * sizeof stored, &stored, sizeof stored);
+            data.append(reinterpret_cast<const char*>(packed.data()), length);
+        }
+    }
+};
+
+/// Array names of one section, made unique.
+class Names {
+public:
+    std::string unique(std::string name) {
+        while (!taken_.insert(name).second) name += '_';
+        return name;
+    }
+
+private:
+    std::set<std::string> taken_;
+};
+
+/// 1 for the families that contain `group`, by family.
+std::vector<std::uint8_t> families_with(const Mesh& mesh, GroupIndex group) {
+    std::vector<std::uint8_t> in(static_cast<std::size_t>(mesh.families.size()));
+    for (FamilyIndex f = 0; f < mesh.families.size(); ++f) in[static_cast<std::size_t>(f)] = mesh.families.contains(f, group);
+    return in;
+}
+
+void write_point_data(Document& document, const Mesh& mesh) {
+    Names names;
+    document.xml += "<PointData>\n";
+    document.array("Int64", names.unique("NodeNumber"), mesh.node_ids);
+    document.array("Int32", names.unique("Family"), mesh.node_families);
+    std::vector<std::uint8_t> flags(mesh.points.size());
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+        const Group& group = mesh.groups[g];
+        if (group.hidden || group.kind != GroupKind::node) continue;
+        const std::vector<std::uint8_t> in = families_with(mesh, static_cast<GroupIndex>(g));
+        for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = in[static_cast<std::size_t>(mesh.node_families[i])];
+        document.array("UInt8", names.unique(group.name), flags);
+    }
+    document.xml += "</PointData>\n";
+}
+
+void write_cell_data(Document& document, const Mesh& mesh) {
+    std::vector<Index> ids;
+    std::vector<FamilyIndex> families;
+    std::array<std::size_t, cell_type_count> first{};
+    for (const CellBlock& block : mesh.blocks()) {
+        first[static_cast<std::size_t>(block.type)] = ids.size();
+        ids.insert(ids.end(), block.ids.begin(), block.ids.end());
+        families.insert(families.end(), block.families.begin(), block.families.end());
+    }
+    Names names;
+    document.xml += "<CellData>\n";
+    document.array("Int64", names.unique("ElementNumber"), ids);
+    document.array("Int32", names.unique("Family"), families);
+    std::vector<std::uint8_t> flags(ids.size());
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+        const Group& group = mesh.groups[g];
+        if (group.hidden || group.kind == GroupKind::node) continue;
+        const std::vector<std::uint8_t> in = families_with(mesh, static_cast<GroupIndex>(g));
+        if (group.kind == GroupKind::element) {
+            for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = in[static_cast<std::size_t>(families[i])];
+        } else {
+            std::ranges::fill(flags, std::uint8_t{0});
+            for (const Facet& f : mesh.facets)
+                if (in[static_cast<std::size_t>(f.family)])
+                    flags[first[static_cast<std::size_t>(f.type)] + static_cast<std::size_t>(f.cell)] |=
+                        static_cast<std::uint8_t>(1u << (f.face - 1));
+        }
+        document.array("UInt8", names.unique(group.name), flags);
+    }
+    document.xml += "</CellData>\n";
+}
+
+void write_cells(Document& document, const Mesh& mesh) {
+    std::vector<Index> connectivity, offsets;
+    std::vector<std::uint8_t> types;
+    for (const CellBlock& block : mesh.blocks()) {
+        const std::size_t start = connectivity.size();
+        connectivity.insert(connectivity.end(), block.connectivity.begin(), block.connectivity.end());
+        if (block.type == CellType::wedge)
+            for (std::size_t c = start; c < connectivity.size(); c += 6) {
+                std::swap(connectivity[c + 1], connectivity[c + 2]);
+                std::swap(connectivity[c + 4], connectivity[c + 5]);
+            }
+        const auto nodes = static_cast<std::size_t>(traits(block.type).nodes);
+        for (std::size_t c = 1; c <= block.ids.size(); ++c) offsets.push_back(static_cast<Index>(start + c * nodes));
+        types.insert(types.end(), block.ids.size(), vtk_types[static_cast<std::size_t>(block.type)]);
+    }
+    document.xml += "<Cells>\n";
+    document.array("Int64", "connectivity", connectivity);
+    document.array("Int64", "offsets", offsets);
+    document.array("UInt8", "types", types);
+    document.xml += "</Cells>\n";
+}
+
+}  // namespace
+
+void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
+    AtomicFile target(path);
+    Document document;
+    document.xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    document.xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    document.xml += "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n";
+    document.xml += "<Piece NumberOfPoints=\"" + std::to_string(mesh.node_count()) + "\" NumberOfCells=\"" +
+                    std::to_string(mesh.cell_count()) + "\">\n";
+    write_point_data(document, mesh);
+    write_cell_data(document, mesh);
+    std::vector<double> coordinates;
+    coordinates.reserve(3 * mesh.points.size());
+    for (const Vec3& p : mesh.points) coordinates.insert(coordinates.end(), p.data(), p.data() + 3);
+    document.xml += "<Points>\n";
+    document.array("Float64", "Points", coordinates, 3);
+    document.xml += "</Points>\n";
+    write_cells(document, mesh);
+    document.xml += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+
+    std::ofstream file(target.temporary(), std::ios::binary | std::ios::trunc);
+    file << document.xml << document.data << "\n</AppendedData>\n</VTKFile>\n";
+    file.close();
+    if (!file) throw WriteError(path.string() + ": cannot be written: the disk may be full");
+    target.commit();
+}
+
+}  // namespace femscalpel
