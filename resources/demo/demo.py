@@ -21,7 +21,7 @@ import pictures
 
 # Crosses the hanger of STIFFENER_1 only: the plane rises above all other hangers and stays clear of the box.
 PLANE = {"origin": (200, -50, 430), "normal": (-0.33, -0.30, 1)}
-MAGNIFICATION = 150
+MAGNIFICATION = 200
 WORKBENCH = Path(fs.__file__).resolve().parents[1]
 start = time.monotonic()
 
@@ -72,8 +72,8 @@ def run_variant(solid: bool, size: float, out: Path) -> None:
     fs.write(mesh, files[".med"][0])
     calculix.write_deck(model, files[".inp"][0])
 
+    say(f"{kind}: read, crack, write {files['.med'][0].name}")
     mesh, result = crack_file(*files[".med"])
-    say(f"{kind}: cracked {files['.med'][0].name}: {mesh}")
     for written, path in zip((mesh, result.mesh), files[".vtu"]):
         fs.write(written, path)
     report = result.report
@@ -81,17 +81,15 @@ def run_variant(solid: bool, size: float, out: Path) -> None:
     report.to_csv(out / f"caisson_{kind}_groups.csv")
     print("\n" + "\n".join("    " + line for line in report.to_text().splitlines()))
     interface = len(report.node_sets["ICN"]) + len(report.node_sets["ECN"])
-    print(f"    In the terms of the paper's Figure 10: {interface} nodes moved onto the crack plane, "
-          f"{report.constraints.get('plane', 0)} plane constraints, {report.constraints.get('tangent plane', 0)} tangent-plane constraints.\n")
+    print(f"    In the terms of the paper's Figure 10: {interface} nodes on the crack plane, "
+          f"{report.constraints.get('plane', 0)} plane and {report.constraints.get('tangent plane', 0)} tangent-plane constraints.\n")
 
+    say(f"{kind}: read, crack, write {files['.inp'][0].name}, a whole CalculiX deck")
     deck, cracked_deck = crack_file(*files[".inp"])
-    say(f"{kind}: cracked {files['.inp'][0].name}: all cards but nodes, elements and sets kept as they were")
     if cracked_deck.report.nodes_added != report.nodes_added:
         raise RuntimeError(f"the crack added {report.nodes_added} nodes to the MED mesh, {cracked_deck.report.nodes_added} to the deck")
-    solutions = []
-    for path in files[".inp"]:
-        say(f"{kind}: ccx {path.stem}")
-        solutions.append(calculix.run(path))
+    say(f"{kind}: ccx solves {' and '.join(path.name for path in files['.inp'])}")
+    solutions = calculix.run(list(files[".inp"]))
     print("\n" + "\n".join(compare(*solutions, deck, cracked_deck.mesh)) + "\n", flush=True)
 
     say(f"{kind}: pictures")

@@ -233,8 +233,8 @@ def mesh_picture(path: Path, title: str, before: Mesh, after: Mesh) -> None:
     figure = plt.figure(figsize=(15, 9.2), dpi=100)
     grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], left=0.01, right=0.99, top=0.9, bottom=0.15, wspace=0.02, hspace=0.08)
     _show(figure.add_subplot(grid[:, 0]), _mesh_scene(after, (1400, 1060), 1.0, **WHOLE), "Whole structure, crack in red")
-    _show(figure.add_subplot(grid[0, 1]), _mesh_scene(before, (800, 500), 0.35, **ZOOM), "Hanger of STIFFENER_1 before")
-    _show(figure.add_subplot(grid[1, 1]), _mesh_scene(after, (800, 500), 0.35, **ZOOM), "after: faces lie on the plane, groups kept")
+    _show(figure.add_subplot(grid[0, 1]), _mesh_scene(before, (800, 500), 0.35, **ZOOM), "Hanger of STIFFENER_1, before")
+    _show(figure.add_subplot(grid[1, 1]), _mesh_scene(after, (800, 500), 0.35, **ZOOM), "The same after: nodes lie on the crack plane, groups are kept")
     keys = [Patch(facecolor=c, edgecolor="0.3", label=n) for n, c in PARTS.items()]
     keys += [Line2D([], [], color="#1a1a1a", lw=3, label="WELD_STIFFENERS (edges)"),
              Line2D([], [], color="#c2185b", lw=4, label="LINE_LOAD (edges)"),
