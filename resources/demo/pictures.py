@@ -248,7 +248,7 @@ def mesh_picture(path: Path, title: str, before: Mesh, after: Mesh) -> None:
     plt.close(figure)
 
 
-def opened_picture(path: Path, title: str, states, magnification: float) -> None:
+def opened_picture(path: Path, title: str, states, magnification: float, stress_name: str) -> None:
     """Deformed shapes before and after, coloured by von Mises stress.
 
     `states` holds for before and after: Mesh, displacement (n, 3) in mm, von Mises stress (n,) in MPa.
@@ -271,7 +271,7 @@ def opened_picture(path: Path, title: str, states, magnification: float) -> None
         _show(figure.add_subplot(place), scene, caption)
     scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, top), STRESS_MAP)
     bar = figure.colorbar(scale, cax=figure.add_axes((0.935, 0.15, 0.015, 0.6)))
-    bar.set_label("von Mises stress, MPa", fontsize=12)
+    bar.set_label(f"{stress_name}, MPa", fontsize=12)
     figure.suptitle(f"{title}; displacements magnified {magnification:.0f} times", fontsize=15, x=0.01, ha="left")
     figure.savefig(path)
     plt.close(figure)
