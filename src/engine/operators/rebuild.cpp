@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "mesh/quality.h"
+#include "semantics/solver_input.h"
 
 namespace femscalpel {
 namespace {
@@ -19,6 +20,7 @@ public:
         Mesh& mesh = out_.mesh;
         next_node_ = input_.largest_node_id() + 1;
         next_cell_ = input_.largest_cell_id() + 1;
+        if (input_.solver_input) next_cell_ = std::max(next_cell_, input_.solver_input->largest_other_element() + 1);
         write_nodes();
         write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
         write_cells(band_.triangles, lips_.triangles, band_.triangle_cells, triangle_cell_);
