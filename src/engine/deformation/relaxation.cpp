@@ -172,6 +172,17 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
     BandMesh& band = d.band;
     std::vector<char> may_move(static_cast<std::size_t>(band.size()), 0);
     for (const int v : movable) may_move[v] = 1;
+    std::vector<double> tetra_q(static_cast<std::size_t>(band.tetras.size())), shell_q(static_cast<std::size_t>(band.triangles.size()), 1.0);
+    for (int t = 0; t < band.tetras.size(); ++t)
+        if (band.tetras.alive(t)) tetra_q[t] = tetra_quality(d, t);
+    for (int t = 0; t < band.triangles.size(); ++t)
+        if (band.triangles.alive(t) && d.constraints.is_shell(band.triangles.origin(t))) shell_q[t] = shell_quality(d, t);
+    const auto worst_around = [&](int v) {
+        double worst = 1;
+        for (const int t : band.tetras.around(v)) worst = std::min(worst, tetra_q[t]);
+        for (const int t : band.triangles.around(v)) worst = std::min(worst, shell_q[t]);
+        return worst;
+    };
     std::vector<char> dirty(static_cast<std::size_t>(band.size()), 0);
     std::vector<int> active, next;
     Star star;
@@ -184,24 +195,23 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
         next.clear();
         for (const int v : active) dirty[v] = 0;
         for (const int v : active) {
+            if (worst_around(v) >= options.target) continue;
             BandNode& node = band.nodes[v];
             const Tool* tool = d.contact[v];
-            star.gather(d, v);
-            if (star.empty()) continue;
-            const double worst = star.worst(node.at);
-            if (worst >= options.target) continue;
             Eigen::Matrix3d basis;
             const int freedom = d.constraints.tangents(v, tool, node.at, basis);
             if (freedom == 0) continue;
+            star.gather(d, v);
             const auto tangent = basis.leftCols(freedom);
             const Vec3 before = node.at;
             Vec3 gradient;
             Eigen::Matrix3d hessian;
             double value = star.derivatives(node.at, doublings, gradient, hessian);
             for (int iteration = 0; iteration < 3; ++iteration) {
-                const Eigen::VectorXd g = tangent.transpose() * gradient;
-                Eigen::MatrixXd h = tangent.transpose() * hessian * tangent;
-                Eigen::LDLT<Eigen::MatrixXd> factors(h);
+                using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+                const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> g = tangent.transpose() * gradient;
+                Small h = tangent.transpose() * hessian * tangent;
+                Eigen::LDLT<Small> factors(h);
                 if (factors.info() != Eigen::Success || !factors.isPositive()) {
                     h.diagonal().array() += h.norm();
                     factors.compute(h);
@@ -227,6 +237,9 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
             }
             if (node.at == before) continue;
             ++moves;
+            for (const int t : band.tetras.around(v)) tetra_q[t] = tetra_quality(d, t);
+            for (const int t : band.triangles.around(v))
+                if (d.constraints.is_shell(band.triangles.origin(t))) shell_q[t] = shell_quality(d, t);
             const double reach = band.mean_edge_length(v);
             if ((node.at - before).norm() < 1e-3 * reach) continue;
             const auto wake = [&](const auto& list) {
