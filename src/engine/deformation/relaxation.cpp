@@ -133,7 +133,8 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size()), nullptr) {
+    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size()), nullptr),
+      side(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -145,8 +146,38 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
     const int node = band.split_edge(a, b, at);
     contact.push_back(tool);
+    const double distance = barrier && !tool ? barrier->distance(at) : 0;
+    side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     constraints.add_node(band, node);
     return node;
+}
+
+Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Tool* tool) const {
+    const NodeConstraint constraint = constraints.on_edge(band, a, b);
+    if (constraint.freedom == NodeFreedom::free) return at;
+    Vec3 fitted = at;
+    if (!constraints.project(constraint, tool, fitted) || fitted == at) return at;
+    const auto worst_child = [&](const Vec3& p) {
+        double worst = 1;
+        const auto look = [&](const auto& list, auto quality) {
+            for (const int s : list.around(a)) {
+                if (std::ranges::find(list[s], b) == list[s].end()) continue;
+                for (const int replaced : {a, b}) {
+                    std::array<Vec3, 4> corner;
+                    for (std::size_t k = 0; k < list[s].size(); ++k) corner[k] = list[s][k] == replaced ? p : band.nodes[list[s][k]].at;
+                    worst = std::min(worst, quality(corner, s));
+                }
+            }
+        };
+        look(band.tetras, [](const auto& c, int) { return mean_ratio(c[0], c[1], c[2], c[3]); });
+        look(band.triangles, [&](const auto& c, int s) {
+            const int origin = band.triangles.origin(s);
+            if (!constraints.is_shell(origin)) return 1.0;
+            return std::copysign(mean_ratio(c[0], c[1], c[2]), (c[1] - c[0]).cross(c[2] - c[0]).dot(shell_normals[origin]));
+        });
+        return worst;
+    };
+    return worst_child(fitted) > 0.2 * worst_child(at) ? fitted : at;
 }
 
 double tetra_quality(const Deformable& d, int tetra) {
@@ -221,7 +252,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
                 bool accepted = false;
                 for (int halving = 0; halving < 7; ++halving, length *= 0.5) {
                     Vec3 x = node.at + length * step;
-                    if (!d.constraints.project(v, tool, x)) continue;
+                    if (!d.constraints.project(v, tool, x) || d.passes_barrier(v, x)) continue;
                     const double tried = star.value(x, doublings);
                     if (tried < value) {
                         accepted = true;
