@@ -53,9 +53,11 @@ public:
         return any;
     }
 
-    double worst() const {
-        const std::vector<Element> bad = bad_elements(1);
-        return bad.empty() ? 1 : bad.front().first;
+    /// How much the elements worse than `limit` lack, squared so that the worst weigh most.
+    double shortfall(double limit) const {
+        double sum = 0;
+        for (const auto& [quality, nodes] : bad_elements(limit)) sum += (limit - quality) * (limit - quality);
+        return sum;
     }
 
 private:
@@ -175,13 +177,13 @@ void improve(Interface& f, const Tool& tool, double goal) {
     };
     for (int round = 0; round < 4 && improver.merge_nodes(goal); ++round) relax_again();
     // Splitting must pay: two rounds without gain end it.
-    double best = improver.worst();
+    double best = improver.shortfall(split_below);
     for (int round = 0, idle = 0; round < split_rounds && idle < 2 && improver.split_long_edges(split_below); ++round) {
         relax_again();
         if (improver.merge_nodes(goal)) relax_again();
-        const double now = improver.worst();
-        idle = now > 1.02 * best ? 0 : idle + 1;
-        best = std::max(best, now);
+        const double now = improver.shortfall(split_below);
+        idle = now < 0.95 * best ? 0 : idle + 1;
+        best = std::min(best, now);
     }
 }
 
