@@ -31,50 +31,53 @@ private:
     std::vector<int> parent_;
 };
 
-/// Faces of the band's tetrahedra with the one or two tetrahedra behind each: open addressing over
-/// sorted node triples.
+constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+/// Faces of the band's tetrahedra that have a movable node, with the one or two tetrahedra behind each.
+/// Bucketed by smallest node: the few faces of a bucket are matched by looking at them all.
 class FaceTable {
 public:
     struct Entry {
-        std::array<int, 3> key{-1, -1, -1};
-        std::array<int, 3> oriented{};  // as the first tetrahedron has it, normal outwards
+        std::array<int, 3> oriented;  // as the first tetrahedron has it, normal outwards
+        int second, third;            // middle and largest node
         int tetra[2]{-1, -1};
-        int triangle_family = -1;  // -1: no triangle element on it
+        int triangle_family = -1;     // -1: no triangle element on it
     };
 
-    explicit FaceTable(std::size_t faces) {
-        std::size_t capacity = 64;
-        while (capacity < 2 * faces) capacity *= 2;
-        slots_.assign(capacity, -1);
-        entries_.reserve(faces);
-        mask_ = capacity - 1;
+    explicit FaceTable(const BandMesh& band) : start_(static_cast<std::size_t>(band.size()) + 1, 0), end_(static_cast<std::size_t>(band.size())) {
+        const auto for_each_face = [&](auto visit) {
+            for (int t = 0; t < band.tetras.size(); ++t)
+                for (const auto& f : outward_faces) {
+                    const auto& v = band.tetras[t];
+                    const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
+                    if (band.nodes[nodes[0]].movable() || band.nodes[nodes[1]].movable() || band.nodes[nodes[2]].movable()) visit(t, nodes);
+                }
+        };
+        for_each_face([&](int, const std::array<int, 3>& n) { ++start_[std::min({n[0], n[1], n[2]}) + 1]; });
+        for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+        entries_.resize(static_cast<std::size_t>(start_.back()));
+        std::copy(start_.begin(), start_.end() - 1, end_.begin());
+        for_each_face([&](int t, const std::array<int, 3>& n) {
+            const auto key = sorted(n);
+            if (Entry* e = find_sorted(key)) {
+                e->tetra[1] = t;
+                return;
+            }
+            Entry& e = entries_[end_[key[0]]++];
+            e.oriented = n;
+            e.second = key[1];
+            e.third = key[2];
+            e.tetra[0] = t;
+        });
     }
 
-    Entry& insert(std::array<int, 3> nodes) {
-        const std::array<int, 3> key = sorted(nodes);
-        std::size_t h = hash(key) & mask_;
-        while (slots_[h] >= 0) {
-            if (same(entries_[slots_[h]].key, key)) return entries_[slots_[h]];
-            h = (h + 1) & mask_;
-        }
-        slots_[h] = static_cast<int>(entries_.size());
-        entries_.push_back({});
-        entries_.back().key = key;
-        entries_.back().oriented = nodes;
-        return entries_.back();
-    }
+    Entry* find(const std::array<int, 3>& nodes) { return find_sorted(sorted(nodes)); }
 
-    Entry* find(std::array<int, 3> key) {
-        key = sorted(key);
-        std::size_t h = hash(key) & mask_;
-        while (slots_[h] >= 0) {
-            if (same(entries_[slots_[h]].key, key)) return &entries_[slots_[h]];
-            h = (h + 1) & mask_;
-        }
-        return nullptr;
+    template <class Visit>
+    void for_each(Visit visit) {
+        for (std::size_t v = 0; v < end_.size(); ++v)
+            for (int k = start_[v]; k < end_[v]; ++k) visit(entries_[k]);
     }
-
-    std::vector<Entry>& entries() { return entries_; }
 
 private:
     static std::array<int, 3> sorted(std::array<int, 3> n) {
@@ -83,21 +86,14 @@ private:
         if (n[0] > n[1]) std::swap(n[0], n[1]);
         return n;
     }
-    static bool same(const std::array<int, 3>& a, const std::array<int, 3>& b) {
-        return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    Entry* find_sorted(const std::array<int, 3>& key) {
+        for (int k = start_[key[0]]; k < end_[key[0]]; ++k)
+            if (entries_[k].second == key[1] && entries_[k].third == key[2]) return &entries_[k];
+        return nullptr;
     }
-    static std::size_t hash(const std::array<int, 3>& k) {
-        std::uint64_t h = static_cast<std::uint64_t>(k[0]) * 0x9e3779b97f4a7c15u;
-        h ^= static_cast<std::uint64_t>(k[1]) * 0xc2b2ae3d27d4eb4fu;
-        h ^= static_cast<std::uint64_t>(k[2]) * 0x165667b19e3779f9u;
-        return h ^ (h >> 29);
-    }
-    std::vector<int> slots_;
+    std::vector<int> start_, end_;
     std::vector<Entry> entries_;
-    std::size_t mask_ = 0;
 };
-
-constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 Vec3 closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, Vec3& bary) {
     // Ericson, Real-Time Collision Detection, 5.1.5.
@@ -172,15 +168,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     const auto movable = [&](auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
 
     // 1. Faces of tetrahedra; which triangles are faces of tetrahedra and which are shells.
-    FaceTable table(static_cast<std::size_t>(band.tetras.size()) * 5 / 2 + 16);
-    for (int t = 0; t < band.tetras.size(); ++t)
-        for (const auto& f : outward_faces) {
-            const auto& v = band.tetras[t];
-            const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
-            if (!movable(nodes)) continue;
-            FaceTable::Entry& e = table.insert(nodes);
-            e.tetra[e.tetra[0] < 0 ? 0 : 1] = t;
-        }
+    FaceTable table(band);
     shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
     struct Face {
         std::array<int, 3> nodes;
@@ -213,12 +201,12 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             faces.push_back({v, kind_of({-2, -2, family, 0}), false, true});
         }
     }
-    for (const FaceTable::Entry& e : table.entries()) {
+    table.for_each([&](const FaceTable::Entry& e) {
         const int first = family_of(band.tetra_cells[e.tetra[0]]);
         const int second = e.tetra[1] < 0 ? -1 : family_of(band.tetra_cells[e.tetra[1]]);
-        if (second >= 0 && first == second && e.triangle_family == none) continue;
+        if (second >= 0 && first == second && e.triangle_family == none) return;
         faces.push_back({e.oriented, kind_of({std::min(first, second), std::max(first, second), e.triangle_family, 1}), second >= 0, false});
-    }
+    });
 
     // 2. Edges of those faces: smooth ones join faces to surfaces, the others are creases.
     std::vector<std::pair<std::uint64_t, int>> edges;

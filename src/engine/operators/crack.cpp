@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numbers>
 #include <sstream>
 
@@ -246,6 +247,10 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
 
     Stopwatch watch(report.seconds);
+    // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
+    auto copy = std::async(std::launch::async, [&mesh, totals] {
+        return std::pair(std::make_unique<Mesh>(mesh), totals ? FamilyTotals() : family_totals(mesh));
+    });
     Location location = locate(mesh, tool, options.transition.value_or(2), adjacency);
     int width = options.transition.value_or(2);
     if (!options.transition && options.method == Method::deform) {
@@ -285,7 +290,9 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     add_moved_nodes(f);
     warn_of_grazing(f, tool);
     watch.lap("open");
-    Rebuilt rebuilt = rebuild(mesh, f, lips, options.name + "_P", options.name + "_N");
+    auto [output, own_totals] = copy.get();
+    if (!totals) totals = &own_totals;
+    Rebuilt rebuilt = rebuild(mesh, std::move(*output), f, lips, options.name + "_P", options.name + "_N");
     add_front(lips, options.name, rebuilt);
     watch.lap("rebuild");
 
@@ -305,11 +312,6 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     report.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;
     report.elements_added = rebuilt.elements_added;
     report.elements_removed = rebuilt.elements_removed;
-    FamilyTotals own;
-    if (!totals) {
-        own = family_totals(mesh);
-        totals = &own;
-    }
     FamilyTotals after = *totals;
     count_cells(after, mesh, rebuilt.before, -1);
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);
