@@ -121,6 +121,23 @@ void warn_of_grazing(Interface& f, const Tool& tool) {
                 << " degrees: elements in the wedge between them cannot be better than the wedge";
         f.warnings.push_back(message.str());
     }
+    double flattest = 90;
+    for (const auto* set : {&f.nodes, &f.transition})
+        for (const int v : *set) {
+            if (f.d.constraints[v].freedom != NodeFreedom::curve) continue;
+            if (std::abs(tool.distance(band.nodes[v].at)) > 0.15 * band.mean_edge_length(v)) continue;
+            Eigen::Matrix3d along;
+            f.d.constraints.tangents(v, nullptr, band.nodes[v].at, along);
+            const double sine = std::abs(along.col(0).dot(tool.normal(band.nodes[v].at)));
+            flattest = std::min(flattest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+        }
+    if (flattest < 5) {
+        std::ostringstream message;
+        message.precision(2);
+        message << "the " << tool.kind() << " runs along a feature line or border line at " << flattest
+                << " degrees: elements between them cannot be better than that wedge";
+        f.warnings.push_back(message.str());
+    }
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
