@@ -51,11 +51,10 @@ public:
     }
 
     Entry& insert(std::array<int, 3> nodes) {
-        std::array<int, 3> key = nodes;
-        std::ranges::sort(key);
+        const std::array<int, 3> key = sorted(nodes);
         std::size_t h = hash(key) & mask_;
         while (slots_[h] >= 0) {
-            if (entries_[slots_[h]].key == key) return entries_[slots_[h]];
+            if (same(entries_[slots_[h]].key, key)) return entries_[slots_[h]];
             h = (h + 1) & mask_;
         }
         slots_[h] = static_cast<int>(entries_.size());
@@ -66,10 +65,10 @@ public:
     }
 
     Entry* find(std::array<int, 3> key) {
-        std::ranges::sort(key);
+        key = sorted(key);
         std::size_t h = hash(key) & mask_;
         while (slots_[h] >= 0) {
-            if (entries_[slots_[h]].key == key) return &entries_[slots_[h]];
+            if (same(entries_[slots_[h]].key, key)) return &entries_[slots_[h]];
             h = (h + 1) & mask_;
         }
         return nullptr;
@@ -78,6 +77,15 @@ public:
     std::vector<Entry>& entries() { return entries_; }
 
 private:
+    static std::array<int, 3> sorted(std::array<int, 3> n) {
+        if (n[0] > n[1]) std::swap(n[0], n[1]);
+        if (n[1] > n[2]) std::swap(n[1], n[2]);
+        if (n[0] > n[1]) std::swap(n[0], n[1]);
+        return n;
+    }
+    static bool same(const std::array<int, 3>& a, const std::array<int, 3>& b) {
+        return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    }
     static std::size_t hash(const std::array<int, 3>& k) {
         std::uint64_t h = static_cast<std::uint64_t>(k[0]) * 0x9e3779b97f4a7c15u;
         h ^= static_cast<std::uint64_t>(k[1]) * 0xc2b2ae3d27d4eb4fu;
@@ -398,7 +406,6 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     }
 
     // 5. Freedom of each node.
-    std::vector<int> neighbours;
     for (int v = 0; v < node_count; ++v) {
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
@@ -410,11 +417,15 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         const FamilyIndex family = mesh.node_families[band.nodes[v].global];
         for (GroupIndex g : mesh.families.groups(family)) {
             if (!is_kept(g)) continue;
-            band.neighbours(v, neighbours);
-            if (std::ranges::none_of(neighbours, [&](int w) {
-                    return mesh.families.contains(mesh.node_families[band.nodes[w].global], g);
-                }))
-                c.freedom = NodeFreedom::fixed;
+            const auto has_company = [&](const auto& list) {
+                return std::ranges::any_of(list.around(v), [&](int s) {
+                    return std::ranges::any_of(list[s], [&](int w) {
+                        const FamilyIndex other = mesh.node_families[band.nodes[w].global];
+                        return w != v && (other == family || mesh.families.contains(other, g));
+                    });
+                });
+            };
+            if (!has_company(band.tetras) && !has_company(band.triangles) && !has_company(band.lines)) c.freedom = NodeFreedom::fixed;
         }
         if (c.freedom == NodeFreedom::fixed) continue;
         const auto& around = facets_around_[v];

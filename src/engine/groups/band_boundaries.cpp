@@ -2,6 +2,7 @@
 #include "groups/band_boundaries.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 namespace femscalpel {
@@ -46,46 +47,66 @@ private:
     std::unordered_map<std::uint64_t, int> both_, either_, minus_;
 };
 
-/// The faces of tetrahedra, found by their nodes: open addressing over sorted triples.
-class FaceIndex {
-public:
-    explicit FaceIndex(std::size_t faces) {
-        std::size_t capacity = 64;
-        while (capacity < 2 * faces) capacity *= 2;
-        slots_.assign(capacity, -1);
-        keys_.reserve(faces);
-    }
-    int find(std::array<int, 3> nodes) const {
-        std::ranges::sort(nodes);
-        return slots_[place(nodes)];
-    }
-    /// Its number, and whether it is new.
-    std::pair<int, bool> insert(std::array<int, 3> nodes) {
-        std::ranges::sort(nodes);
-        const std::size_t at = place(nodes);
-        if (slots_[at] >= 0) return {slots_[at], false};
-        slots_[at] = static_cast<int>(keys_.size());
-        keys_.push_back(nodes);
-        return {slots_[at], true};
-    }
-
-private:
-    std::size_t place(const std::array<int, 3>& k) const {
-        std::uint64_t h = static_cast<std::uint64_t>(k[0]) * 0x9e3779b97f4a7c15u;
-        h ^= static_cast<std::uint64_t>(k[1]) * 0xc2b2ae3d27d4eb4fu;
-        h ^= static_cast<std::uint64_t>(k[2]) * 0x165667b19e3779f9u;
-        const std::size_t mask = slots_.size() - 1;
-        std::size_t at = (h ^ (h >> 29)) & mask;
-        while (slots_[at] >= 0 && keys_[slots_[at]] != k) at = (at + 1) & mask;
-        return at;
-    }
-    std::vector<int> slots_;
-    std::vector<std::array<int, 3>> keys_;
-};
-
 constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
+
+/// The faces of the band's tetrahedra that have a movable node, in rows by their smallest node: a row is short and
+/// in one place, which beats a hash table.
+class TetraFaces {
+public:
+    explicit TetraFaces(const BandMesh& band) : start_(static_cast<std::size_t>(band.size()) + 1, 0) {
+        std::vector<char> movable(static_cast<std::size_t>(band.size()));
+        for (int v = 0; v < band.size(); ++v) movable[v] = band.nodes[v].movable();
+        const auto for_each = [&](auto visit) {
+            for (int t = 0; t < band.tetras.size(); ++t) {
+                if (!band.tetras.alive(t)) continue;
+                const auto& v = band.tetras[t];
+                for (const auto& f : outward_faces) {
+                    const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
+                    if (movable[nodes[0]] || movable[nodes[1]] || movable[nodes[2]]) visit(t, nodes);
+                }
+            }
+        };
+        for_each([&](int, const std::array<int, 3>& nodes) { ++start_[std::ranges::min(nodes) + 1]; });
+        std::partial_sum(start_.begin(), start_.end(), start_.begin());
+        std::vector<BandBoundaries::Face> rows(static_cast<std::size_t>(start_.back()));
+        std::vector<int> end(start_.begin(), start_.end() - 1);
+        for_each([&](int t, const std::array<int, 3>& nodes) {
+            const int row = std::ranges::min(nodes);
+            for (int at = start_[row]; at < end[row]; ++at)
+                if (same(rows[at].nodes, nodes)) {
+                    rows[at].tetra[1] = t;
+                    return;
+                }
+            rows[end[row]++] = {nodes, 0, {t, -1}, false};
+        });
+        // Close the gaps that faces seen twice left.
+        faces.reserve(rows.size());
+        for (int v = 0; v < band.size(); ++v) {
+            const int first = start_[v];
+            start_[v] = static_cast<int>(faces.size());
+            faces.insert(faces.end(), rows.begin() + first, rows.begin() + end[v]);
+        }
+        start_.back() = static_cast<int>(faces.size());
+    }
+
+    /// Index in `faces`, or -1.
+    int find(const std::array<int, 3>& nodes) const {
+        const int row = std::ranges::min(nodes);
+        for (int at = start_[row]; at < start_[row + 1]; ++at)
+            if (same(faces[at].nodes, nodes)) return at;
+        return -1;
+    }
+
+    std::vector<BandBoundaries::Face> faces;
+
+private:
+    static bool same(const std::array<int, 3>& a, const std::array<int, 3>& b) {
+        return holds(a, b[0]) && holds(a, b[1]) && holds(a, b[2]);
+    }
+    std::vector<int> start_;
+};
 
 }  // namespace
 
@@ -117,19 +138,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     const auto in_all = [&](const std::array<int, 3>& f) { return sets.both(sets.both(in[f[0]], in[f[1]]), in[f[2]]); };
 
     // 1. All faces of tetrahedra, and what lies on them.
-    std::vector<Face> faces;
-    FaceIndex index(static_cast<std::size_t>(band.tetras.size()) * 5 / 2 + 16);
-    for (int t = 0; t < band.tetras.size(); ++t) {
-        if (!band.tetras.alive(t)) continue;
-        const auto& v = band.tetras[t];
-        for (const auto& f : outward_faces) {
-            const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
-            if (!movable(nodes)) continue;
-            const auto [at, fresh] = index.insert(nodes);
-            if (fresh) faces.push_back({nodes, 0, {t, -1}, false});
-            else faces[at].tetra[1] = t;
-        }
-    }
+    TetraFaces index(band);
+    std::vector<Face>& faces = index.faces;
     for (int f = 0; f < band.facet_faces.size(); ++f) {
         if (!band.facet_faces.alive(f) || !movable(band.facet_faces[f])) continue;
         const int at = index.find(band.facet_faces[f]);
@@ -246,15 +256,21 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
 
     // 4. Nodes: those without a neighbour in the group, and point elements.
     std::vector<int> pinned(in.size(), 0);
-    std::vector<int> neighbours;
     for (int v = 0; v < band.size(); ++v) {
         if (!band.in_use(v) || !band.nodes[v].movable()) continue;
         for (const int s : band.vertices.around(v)) pinned[v] = sets.either(pinned[v], of_cell(band.vertex_cells[band.vertices.origin(s)]));
-        if (int rest = in[v]) {
-            band.neighbours(v, neighbours);
-            for (std::size_t k = 0; k < neighbours.size() && rest != 0; ++k) rest = sets.minus(rest, in[neighbours[k]]);
-            pinned[v] = sets.either(pinned[v], rest);
-        }
+        int rest = in[v];
+        const auto link_to = [&](const auto& list) {
+            for (const int s : list.around(v)) {
+                for (const int w : list[s])
+                    if (w != v) rest = sets.minus(rest, in[w]);
+                if (rest == 0) return;
+            }
+        };
+        link_to(band.tetras);
+        link_to(band.triangles);
+        link_to(band.lines);
+        pinned[v] = sets.either(pinned[v], rest);
     }
     for (const auto& [key, mid] : band.mid_nodes) {
         const int groups = kept_groups(mesh.node_families[mid]);

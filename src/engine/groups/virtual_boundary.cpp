@@ -13,62 +13,81 @@ constexpr Index none = -1;
 using Edge = std::array<Index, 2>;
 using Face = std::array<Index, 4>;
 
-/// Sorted corner nodes as key; open addressing, entries in the order of insertion.
+/// Edges or faces by their corner nodes in any order; open addressing, entries in the order of insertion. Nodes
+/// are kept in 32 bits, because a large group is bound by memory.
 template <std::size_t N>
 class EntityTable {
 public:
+    using Key = std::array<std::uint32_t, N>;
     struct Entry {
-        std::array<Index, N> nodes;  ///< as first inserted
-        std::array<Index, N> key;
-        bool belongs = false;        ///< to the group
-        bool covered = false;        ///< by something larger
-        int areas = 0;               ///< elements of the area on it
-        Index apex = none;           ///< of the first of them: its smallest node off the entity
+        Key nodes_;
+        Key key;
+        std::uint32_t apex = 0;  ///< of the last element of the area on it: its smallest node off the entity
+        std::uint8_t areas = 0;  ///< elements of the area on it; 2 stands for more, too
+        bool belongs = false;    ///< to the group
+        bool covered = false;    ///< by something larger
+
+        std::array<Index, N> nodes() const {
+            std::array<Index, N> out;
+            for (std::size_t k = 0; k < N; ++k) out[k] = nodes_[k] == no_node ? none : static_cast<Index>(nodes_[k]);
+            return out;
+        }
+        void turn(const std::array<Index, N>& nodes) { nodes_ = compact(nodes); }
     };
 
     Entry& insert(const std::array<Index, N>& nodes) {
         if (2 * (entries_.size() + 1) > slots_.size()) grow();
-        const auto key = sorted(nodes);
-        std::size_t h = place(key);
-        if (slots_[h] == none) {
-            slots_[h] = static_cast<Index>(entries_.size());
-            entries_.push_back({nodes, key});
+        const Key key = sorted(nodes);
+        const std::size_t h = place(key);
+        if (slots_[h] == empty) {
+            slots_[h] = static_cast<std::uint32_t>(entries_.size());
+            entries_.push_back({compact(nodes), key});
         }
-        return entries_[static_cast<std::size_t>(slots_[h])];
+        return entries_[slots_[h]];
     }
 
     Entry* find(const std::array<Index, N>& nodes) {
         if (entries_.empty()) return nullptr;
-        const Index e = slots_[place(sorted(nodes))];
-        return e == none ? nullptr : &entries_[static_cast<std::size_t>(e)];
+        const std::uint32_t e = slots_[place(sorted(nodes))];
+        return e == empty ? nullptr : &entries_[e];
     }
 
     std::vector<Entry>& entries() { return entries_; }
 
 private:
-    static std::array<Index, N> sorted(std::array<Index, N> nodes) {
-        std::ranges::sort(nodes);
-        return nodes;
+    static constexpr std::uint32_t no_node = 0xffffffffu;
+    static constexpr std::uint32_t empty = 0xffffffffu;
+
+    static Key compact(const std::array<Index, N>& nodes) {
+        Key out;
+        for (std::size_t k = 0; k < N; ++k) out[k] = static_cast<std::uint32_t>(nodes[k]);
+        return out;
     }
 
-    std::size_t place(const std::array<Index, N>& key) const {
+    static Key sorted(const std::array<Index, N>& nodes) {
+        Key key = compact(nodes);
+        std::ranges::sort(key);
+        return key;
+    }
+
+    std::size_t place(const Key& key) const {
         std::uint64_t h = 0;
-        for (const Index n : key) {
-            h = (h ^ static_cast<std::uint64_t>(n)) * 0x9e3779b97f4a7c15u;
+        for (const std::uint32_t n : key) {
+            h = (h ^ n) * 0x9e3779b97f4a7c15u;
             h ^= h >> 32;
         }
         const std::size_t mask = slots_.size() - 1;
         std::size_t at = h & mask;
-        while (slots_[at] != none && entries_[static_cast<std::size_t>(slots_[at])].key != key) at = (at + 1) & mask;
+        while (slots_[at] != empty && entries_[slots_[at]].key != key) at = (at + 1) & mask;
         return at;
     }
 
     void grow() {
-        slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), none);
-        for (std::size_t e = 0; e < entries_.size(); ++e) slots_[place(entries_[e].key)] = static_cast<Index>(e);
+        slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), empty);
+        for (std::size_t e = 0; e < entries_.size(); ++e) slots_[place(entries_[e].key)] = static_cast<std::uint32_t>(e);
     }
 
-    std::vector<Index> slots_;
+    std::vector<std::uint32_t> slots_;
     std::vector<Entry> entries_;
 };
 
@@ -197,31 +216,44 @@ private:
         for (int k = 0; k < n; ++k) visit(Edge{f[k], f[(k + 1) % n]});
     }
 
-    static bool holds(std::span<const Index> nodes, Index node) { return std::ranges::find(nodes, node) != nodes.end(); }
+    template <class Nodes>
+    static bool holds(const Nodes& nodes, Index node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
     void collect_node_group() {
         std::vector<char> family(static_cast<std::size_t>(mesh_.families.size()), 0);
         for (const FamilyIndex f : t_.families[group_]) family[f] = 1;
         const auto in = [&](Index n) { return n == none || family[mesh_.node_families[n]] != 0; };
         std::vector<Index> covered;  // mid-side and centre nodes
-        for (const FamilyIndex f : t_.families[group_])
-            for (const Index v : t_.nodes[f])
-                for (const Index element : t_.around[v]) {
-                    const auto n = corners(element);
-                    if (*std::ranges::find_if(n, in) != v) continue;  // seen from its first group node only
-                    const CellTraits& t = traits_of(element);
-                    const bool all = std::ranges::all_of(n, in);
-                    if (all && t.dimension == t_.dimension && t.dimension >= 2) area_.push_back(element);
-                    if (t.dimension == 3) {
-                        for (std::size_t k = 0; k < t.faces.size(); ++k)
-                            if (const Face face = face_of(t, n, k); std::ranges::all_of(face, in)) faces_.insert(face).belongs = true;
-                    } else if (t.dimension == 2 && all && t_.dimension == 3) {
-                        faces_.insert(face_of(n)).belongs = true;
-                    }
-                    for (const auto& e : t.edges)
-                        if (in(n[e[0]]) && in(n[e[1]])) edges_.insert({n[e[0]], n[e[1]]}).belongs = true;
-                    if (t.quadratic) cover_middle_nodes(element, in, all, covered);
-                }
+        const auto look = [&](Index element) {
+            const CellTraits& t = traits_of(element);
+            const auto n = corners(element);
+            const bool all = std::ranges::all_of(n, in);
+            if (all && t.dimension == t_.dimension && t.dimension >= 2) area_.push_back(element);
+            if (t.dimension == 3 && !all) {
+                for (std::size_t k = 0; k < t.faces.size(); ++k)
+                    if (const Face face = face_of(t, n, k); std::ranges::all_of(face, in)) faces_.insert(face).belongs = true;
+            } else if (t.dimension == 2 && all && t_.dimension == 3) {
+                faces_.insert(face_of(n)).belongs = true;
+            }
+            // Of the edges only those that no face (area) of this element covers: the others cannot be in LE.
+            for (const auto& e : t.edges)
+                if (in(n[e[0]]) && in(n[e[1]]) && !covers_edge(t, n, e, in)) edges_.insert({n[e[0]], n[e[1]]}).belongs = true;
+            if (t.quadratic) cover_middle_nodes(element, in, all, covered);
+        };
+        Index size = 0;
+        for (const FamilyIndex f : t_.families[group_]) size += static_cast<Index>(t_.nodes[f].size());
+        if (8 * size > mesh_.node_count()) {
+            // A large group: elements in mesh order, which is kinder to memory.
+            for (const CellBlock& b : mesh_.blocks())
+                if (traits(b.type).dimension > 0)
+                    for (Index c = 0; c < b.size(); ++c)
+                        if (const Index element = pack(b.type, c); std::ranges::any_of(corners(element), in)) look(element);
+        } else {
+            for (const FamilyIndex f : t_.families[group_])
+                for (const Index v : t_.nodes[f])
+                    for (const Index element : t_.around[v])
+                        if (*std::ranges::find_if(corners(element), in) == v) look(element);  // once, from its first group node
+        }
         std::ranges::sort(covered);
         for (const FamilyIndex f : t_.families[group_])
             for (const Index v : t_.nodes[f]) {
@@ -234,6 +266,15 @@ private:
                 if (!linked && !std::ranges::binary_search(covered, v)) out_.isolated.nodes.push_back(v);
             }
         std::ranges::sort(out_.isolated.nodes);
+    }
+
+    /// Whether a face of this element that belongs holds its edge `e`.
+    template <class In>
+    static bool covers_edge(const CellTraits& t, std::span<const Index> n, const std::array<std::int8_t, 2>& e, const In& in) {
+        if (t.dimension == 2) return std::ranges::all_of(n, in);
+        return std::ranges::any_of(t.faces, [&](const auto& f) {
+            return holds(f, e[0]) && holds(f, e[1]) && std::ranges::all_of(f, [&](int k) { return k < 0 || in(n[k]); });
+        });
     }
 
     template <class In>
@@ -283,7 +324,7 @@ private:
     /// Faces all of whose edges belong.
     void close_faces() {
         for (const auto& entry : edges_.entries()) {
-            const auto [a, b] = entry.nodes;
+            const auto [a, b] = entry.nodes();
             for (const Index element : t_.around[a]) {
                 const CellTraits& t = traits_of(element);
                 const auto n = corners(element);
@@ -304,7 +345,7 @@ private:
     /// Volume elements all of whose faces belong.
     void close_area() {
         for (const auto& entry : faces_.entries())
-            for (const Index element : t_.around[entry.nodes[0]]) {
+            for (const Index element : t_.around[entry.nodes()[0]]) {
                 const CellTraits& t = traits_of(element);
                 if (t.dimension < 3) continue;
                 const auto n = corners(element);
@@ -319,47 +360,42 @@ private:
         for (const Index element : area_) {
             const CellTraits& t = traits_of(element);
             const auto n = corners(element);
-            const auto count = [&](auto& entry) {
-                Index apex = none;
+            const auto count = [&](auto& entry, const auto& nodes) {
+                if (entry.areas == 0) entry.turn(nodes);
+                Index smallest = none;
                 for (const Index v : n)
-                    if (!holds(entry.nodes, v) && (apex == none || v < apex)) apex = v;
+                    if (!holds(nodes, v) && (smallest == none || v < smallest)) smallest = v;
+                const auto apex = static_cast<std::uint32_t>(smallest);
                 if (entry.areas > 0 && entry.apex == apex) return;  // a coincident element
-                ++entry.areas;
+                entry.areas = entry.areas == 0 ? 1 : 2;
                 entry.apex = apex;
             };
             if (t.dimension == 3)
                 for (std::size_t k = 0; k < t.faces.size(); ++k) {
                     const Face face = face_of(t, n, k);
-                    auto& entry = faces_.insert(face);
-                    if (entry.areas == 0) entry.nodes = face;
-                    count(entry);
+                    count(faces_.insert(face), face);
                 }
             else
-                for_each_edge(face_of(n), [&](const Edge& e) {
-                    auto& entry = edges_.insert(e);
-                    if (entry.areas == 0) entry.nodes = e;
-                    count(entry);
-                });
+                for_each_edge(face_of(n), [&](const Edge& e) { count(edges_.insert(e), e); });
         }
     }
 
     void cover_edges() {
         if (t_.dimension != 3) return;
         for (const auto& face : faces_.entries())
-            for_each_edge(face.nodes, [&](const Edge& e) {
+            for_each_edge(face.nodes(), [&](const Edge& e) {
                 if (auto* entry = edges_.find(e)) entry->covered = true;
             });
     }
 
     /// The element of dimension `dimension` on these corners, the group's own first.
-    CellRef element_on(std::span<const Index> key, int dimension) const {
-        const std::size_t size = key.size();
+    CellRef element_on(std::span<const Index> nodes, int dimension) const {
         CellRef found{CellType::vertex, none};
-        for (const Index element : t_.around[key.back()]) {
+        for (const Index element : t_.around[nodes[0]]) {
             const CellTraits& t = traits_of(element);
             if (t.dimension > dimension) break;  // in mesh order dimensions rise
             const auto n = corners(element);
-            if (t.dimension < dimension || n.size() != size || !std::ranges::all_of(n, [&](Index v) { return holds(key, v); })) continue;
+            if (t.dimension < dimension || n.size() != nodes.size() || !std::ranges::all_of(n, [&](Index v) { return holds(nodes, v); })) continue;
             const CellRef c = unpack(element);
             if (mesh_.families.contains(mesh_.block(c.type).families[c.cell], group_)) return c;
             if (found.cell == none) found = c;
@@ -369,13 +405,13 @@ private:
 
     void write() {
         const auto put_face = [&](BoundaryPart& part, const auto& entry) {
-            part.faces.push_back(entry.nodes);
-            const std::span<const Index> key(entry.key);
-            part.face_elements.push_back(element_on(key[0] == none ? key.subspan(1) : key, 2));
+            part.faces.push_back(entry.nodes());
+            const std::span<const Index> nodes(part.faces.back());
+            part.face_elements.push_back(element_on(nodes.first(nodes[3] == none ? 3 : 4), 2));
         };
         const auto put_edge = [&](BoundaryPart& part, const auto& entry) {
-            part.edges.push_back(entry.nodes);
-            part.edge_elements.push_back(element_on(entry.key, 1));
+            part.edges.push_back(entry.nodes());
+            part.edge_elements.push_back(element_on(part.edges.back(), 1));
         };
         if (t_.dimension == 3)
             for (const auto& face : faces_.entries()) {
@@ -394,8 +430,10 @@ private:
         if (points_.empty()) return;
         std::vector<Index> covered;
         for (const Index element : area_) covered.insert(covered.end(), corners(element).begin(), corners(element).end());
-        for (const auto& face : faces_.entries()) covered.insert(covered.end(), face.nodes.begin(), face.nodes.end());
-        for (const auto& edge : edges_.entries()) covered.insert(covered.end(), edge.nodes.begin(), edge.nodes.end());
+        for (const auto& face : faces_.entries())
+            for (const Index v : face.nodes()) covered.push_back(v);
+        for (const auto& edge : edges_.entries())
+            for (const Index v : edge.nodes()) covered.push_back(v);
         std::ranges::sort(covered);
         std::ranges::sort(points_);
         points_.erase(std::unique(points_.begin(), points_.end()), points_.end());

@@ -206,6 +206,16 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
     }
 }
 
+/// Merging nodes can leave one that moved earlier outside the neighbourhood of the final interface; it still
+/// belongs to the transition.
+void add_moved_nodes(Interface& f) {
+    for (int v = 0; v < f.d.band.size(); ++v) {
+        const BandNode& n = f.d.band.nodes[v];
+        const bool counts = f.d.band.in_use(v) && (f.d.band.is_new(v) || n.at != n.start) && !f.d.contact[v];
+        if (counts && !std::ranges::binary_search(f.transition, v)) f.transition.insert(std::ranges::upper_bound(f.transition, v), v);
+    }
+}
+
 std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Index>& index, const Mesh& mesh, auto keep) {
     std::vector<Index> out;
     for (const int v : nodes)
@@ -265,13 +275,14 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
 
     const Lips lips = open_lips(f);
     if (lips.copy_of.empty()) {
-        throw ToolError("the " + tool.kind() + " only touches the mesh: no element faces with material on both sides lie on it. Move the " +
-                        tool.kind() + " into the material");
+        throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
+                        " into the material");
     }
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
     for (int v = 0; v < f.d.band.size(); ++v)
         if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = nullptr;
     find_node_sets(f);
+    add_moved_nodes(f);
     warn_of_grazing(f, tool);
     watch.lap("open");
     Rebuilt rebuilt = rebuild(mesh, f, lips, options.name + "_P", options.name + "_N");

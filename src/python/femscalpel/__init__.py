@@ -18,6 +18,7 @@ from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
 from .operators import Result, Scalpel, crack
+from .quality import mean_ratio, measure
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Plane, Tool
 
@@ -47,6 +48,8 @@ __all__ = [
     "WriteError",
     "crack",
     "from_meshio",
+    "mean_ratio",
+    "measure",
     "read",
     "to_meshio",
     "virtual_boundaries",
