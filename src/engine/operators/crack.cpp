@@ -176,11 +176,14 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
         int last = -1;
     };
     std::vector<Motion> motion(before.groups.size());
+    for (Index n = 0; n < before.node_count(); ++n) {
+        if (rebuilt.mesh.points[n] == before.points[n]) continue;
+        ++report.nodes_moved;
+        report.max_displacement = std::max(report.max_displacement, (rebuilt.mesh.points[n] - before.points[n]).norm());
+    }
     for (int v = 0; v < band.original_nodes(); ++v) {
         const BandNode& n = band.nodes[v];
         if (n.at == n.start) continue;
-        ++report.nodes_moved;
-        report.max_displacement = std::max(report.max_displacement, (n.at - n.start).norm());
         const double drift = f.d.constraints.distance(f.d.constraints[v], n.at);
         const auto meet = [&](FamilyIndex family) {
             for (GroupIndex g : before.families.groups(family)) {
