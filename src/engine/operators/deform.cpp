@@ -278,11 +278,16 @@ private:
     std::vector<Term> terms_;
 };
 
+/// What one attempt tells the next, by node of the input's band.
+struct Lessons {
+    std::vector<double> penalty;  ///< factor on the cost of having a node in the interface
+    std::vector<char> held;       ///< nodes that have to stay on the side they are on
+};
+
 class Deformer {
 public:
-    /// `penalty`: factors by node (of the input) on the cost of having it in the interface; raised where it spoils elements.
-    Deformer(Interface& f, const Tool& tool, const Mesh& mesh, std::vector<double>& penalty)
-        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), penalty_(penalty) {}
+    Deformer(Interface& f, const Tool& tool, const Mesh& mesh, Lessons& lessons)
+        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), lessons_(lessons) {}
 
     /// 3.1.1: the interface nodes, with Figure 4's splits.
     void classify() {
@@ -291,7 +296,7 @@ public:
             cut();
             if (!penalise_impossible() || round == 40) break;
         }
-        split_flat();
+        split_astray();
     }
 
     /// 3.1.2. Returns the worst quality.
@@ -325,20 +330,34 @@ public:
             relax(d_, movable);
             worst_ = worst_quality();
         }
-        return worst_;
+        find_misplaced();
+        return misplaced_.empty() ? worst_ : -1;
     }
 
-    /// Makes the interface nodes around the worst elements dearer for the next attempt.
-    void penalise_bad() const {
+    /// For the next attempt: interface nodes around the worst elements become dearer, nodes that ended on
+    /// the wrong side of the tool are held on theirs.
+    void learn() const {
+        for (const int v : misplaced_)
+            if (!band_.is_new(v)) lessons_.held[v] = 1;
         for_bad([&](const auto& v, const CellRef&) {
             for (const int n : v)
-                if (side_[n] == 0 && !band_.is_new(n)) penalty_[n] = std::min(penalty_[n] * 2, 1e3);
+                if (side_[n] == 0 && !band_.is_new(n)) lessons_.penalty[n] = std::min(lessons_.penalty[n] * 2, 1e3);
         });
     }
 
     [[noreturn]] void fail() const {
         std::set<Index> elements;
         for_bad([&](const auto&, const CellRef& c) { elements.insert(mesh_.block(c.type).ids[c.cell]); });
+        for (const int v : misplaced_) {
+            for (const int t : band_.tetras.around(v)) {
+                const CellRef& c = band_.tetra_cells[band_.tetras.origin(t)];
+                elements.insert(mesh_.block(c.type).ids[c.cell]);
+            }
+            for (const int t : band_.triangles.around(v)) {
+                const CellRef& c = band_.triangle_cells[band_.triangles.origin(t)];
+                elements.insert(mesh_.block(c.type).ids[c.cell]);
+            }
+        }
         throw QualityError("method \"deform\" cannot bring the interface onto the " + std::string(tool_.kind()) +
                            " without flattening elements (" + list(elements) +
                            "). Moving nodes alone is not enough here; use method \"snap\"");
@@ -355,6 +374,13 @@ private:
             text += (text.empty() ? "" : ", ") + std::to_string(id);
         }
         return elements.size() > 8 ? text + ", ..." : text;
+    }
+
+    /// Nodes beyond the tool: there the interface does not separate what the tool does.
+    void find_misplaced() {
+        for (int v = 0; v < band_.size(); ++v)
+            if (side_[v] * tool_.distance(band_.nodes[v].at) < -f_.tolerance && !(band_.tetras.around(v).empty() && band_.triangles.around(v).empty()))
+                misplaced_.push_back(v);
     }
 
     double worst_quality() const {
@@ -395,9 +421,9 @@ private:
         std::vector<int> neighbours;
         for (int v = 0; v < band_.size(); ++v) {
             const double r = slide_[v];
-            cut.set_weight(v, r > reach ? VertexCut::endless : weight(penalty_[v] * (0.1 + r * r + 2 * r * r * r * r)));
+            cut.set_weight(v, r > reach ? VertexCut::endless : weight(lessons_.penalty[v] * (0.1 + r * r + 2 * r * r * r * r)));
             const double off = std::abs(f_.distance[v]) / length_[v];
-            const bool held = band_.nodes[v].level != 0 || off > 1;
+            const bool held = band_.nodes[v].level != 0 || off > 1 || r > reach || lessons_.held[v] != 0;
             const auto wrong = held ? VertexCut::endless : weight(0.5 * off * off);
             if (f_.distance[v] > 0) cut.hold_positive(v, wrong);
             if (f_.distance[v] < 0) cut.hold_negative(v, wrong);
@@ -449,15 +475,37 @@ private:
                            "; use method \"snap\"");
     }
 
-    /// Two interface nodes on one crease would go to the same point: the farther becomes dearer.
+    /// Where no split helps the farthest node becomes dearer: two interface nodes on one crease would go to
+    /// the same point; three whose edges are all in the interface but whose triangle is not would enclose
+    /// elements between it and the interface.
     bool penalise_impossible() {
         bool any = false;
         for (int s = 0; s < band_.creases.size(); ++s) {
             const auto& [a, b] = band_.creases[s];
             if (side_[a] != 0 || side_[b] != 0) continue;
             if ((target_[a] - target_[b]).norm() > 0.2 * (band_.nodes[a].at - band_.nodes[b].at).norm()) continue;
-            penalty_[slide_[a] > slide_[b] ? a : b] *= 4;
+            penalise(band_.creases[s], 4);
             any = true;
+        }
+        std::set<std::array<int, 3>> seen;
+        const auto look = [&](std::array<int, 3> face) {
+            std::ranges::sort(face);
+            if (!std::ranges::all_of(face, [&](int v) { return side_[v] == 0; }) || !seen.insert(face).second) return;
+            const auto [a, b, c] = face;
+            if (!in_interface(a, b) || !in_interface(b, c) || !in_interface(a, c)) return;
+            bool positive = false, negative = false;
+            look_edge(a, b, [&, c = c](const auto& element) {
+                if (std::ranges::find(element, c) == element.end()) return;
+                for (const int v : element) (side_[v] > 0 ? positive : negative) |= side_[v] != 0;
+            });
+            if (positive && negative) return;
+            penalise(face, 2);
+            any = true;
+        };
+        for (int t = 0; t < band_.tetras.size(); ++t) {
+            const auto& v = band_.tetras[t];
+            if (std::ranges::count_if(v, [&](int n) { return side_[n] == 0; }) < 3) continue;
+            for (int k = 0; k < 4; ++k) look({v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]});
         }
         return any;
     }
@@ -465,70 +513,69 @@ private:
     /// Whether elements of both sides share the edge a-b.
     bool in_interface(int a, int b) const {
         bool positive = false, negative = false;
-        const auto look = [&](const auto& list) {
-            for (const int s : list.around(a)) {
-                if (std::ranges::find(list[s], b) == list[s].end()) continue;
-                for (const int v : list[s]) {
-                    positive = positive || side_[v] > 0;
-                    negative = negative || side_[v] < 0;
-                }
-            }
-        };
-        look(band_.tetras);
-        look(band_.triangles);
+        look_edge(a, b, [&](const auto& element) {
+            for (const int v : element) (side_[v] > 0 ? positive : negative) |= side_[v] != 0;
+        });
         return positive && negative;
     }
 
-    bool all_on(const auto& nodes) const {
-        return std::ranges::all_of(nodes, [&](int v) { return side_[v] == 0; });
-    }
-
-    /// Figure 4: an element whose corners are all in the interface would be flattened; it is split in the
-    /// middle of an edge that is in no interface face, so that the new node can move away.
-    void split_flat() {
-        for (int t = 0; t < band_.tetras.size(); ++t)
-            if (all_on(band_.tetras[t])) split_away(band_.tetras[t]);
-        for (int t = 0; t < band_.triangles.size(); ++t)
-            if (is_shell(t) && all_on(band_.triangles[t])) split_away(band_.triangles[t]);
-        for (int t = 0; t < band_.skin.size(); ++t) {
-            const auto& v = band_.skin[t];
-            if (!all_on(v)) continue;
-            const auto area = [&](auto point) { return (point(v[1]) - point(v[0])).cross(point(v[2]) - point(v[0])).norm(); };
-            if (area([&](int n) { return target_[n]; }) < 0.2 * area([&](int n) { return band_.nodes[n].at; })) split_away(v);
+    /// Figure 4: an edge between two interface nodes that is in no interface face would come to lie in the
+    /// interface all the same, and flatten what is between; it is split in the middle, so that the new node
+    /// can move away.
+    void split_astray() {
+        for (const auto& [a, b] : astray()) {
+            if (in_interface(a, b)) continue;  // since a split before it
+            int side = 0;
+            look_edge(a, b, [&](const auto& element) {
+                for (const int v : element) side = side != 0 ? side : side_[v];
+            });
+            const Vec3 middle = (band_.nodes[a].at + band_.nodes[b].at) / 2;
+            Vec3 at = middle;
+            if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), nullptr, at) ||
+                (at - middle).norm() > 0.1 * (band_.nodes[a].at - band_.nodes[b].at).norm())
+                at = middle;
+            d_.split_edge(a, b, at, nullptr);
+            side_.push_back(side != 0 ? side : tool_.distance(at) < 0 ? -1 : 1);
+            target_.push_back(at);
+            f_.distance.push_back(side_.back());
         }
     }
 
-    template <std::size_t N>
-    void split_away(const std::array<int, N> v) {
-        int a = -1, b = -1;
-        double longest = 0;
-        for (std::size_t i = 0; i < N; ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).norm();
-                if (length <= longest || in_interface(v[i], v[j])) continue;
-                longest = length;
-                a = v[i];
-                b = v[j];
-            }
-        if (a < 0) return;
-        int side = 0;
-        look_edge(a, b, [&](int w) { side = side != 0 ? side : side_[w]; });
-        const Vec3 middle = (band_.nodes[a].at + band_.nodes[b].at) / 2;
-        Vec3 at = middle;
-        if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), nullptr, at) || (at - middle).norm() > 0.1 * longest) at = middle;
-        d_.split_edge(a, b, at, nullptr);
-        side_.push_back(side != 0 ? side : tool_.distance(at) < 0 ? -1 : 1);
-        target_.push_back(at);
-        f_.distance.push_back(side_.back());
+    /// Edges between interface nodes that are in no interface face, longest first.
+    std::vector<std::pair<int, int>> astray() const {
+        std::vector<std::pair<double, std::pair<int, int>>> found;
+        std::vector<int> others;
+        for (int v = 0; v < band_.size(); ++v) {
+            if (side_[v] != 0) continue;
+            others.clear();
+            look_around(v, [&](int w) {
+                if (w > v && side_[w] == 0) others.push_back(w);
+            });
+            std::ranges::sort(others);
+            const auto rest = std::ranges::unique(others);
+            others.erase(rest.begin(), rest.end());
+            for (const int w : others)
+                if (!in_interface(v, w)) found.push_back({-(band_.nodes[v].at - band_.nodes[w].at).norm(), {v, w}});
+        }
+        std::ranges::sort(found);
+        std::vector<std::pair<int, int>> edges;
+        for (const auto& [length, edge] : found) edges.push_back(edge);
+        return edges;
     }
 
+    /// Calls visit(nodes) for the elements around the edge a-b.
     void look_edge(int a, int b, auto visit) const {
         const auto look = [&](const auto& list) {
             for (const int s : list.around(a))
-                if (std::ranges::find(list[s], b) != list[s].end()) std::ranges::for_each(list[s], visit);
+                if (std::ranges::find(list[s], b) != list[s].end()) visit(list[s]);
         };
         look(band_.tetras);
         look(band_.triangles);
+    }
+
+    /// Makes the node that would have to move farthest dearer.
+    void penalise(const auto& nodes, double factor) {
+        lessons_.penalty[*std::ranges::max_element(nodes, {}, [&](int v) { return std::pair(slide_[v], v); })] *= factor;
     }
 
     Interface& f_;
@@ -536,11 +583,12 @@ private:
     BandMesh& band_;
     const Tool& tool_;
     const Mesh& mesh_;
-    std::vector<double>& penalty_;
+    Lessons& lessons_;
     std::vector<int> side_;       ///< +1, -1, 0: in the interface
     std::vector<Vec3> target_;    ///< on the tool
     std::vector<double> slide_;   ///< distance to it in mean edge lengths
     std::vector<double> length_;  ///< mean edge lengths
+    std::vector<int> misplaced_;  ///< nodes that ended on the wrong side of the tool
     double worst_ = 1;
 };
 
@@ -548,7 +596,8 @@ private:
 
 void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     Stopwatch watch(f.seconds);
-    std::vector<double> penalty(static_cast<std::size_t>(f.d.band.size()), 1);
+    const auto count = static_cast<std::size_t>(f.d.band.size());
+    Lessons lessons{std::vector<double>(count, 1), std::vector<char>(count, 0)};
     double worst = 1;
     for (int t = 0; t < f.d.band.tetras.size(); ++t) worst = std::min(worst, tetra_quality(f.d, t));
     for (int t = 0; t < f.d.band.triangles.size(); ++t)
@@ -558,7 +607,7 @@ void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     double best_quality = acceptable;
     for (int k = 0; k < attempts; ++k) {
         Interface g = f;
-        Deformer deformer(g, tool, mesh, penalty);
+        Deformer deformer(g, tool, mesh, lessons);
         deformer.classify();
         const double quality = deformer.move();
         if (quality > best_quality) {
@@ -567,7 +616,7 @@ void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
         }
         if (best_quality >= enough) break;
         if (k + 1 == attempts && !best) deformer.fail();
-        deformer.penalise_bad();
+        deformer.learn();
     }
     f = std::move(*best);
     watch.lap("deform");
