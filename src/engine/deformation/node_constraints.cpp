@@ -143,7 +143,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     std::vector<int> kept_family(static_cast<std::size_t>(mesh.families.size()), -1);
     std::map<std::vector<GroupIndex>, int> kept_sets;
     const auto is_kept = [&](GroupIndex g) {
-        return !mesh.groups[g].hidden && (options.drifting_groups.empty() || !options.drifting_groups[g]);
+        if (mesh.groups[g].hidden) return !options.kept_hidden.empty() && options.kept_hidden[g];
+        return options.drifting_groups.empty() || !options.drifting_groups[g];
     };
     const auto kept = [&](FamilyIndex f) {
         if (kept_family[f] < 0) {
@@ -402,7 +403,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     for (int v = 0; v < node_count; ++v) {
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
-        if (!band.nodes[v].movable() || !band.vertices.around(v).empty()) {
+        if (!band.nodes[v].movable() || !band.vertices.around(v).empty() ||
+            std::ranges::binary_search(options.pinned, band.nodes[v].global)) {
             c.freedom = NodeFreedom::fixed;
             continue;
         }
