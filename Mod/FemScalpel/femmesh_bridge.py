@@ -39,6 +39,9 @@ _ORDER = {
 NOT_ADDABLE = ("triangle7", "quad9", "wedge18", "hexahedron27")
 
 _GROUP_TYPES = {0: "0DElement", 1: "Edge", 2: "Face", 3: "Volume"}
+# Elements handled at a time: their Python objects then stay in the processor's cache and never pile up.
+_CHUNK = 4096
+
 _LARGEST_NUMBER = 2**31 - 1
 
 _TYPE_BY_SHAPE = {(dimension, nodes): name for name, (dimension, nodes, _) in CELL_TYPES.items() if name not in NOT_ADDABLE}
@@ -79,7 +82,8 @@ def to_femmesh(mesh, as_node_groups=()):
 
     femmesh = Fem.FemMesh()
     x, y, z = mesh.points.T.tolist()
-    _for_each(femmesh.addNode, x, y, z, mesh.node_ids.tolist())
+    numbers = mesh.node_ids.astype(object)  # one Python integer per node, however many elements name it
+    _for_each(femmesh.addNode, x, y, z, numbers)
     add = {1: femmesh.addEdge, 2: femmesh.addFace, 3: femmesh.addVolume}
     dimension_of = _Dimensions()
     for name, connectivity in cells.items():
@@ -93,7 +97,10 @@ def to_femmesh(mesh, as_node_groups=()):
             kept = ~np.isin(ids, left_out)
             connectivity, ids = connectivity[kept], ids[kept]
         dimension_of.add(ids, dimension)
-        _for_each(add[dimension], mesh.node_ids[_reordered(name, connectivity)].tolist(), ids.tolist())
+        connectivity = _reordered(name, connectivity)
+        for begin in range(0, len(ids), _CHUNK):
+            part = slice(begin, begin + _CHUNK)
+            _for_each(add[dimension], numbers[connectivity[part]].tolist(), ids[part].tolist())
 
     for group in mesh.groups.all():
         if group.kind == "facet":
@@ -123,10 +130,14 @@ def _elements(femmesh, dimension, element_ids):
     if not element_ids:
         return
     # One Python call per element is what FreeCAD offers; everything else is done on whole arrays.
-    rows = list(map(femmesh.getElementNodes, element_ids))
     ids = np.fromiter(element_ids, np.int64, len(element_ids))
-    widths = np.fromiter(map(len, rows), np.int64, len(rows))
-    flat = np.fromiter(chain.from_iterable(rows), np.int64, int(widths.sum()))
+    widths = np.empty(len(ids), np.int64)
+    parts = []
+    for begin in range(0, len(ids), _CHUNK):
+        rows = list(map(femmesh.getElementNodes, element_ids[begin:begin + _CHUNK]))
+        widths[begin:begin + len(rows)] = np.fromiter(map(len, rows), np.int64, len(rows))
+        parts.append(np.fromiter(chain.from_iterable(rows), np.int64))
+    flat = np.concatenate(parts)
     starts = np.cumsum(widths) - widths
     for width in np.unique(widths):
         chosen = widths == width

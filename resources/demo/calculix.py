@@ -15,7 +15,7 @@ ELEMENT_TYPES = {"tetra": "C3D4", "tetra10": "C3D10", "triangle": "S3", "triangl
 # Corners of face 1 to 4 of a tetrahedron, as CalculiX numbers them.
 TETRA_FACES = np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
 
-# Where the three parts of a deck for this structure come from: everything below names groups, never numbers.
+# The deck behind its mesh: it names groups, never numbers.
 STEEL = """*MATERIAL, NAME={name}
 *ELASTIC
 {modulus:.1f}, 0.3
@@ -86,8 +86,8 @@ def write_deck(model: Model, path: Path) -> None:
             lines.append(f"*SOLID SECTION, ELSET=MAT_{name}, MATERIAL={name}")
         else:
             lines += [f"*SHELL SECTION, ELSET=MAT_{name}, MATERIAL={name}", "24."]
-    line_nodes = len(np.unique(model.cells[next(b for b in model.cells if b.startswith("line"))][
-        np.isin(model.cell_ids[next(b for b in model.cells if b.startswith("line"))], model.groups["LINE_LOAD"][1])]))
+    edges = next(name for name in model.cells if name.startswith("line"))
+    line_nodes = len(np.unique(model.cells[edges][np.isin(model.cell_ids[edges], model.groups["LINE_LOAD"][1])]))
     lines.append(LOADS.format(
         pressure="*DSLOAD\nPRESSURE, P, 0.6" if solid else "*DLOAD\nPRESSURE, P, 0.6",
         line_load=-30000.0 / line_nodes,
@@ -128,19 +128,30 @@ class Solution:
         return dict(zip(ids, value.tolist()))
 
 
-def run(deck: Path) -> Solution:
-    """Runs ccx on `deck` in its directory and reads the results. Raises RuntimeError with ccx's last words."""
-    job = deck.with_suffix("")
-    environment = dict(os.environ, OMP_NUM_THREADS=str(os.cpu_count() or 1))
-    done = subprocess.run(["ccx", job.name], cwd=deck.parent, env=environment, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    job.with_suffix(".log").write_text(done.stdout)
-    if done.returncode != 0 or "Job finished" not in done.stdout or "*ERROR" in done.stdout:
-        errors = [line for line in done.stdout.splitlines() if line.strip()][-12:]
-        raise RuntimeError(f"ccx failed on {deck}:\n" + "\n".join(errors))
+def run(decks: list[Path]) -> list[Solution]:
+    """Runs ccx on all decks at once, each in its directory, and reads the results.
+
+    Raises RuntimeError with ccx's last words.
+    """
+    threads = max(1, (os.cpu_count() or 1) // len(decks))
+    environment = dict(os.environ, OMP_NUM_THREADS=str(threads))
+    running = []
+    for deck in decks:
+        with deck.with_suffix(".log").open("w") as log:
+            running.append(subprocess.Popen(["ccx", deck.stem], cwd=deck.parent, env=environment, stdout=log,
+                                            stderr=subprocess.STDOUT))
+    codes = [process.wait() for process in running]
+    return [_results(deck, code) for deck, code in zip(decks, codes)]
+
+
+def _results(deck: Path, code: int) -> Solution:
+    log = deck.with_suffix(".log").read_text(errors="replace")
+    if code != 0 or "Job finished" not in log or "*ERROR" in log:
+        last = [line for line in log.splitlines() if line.strip()][-12:]
+        raise RuntimeError(f"ccx failed on {deck}:\n" + "\n".join(last))
     solution = Solution()
-    _read_frd(job.with_suffix(".frd"), solution)
-    _read_totals(job.with_suffix(".dat"), solution)
+    _read_frd(deck.with_suffix(".frd"), solution)
+    _read_totals(deck.with_suffix(".dat"), solution)
     return solution
 
 

@@ -233,8 +233,8 @@ def mesh_picture(path: Path, title: str, before: Mesh, after: Mesh) -> None:
     figure = plt.figure(figsize=(15, 9.2), dpi=100)
     grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], left=0.01, right=0.99, top=0.9, bottom=0.15, wspace=0.02, hspace=0.08)
     _show(figure.add_subplot(grid[:, 0]), _mesh_scene(after, (1400, 1060), 1.0, **WHOLE), "Whole structure, crack in red")
-    _show(figure.add_subplot(grid[0, 1]), _mesh_scene(before, (800, 500), 0.35, **ZOOM), "Hanger of STIFFENER_1 before")
-    _show(figure.add_subplot(grid[1, 1]), _mesh_scene(after, (800, 500), 0.35, **ZOOM), "after: faces lie on the plane, groups kept")
+    _show(figure.add_subplot(grid[0, 1]), _mesh_scene(before, (800, 500), 0.35, **ZOOM), "Hanger of STIFFENER_1, before")
+    _show(figure.add_subplot(grid[1, 1]), _mesh_scene(after, (800, 500), 0.35, **ZOOM), "The same after: nodes lie on the crack plane, groups are kept")
     keys = [Patch(facecolor=c, edgecolor="0.3", label=n) for n, c in PARTS.items()]
     keys += [Line2D([], [], color="#1a1a1a", lw=3, label="WELD_STIFFENERS (edges)"),
              Line2D([], [], color="#c2185b", lw=4, label="LINE_LOAD (edges)"),
@@ -248,7 +248,7 @@ def mesh_picture(path: Path, title: str, before: Mesh, after: Mesh) -> None:
     plt.close(figure)
 
 
-def opened_picture(path: Path, title: str, states, magnification: float) -> None:
+def opened_picture(path: Path, title: str, states, magnification: float, stress_name: str) -> None:
     """Deformed shapes before and after, coloured by von Mises stress.
 
     `states` holds for before and after: Mesh, displacement (n, 3) in mm, von Mises stress (n,) in MPa.
@@ -271,7 +271,7 @@ def opened_picture(path: Path, title: str, states, magnification: float) -> None
         _show(figure.add_subplot(place), scene, caption)
     scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, top), STRESS_MAP)
     bar = figure.colorbar(scale, cax=figure.add_axes((0.935, 0.15, 0.015, 0.6)))
-    bar.set_label("von Mises stress, MPa", fontsize=12)
+    bar.set_label(f"{stress_name}, MPa", fontsize=12)
     figure.suptitle(f"{title}; displacements magnified {magnification:.0f} times", fontsize=15, x=0.01, ha="left")
     figure.savefig(path)
     plt.close(figure)

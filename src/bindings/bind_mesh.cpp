@@ -8,6 +8,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "mesh/mesh.h"
+#include "mesh/quality.h"
 
 namespace py = pybind11;
 
@@ -135,6 +136,22 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("node_count", &Mesh::node_count)
         .def_property_readonly("cell_count", &Mesh::cell_count)
         .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return mesh.solver_input != nullptr; })
+        .def("mean_ratios", [](const Mesh& mesh) {
+            py::dict out;
+            for (const CellBlock& b : mesh.blocks())
+                if (b.size() > 0) out[py::str(std::string(traits(b.type).name))] = copied<double>(mean_ratios(mesh, b.type));
+            return out;
+        })
+        .def("measures", [](const Mesh& mesh) {
+            py::dict out;
+            for (const CellBlock& b : mesh.blocks()) {
+                if (b.size() == 0) continue;
+                py::array_t<double> values(b.size());
+                for (Index c = 0; c < b.size(); ++c) values.mutable_at(c) = cell_measure(mesh, b.type, c);
+                out[py::str(std::string(traits(b.type).name))] = values;
+            }
+            return out;
+        })
         .def("copy", [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }, py::call_guard<py::gil_scoped_release>())
         .def("validate", &Mesh::validate, py::call_guard<py::gil_scoped_release>())
         .def("groups", [](const Mesh& mesh) {

@@ -21,7 +21,9 @@ Triple triple(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 }  // namespace
 
 void bind_tools(py::module_& module) {
-    py::class_<Tool>(module, "Tool")
+    py::class_<Tool>(module, "Tool",
+                     "Base class of the tools, not made itself. A tool is a surface with a positive side, known by its signed\n"
+                     "distance.")
         .def_property_readonly("kind", &Tool::kind)
         .def_property_readonly("feature_size", &Tool::feature_size)
         .def("distances", [](const Tool& tool, const RealArray& points) {

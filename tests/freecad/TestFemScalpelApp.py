@@ -313,11 +313,15 @@ class CrackObject(DocumentTest):
         self.doc.recompute()
         names = {name for name, _, _ in groups_of(second.FemMesh)}
         self.assertTrue({"CRACK_P", "CRACK_N", "SECOND_P", "SECOND_N", "LEFT", "FIX"} <= names)
-        # An invalid source must not be taken for a good one.
+        good, placement = second.FemMesh.NodeCount, self.crack.PlanePlacement
+        # FreeCAD does not recompute what depends on a failed object; it must not go on showing its old mesh.
         self.crack.PlanePlacement = FreeCAD.Placement(FreeCAD.Vector(0, 0, 999), FreeCAD.Rotation())
         self.doc.recompute()
         self.assertIn("Invalid", self.crack.State)
         self.assertEqual(second.FemMesh.NodeCount, 0)
+        self.crack.PlanePlacement = placement
+        self.doc.recompute()
+        self.assertEqual(second.FemMesh.NodeCount, good)
 
     def test_lips_of_a_solid_mesh_without_faces_are_node_groups(self):
         self.recompute()

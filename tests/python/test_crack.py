@@ -90,7 +90,7 @@ def test_report_as_text_and_csv(cracked, tmp_path):
     _, result = cracked
     text = result.report.to_text()
     assert str(result.report) == text
-    table = text[text.index("group "):].splitlines()
+    table = text[text.index("\ngroup ") + 1:].splitlines()
     assert [line.split()[0] for line in table[2:]] == [g.name for g in result.report.groups]
     assert "ICN" in text and "mean ratio" in text
     buffer = io.StringIO()

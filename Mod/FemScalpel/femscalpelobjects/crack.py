@@ -163,6 +163,10 @@ class Crack:
         obj.ConstraintCounts = {kind: str(count) for kind, count in report.constraints.items()}
 
     def _clear(self, obj):
+        # FreeCAD does not recompute what depends on a failed object, so it would keep showing its outdated mesh.
+        for dependent in obj.InList:
+            if isinstance(getattr(dependent, "Proxy", None), Crack) and dependent.Source == obj:
+                dependent.Proxy._clear(dependent)
         self.report = None
         obj.FemMesh = Fem.FemMesh()
         for name in ("NodesAdded", "NodesDoubled", "NodesMoved", "MinimumQuality", "MinimumQualityBefore", "MaxDisplacement"):

@@ -17,16 +17,17 @@ constexpr int faces_of_tetra[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}
 
 class Deformer {
 public:
-    Deformer(Interface& f, const Tool& tool, const Mesh& mesh) : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh) {}
+    Deformer(Interface& f, const Tool& tool, const Mesh& mesh, bool positive)
+        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), t1_side_(positive ? 1 : -1) {}
 
     void classify() {
         const auto label = [&](auto& list) {
             for (int s = 0; s < list.size(); ++s)
-                list.set_tag(s, std::ranges::all_of(list[s], [&](int v) { return f_.distance[v] >= 0; }) ? in_t1 : in_t2);
+                list.set_tag(s, std::ranges::all_of(list[s], [&](int v) { return t1_side_ * f_.distance[v] >= 0; }) ? in_t1 : in_t2);
         };
         label(band_.tetras);
         label(band_.triangles);
-        for (bool again = true; again;) again = hand_over_tetras() || split_figure_4() || hand_over_shells();
+        while (hand_over_tetras() || split_figure_4() || hand_over_shells()) {}
     }
 
     /// The crack interface CI: nodes of faces (edges) between T1 and T2.
@@ -57,7 +58,7 @@ public:
             }
             d_.contact[v] = nullptr;
             const auto side = [&](const auto& list) {
-                if (!list.around(v).empty()) f_.distance[v] = list.tag(list.around(v)[0]) == in_t1 ? 1 : -1;
+                if (!list.around(v).empty()) f_.distance[v] = list.tag(list.around(v)[0]) == in_t1 ? t1_side_ : -t1_side_;
             };
             if (!band_.triangles.around(v).empty() && is_shell(band_.triangles.around(v)[0])) side(band_.triangles);
             side(band_.tetras);
@@ -137,23 +138,62 @@ private:
         return any;
     }
 
-    /// Figure 4: the edge that joins the two corners opposite the interface faces is split in the middle.
-    bool split_figure_4() {
+    /// Nodes of faces between T1 and T2.
+    std::vector<char> interface_flags() const {
+        std::vector<char> on(static_cast<std::size_t>(band_.size()), 0);
         for (int t = 0; t < band_.tetras.size(); ++t) {
             if (band_.tetras.tag(t) != in_t1) continue;
-            const std::vector<int> corners = interface_corners(t);
-            if (corners.size() != 2) continue;
-            const int a = band_.tetras[t][corners[0]], b = band_.tetras[t][corners[1]];
-            if (!band_.nodes[a].movable() && !band_.nodes[b].movable()) continue;
+            for (const int k : interface_corners(t))
+                for (const int c : faces_of_tetra[k]) on[band_.tetras[t][c]] = 1;
+        }
+        return on;
+    }
+
+    /// Figure 4: in a tetrahedron with two interface faces, the edge that joins the two corners opposite
+    /// them is split in the middle. Every other tetrahedron whose four corners are all on the interface
+    /// would be flattened just the same, so it is split too, at an edge that is in no interface face.
+    bool split_figure_4() {
+        bool any = false;
+        const std::vector<char> on = interface_flags();
+        const int count = band_.tetras.size();
+        for (int t = 0; t < count; ++t) {
+            const auto v = band_.tetras[t];
+            if (!std::ranges::all_of(v, [&](int n) { return n < static_cast<int>(on.size()) && on[n] != 0; })) continue;
+            int a = -1, b = -1;
+            const std::vector<int> corners = band_.tetras.tag(t) == in_t1 ? interface_corners(t) : std::vector<int>{};
+            if (corners.size() == 2) {
+                a = v[corners[0]];
+                b = v[corners[1]];
+            } else {
+                double longest = 0;
+                for (int i = 0; i < 4; ++i)
+                    for (int j = 0; j < i; ++j) {
+                        const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).norm();
+                        if (length > longest && !in_interface(v[i], v[j])) {
+                            longest = length;
+                            a = v[i];
+                            b = v[j];
+                        }
+                    }
+            }
+            if (a < 0 || (!band_.nodes[a].movable() && !band_.nodes[b].movable())) continue;
             Vec3 at = (band_.nodes[a].at + band_.nodes[b].at) / 2;
             const Vec3 middle = at;
             const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
             if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), nullptr, at) || (at - middle).norm() > 0.1 * length) at = middle;
             d_.split_edge(a, b, at, nullptr);
             f_.distance.push_back(tool_.distance(at));
-            return true;
+            any = true;
         }
-        return false;
+        return any;
+    }
+
+    /// Whether tetrahedra of both sets share the edge a-b.
+    bool in_interface(int a, int b) const {
+        bool one = false, two = false;
+        for (const int s : band_.tetras.around(a))
+            if (std::ranges::find(band_.tetras[s], b) != band_.tetras[s].end()) (band_.tetras.tag(s) == in_t1 ? one : two) = true;
+        return one && two;
     }
 
     bool hand_over_shells() {
@@ -253,6 +293,7 @@ private:
     BandMesh& band_;
     const Tool& tool_;
     const Mesh& mesh_;
+    int t1_side_;
     std::set<int> interface_;
     std::vector<int> movable_;
 };
@@ -261,11 +302,20 @@ private:
 
 void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     Stopwatch watch(f.seconds);
-    Deformer deformer(f, tool, mesh);
-    deformer.classify();
-    deformer.find_interface();
-    watch.lap("classify");
-    deformer.move();
+    const auto attempt = [&](Interface& g, bool positive) {
+        Deformer deformer(g, tool, mesh, positive);
+        deformer.classify();
+        deformer.find_interface();
+        deformer.move();
+    };
+    // The paper leaves open which half-space is T1: the other one is tried when the first cannot be done.
+    Interface first = f;
+    try {
+        attempt(first, true);
+        f = std::move(first);
+    } catch (const QualityError&) {
+        attempt(f, false);
+    }
     watch.lap("deform");
 }
 

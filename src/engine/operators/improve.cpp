@@ -9,7 +9,7 @@ namespace femscalpel {
 namespace {
 
 /// Elements worse than this get their longest edge bisected, in so many rounds at most.
-constexpr double split_below = 0.25;
+constexpr double split_below = 0.35;
 constexpr int split_rounds = 8;
 
 class Improver {

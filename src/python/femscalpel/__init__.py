@@ -17,6 +17,7 @@ from .interop import from_meshio, to_meshio
 from .mesh import Group, Groups, Mesh
 from .meshfile import read, write
 from .operators import Result, Scalpel, crack
+from .quality import mean_ratio, measure
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Plane, Tool
 
@@ -43,6 +44,8 @@ __all__ = [
     "WriteError",
     "crack",
     "from_meshio",
+    "mean_ratio",
+    "measure",
     "read",
     "to_meshio",
     "write",

@@ -54,7 +54,8 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         For example :class:`Plane`.
     name : str
         Prefix of the new groups: ``name_P`` and ``name_N``, the lip faces on the tool's positive and negative
-        side, and ``name_FRONT``. The groups' names must be new and fit 24 characters.
+        side, and, if the sides hang together at some nodes, ``name_FRONT`` with these. The groups' names must be new
+        and fit 24 characters.
     method : {"snap", "deform"}
         "snap" moves nodes near the tool onto it and splits what still crosses; it always succeeds on a sound
         mesh. "deform" only moves nodes (the paper, 3.1.1) and may end in QualityError.

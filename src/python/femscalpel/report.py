@@ -68,7 +68,9 @@ class Report:
     method: str  #: "snap" or "deform"
     transition: int  #: number of rings around the tool that were allowed to move
     node_sets: Dict[str, np.ndarray]  #: node numbers: ICN, ECN (interface), ITN, ETN (transition), as in the paper
-    constraints: Dict[str, int]  #: number of constraints on moving nodes by kind: "plane", "tangent plane", ...
+    #: Number of nodes by constraint: the tool's kind ("plane"), "tangent plane" (on the skin or a shell), of these "line"
+    #: and "fixed"; "group boundary"; "free". A node can count twice.
+    constraints: Dict[str, int]
     quality: Quality  #: near the tool, before and after
     groups: List[GroupRecord]
     nodes_added: int  #: by splitting and by doubling

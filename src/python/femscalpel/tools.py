@@ -7,7 +7,6 @@ import numpy as np
 
 from . import _arguments, _engine
 
-#: Base class of the tools. A tool is a surface with a positive side, known by its signed distance.
 Tool = _engine.Tool
 
 
