@@ -8,6 +8,8 @@
 #include <set>
 #include <unordered_set>
 
+#include "groups/group_report.h"
+#include "mesh/quality.h"
 #include "semantics/card_edits.h"
 #include "semantics/deck_view.h"
 #include "semantics/node_origins.h"
@@ -17,10 +19,10 @@ namespace {
 
 /// CalculiX reads 20 characters of a number.
 std::string number_text(double value) {
-    char text[40];
-    const char* end = std::to_chars(text, text + sizeof text, value).ptr;
-    if (end - text > 20) end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 12).ptr;
-    std::string out(text, static_cast<std::size_t>(end - text));
+    std::array<char, 40> text{};
+    char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    if (end - text.data() > 20) end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 12).ptr;
+    std::string out(text.data(), end);
     if (out.find_first_of(".en") == out.npos) out += '.';
     return out;
 }
@@ -47,7 +49,7 @@ public:
         for (const Changes::Born& b : changes.born) new_nodes_.push_back(b.node);
         for (const Changes::Copy& c : changes.copies) new_nodes_.push_back(c.node);
         new_groups_ = DeckSetIndex(input_.sets());
-        trace_faces();
+        find_marked();
     }
 
     std::shared_ptr<const SolverInput> run() {
@@ -109,31 +111,40 @@ private:
 
     bool in_mesh(Index element) const { return old_.numbers().cell(element).has_value(); }
 
-    void trace_faces() {
-        std::vector<int> mark(after_.groups.size(), 0);
+    /// Elements (face 0) or element faces.
+    using Faces = std::vector<std::pair<Index, int>>;
+
+    void find_marked() {
+        std::vector<Faces*> of_group(after_.groups.size(), nullptr);
         bool any = false;
-        for (int face = 1; face <= largest_face; ++face)
-            if (const auto g = after_.find_group(face_mark(face), GroupKind::facet, true)) {
-                mark[static_cast<std::size_t>(*g)] = face;
+        for (std::size_t g = 0; g < of_group.size(); ++g)
+            if (after_.groups[g].hidden && after_.groups[g].kind != GroupKind::node && after_.groups[g].name.starts_with(mark_prefix)) {
+                of_group[g] = &marked_[after_.groups[g].name];
                 any = true;
             }
         if (!any) return;
-        for (const Facet& f : after_.facets) {
-            const Index number = after_.block(f.type).ids[f.cell];
-            const auto parent = parents_.find(number);
+        for (const CellBlock& b : after_.blocks())
+            for (Index c = 0; c < b.size(); ++c)
+                for (const GroupIndex g : after_.families.groups(b.families[c]))
+                    if (of_group[g]) of_group[g]->push_back({b.ids[c], 0});
+        for (const Facet& f : after_.facets)
             for (const GroupIndex g : after_.families.groups(f.family))
-                if (mark[static_cast<std::size_t>(g)] != 0)
-                    pieces_[{parent == parents_.end() ? number : parent->second, mark[static_cast<std::size_t>(g)]}].push_back(
-                        {number, f.face});
-        }
+                if (of_group[g]) of_group[g]->push_back({after_.block(f.type).ids[f.cell], f.face});
+        for (auto& [name, faces] : marked_) std::ranges::sort(faces);
     }
 
-    using Faces = std::vector<std::pair<Index, int>>;
-
-    /// Where a face of an element of the input is now: elements and their faces.
-    Faces pieces_of(Index element, int face) const {
-        const auto it = pieces_.find({element, face});
-        return it == pieces_.end() ? Faces{} : it->second;
+    /// Area or volume of a group of mark_deck().
+    static double measure_of(const Mesh& mesh, const std::string& name) {
+        double sum = 0;
+        if (const auto g = mesh.find_group(name, GroupKind::facet, true)) {
+            for (const Facet& f : mesh.facets)
+                if (mesh.families.contains(f.family, *g)) sum += facet_measure(mesh, f);
+        } else if (const auto e = mesh.find_group(name, GroupKind::element, true)) {
+            for (const CellBlock& b : mesh.blocks())
+                for (Index c = 0; c < b.size(); ++c)
+                    if (mesh.families.contains(b.families[c], *e)) sum += cell_measure(mesh, b.type, c);
+        }
+        return sum;
     }
 
     // --- sets that must not grow -------------------------------------------------------------------
@@ -299,74 +310,102 @@ private:
         }
     }
 
+    /// A line of a distributed load, and where its load is applied in the input.
+    struct LoadLine {
+        CardReader line;
+        NumberOrSet what;
+        std::string written;  ///< label
+        LoadLabel label;
+        std::string rest;
+        std::string mark;     ///< the group that has its faces or elements; empty if the line stays as it is
+        Faces faces;
+        std::vector<Index> other_members;  ///< of a set: elements that have no such face
+
+        std::string with(Index element, const std::string& new_label) const {
+            return std::to_string(element) + ", " + new_label + (rest.empty() ? "" : "," + rest);
+        }
+    };
+
     void carry_element_loads(std::size_t c, const Card& card) {
+        std::vector<LoadLine> lines = read_element_loads(c, card);
+        // What each group still has to give to lines.
+        std::map<std::string, std::set<std::pair<Index, int>>> left;
+        for (const LoadLine& l : lines)
+            if (!l.mark.empty())
+                if (const auto [it, fresh] = left.try_emplace(l.mark); fresh) it->second.insert(marked_[l.mark].begin(), marked_[l.mark].end());
+        std::map<std::pair<std::string, Index>, const LoadLine*> line_of;  // by group and element of the input
+        std::map<std::string, const LoadLine*> last_line;
+        for (const LoadLine& l : lines) {
+            if (l.mark.empty()) continue;
+            last_line[l.mark] = &l;
+            for (const auto& [element, face] : l.faces) line_of.emplace(std::pair(l.mark, element), &l);
+            auto& there = left[l.mark];
+            // A set stays if none of its elements has parts, which would be loaded too.
+            const bool stays = std::ranges::all_of(l.faces, [&](const auto& f) {
+                return there.contains(f) && (l.what.is_number() || !parts_.contains(f.first));
+            });
+            if (stays) {
+                for (const auto& f : l.faces) there.erase(f);
+                continue;
+            }
+            edits_[c].drop(l.line);
+            for (const Index element : l.other_members)
+                for (const Index part : parts_of(element)) edits_[c].add_after(l.line, l.with(part, l.written));
+            for (const auto& [element, face] : l.faces)
+                if (parts_of(element).empty() && shrank(l.mark))
+                    remark(c, true, l.line.where(), element_text(element), "was removed, and with it its " + l.written);
+        }
+        for (const auto& [mark, faces] : left)
+            for (const auto& [element, face] : faces) {
+                const auto parent = parents_.find(element);
+                const auto found = line_of.find({mark, parent == parents_.end() ? element : parent->second});
+                const LoadLine& l = found == line_of.end() ? *last_line.at(mark) : *found->second;
+                edits_[c].add_after(l.line, l.with(element, face == 0 ? l.written : l.label.with_face(face, is_plane_now(element))));
+            }
+    }
+
+    std::vector<LoadLine> read_element_loads(std::size_t c, const Card& card) {
+        std::vector<LoadLine> out;
         CardReader line(card);
         while (line.next_data_line()) {
+            const CardReader start = line;
             const auto what = read_number_or_set(line);
             if (!what) continue;
             const std::string written = line.field();
-            const LoadLabel label(written);
-            const std::string rest(line.rest());
-            if (label.suffix == "FC")
+            LoadLine l{start, *what, written, LoadLabel(written), std::string(line.rest()), "", {}, {}};
+            if (l.label.suffix == "FC")
                 if (Index sink = 0; line.integer(sink) && origins_.is_doubled(sink))
                     remark(c, true, line.where(), node_text(sink), "the crack doubled; the original, on the negative side, stays the sink");
-            const auto tail = [&](const std::string& with_label) { return ", " + with_label + (rest.empty() ? "" : "," + rest); };
-            if (!what->is_number()) {
-                const auto group = label.number > 0 ? old_.group(DeckSetType::elset, what->set) : std::nullopt;
-                if (!group) continue;
-                Faces faces;
-                bool same = true;
-                std::vector<Index> kept_as_is;
-                for (const Index element : old_.members(*group)) {
-                    const CellRef cell = *old_.numbers().cell(element);
-                    const int face = label.face(cell.type, old_.is_plane(cell));
-                    if (face == 0) {
-                        kept_as_is.push_back(element);
-                        continue;
-                    }
-                    const Faces pieces = pieces_of(element, face);
-                    same = same && pieces == Faces{{element, face}} && !parts_.contains(element);
-                    if (pieces.empty()) lost_face(c, line, element, written);
-                    faces.insert(faces.end(), pieces.begin(), pieces.end());
-                }
-                if (same) continue;
-                edits_[c].drop(line);
-                for (const Index element : kept_as_is)
-                    for (const Index part : parts_of(element)) edits_[c].add_after(line, std::to_string(part) + tail(written));
-                for (const auto& [element, face] : faces)
-                    edits_[c].add_after(line, std::to_string(element) + tail(label.with_face(face, is_plane_now(element))));
-                continue;
-            }
-            const Index element = what->number;
-            if (!in_mesh(element)) continue;
-            const CellRef cell = *old_.numbers().cell(element);
-            const int face = label.face(cell.type, old_.is_plane(cell));
-            if (face == 0) {
-                const std::vector<Index> parts = parts_of(element);
-                if (parts == std::vector<Index>{element}) continue;
-                edits_[c].drop(line);
-                if (parts.empty()) remark(c, true, line.where(), element_text(element), "was removed, and with it its " + written);
-                for (const Index part : parts) edits_[c].add_after(line, std::to_string(part) + tail(written));
-                continue;
-            }
-            const Faces pieces = pieces_of(element, face);
-            if (pieces == Faces{{element, face}}) continue;
-            edits_[c].drop(line);
-            if (pieces.empty()) lost_face(c, line, element, written);
-            for (const auto& [piece, now] : pieces)
-                edits_[c].add_after(line, std::to_string(piece) + tail(label.with_face(now, is_plane_now(piece))));
+            const auto look = [&](Index element) {
+                const auto cell = old_.numbers().cell(element);
+                if (!cell) return;
+                const int face = l.label.face(cell->type, old_.is_plane(*cell));
+                if (face > 0 || what->is_number()) l.faces.push_back({element, face});
+                else l.other_members.push_back(element);
+            };
+            if (what->is_number()) look(what->number);
+            else if (l.label.number > 0)
+                if (const auto group = old_.group(DeckSetType::elset, what->set))
+                    for (const Index element : old_.members(*group)) look(element);
+            if (!l.faces.empty())
+                l.mark = l.faces.front().second > 0 ? face_mark(c, l.label, l.rest) : element_mark(c, l.label, l.rest);
+            out.push_back(std::move(l));
         }
+        return out;
+    }
+
+    /// Whether a load lost area or volume. Elements that vanish in the work of an operator, their place taken by
+    /// others of their groups, take no load with them.
+    bool shrank(const std::string& mark) {
+        const auto [it, fresh] = shrank_.try_emplace(mark);
+        if (fresh) it->second = measure_of(after_, mark) < (1 - 1e-9) * measure_of(before_, mark);
+        return it->second;
     }
 
     bool is_plane_now(Index element) const {
         // Parts stand under the card of their parent.
         const auto parent = parents_.find(element);
         return old_.is_plane(*old_.numbers().cell(parent == parents_.end() ? element : parent->second));
-    }
-
-    void lost_face(std::size_t c, const CardReader& line, Index element, const std::string& label) {
-        remark(c, true, line.where(), element_text(element),
-               new_numbers_.cell(element) ? "has no longer the face of its " + label : "was removed, and with it its " + label);
     }
 
     /// Largest number of state variables in the deck: records of initial solutions are as long.
@@ -736,7 +775,8 @@ private:
     std::vector<Index> new_nodes_;
     std::unordered_map<Index, std::vector<Index>> parts_;    // parent -> further parts
     std::unordered_map<Index, Index> parents_;               // further part -> parent
-    std::map<std::pair<Index, int>, Faces> pieces_;          // element and face of the input -> where they are now
+    std::map<std::string, Faces> marked_;                    // group of mark_deck() -> what is in it now
+    std::map<std::string, bool> shrank_;
     DeckSetIndex new_groups_{{}};
     std::map<std::string, std::string> closed_;              // set -> set of its old members
     std::map<std::string, std::vector<std::size_t>> pools_;  // equal cards with values at nodes

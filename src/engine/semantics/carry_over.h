@@ -21,11 +21,9 @@ struct DeckMarks {
 
 /// Prepares a mesh read from a CalculiX deck for an operator; linear in deck and mesh.
 ///
-/// - Nodes of supports, and elements and element faces under distributed loads, that cards name by number:
-///   those with one value on one card form a hidden group that is to be kept like one of the user's, so that
-///   the loaded area, and with it the load, stays the same.
-/// - Each loaded face is also in hidden group "*FACE#k", k its local number (Facet::face): after the operator
-///   this tells which faces of an element's parts lie on its face k.
+/// - Nodes of supports, and elements and element faces under distributed loads, that cards name by number (faces
+///   also by set and label): those with one value on one card form a hidden group, to be kept like one of the
+///   user's. So the loaded area, and with it the load, stays the same, and shows where the load is afterwards.
 /// - Nodes with concentrated loads and terms of equations by number, reference nodes, and nodes of elements
 ///   outside the mesh are pinned.
 DeckMarks mark_deck(const Mesh& mesh);

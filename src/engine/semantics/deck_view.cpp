@@ -58,6 +58,18 @@ std::string parameters_key(const Card& card) {
     return key;
 }
 
-std::string face_mark(int face) { return std::string(mark_prefix) + "FACE" + std::to_string(face); }
+namespace {
+
+std::string mark(std::string_view kind, std::size_t card, const LoadLabel& label, std::string_view rest) {
+    return std::string(mark_prefix) + std::string(kind) + std::to_string(card) + ":" + label.prefix + "#" + label.suffix + "," + deck_key(rest);
+}
+
+}  // namespace
+
+std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest) { return mark("FACES", card, label, rest); }
+
+std::string element_mark(std::size_t card, const LoadLabel& label, std::string_view rest) {
+    return mark("ELEMENTS", card, label, rest);
+}
 
 }  // namespace femscalpel

@@ -62,11 +62,12 @@ std::vector<std::pair<std::string, Index>> reference_nodes(const Card& card);
 /// What a card says beside its lines, but for OP=: lines under equal cards of one step add up.
 std::string parameters_key(const Card& card);
 
-/// Name of the hidden facet group of mark_deck() for faces with local number `face`.
-std::string face_mark(int face);
-inline constexpr int largest_face = 6;
-
 /// First letters of the names of all hidden groups of mark_deck().
 inline constexpr std::string_view mark_prefix = "*MARK#";
+
+/// Names of the hidden groups of mark_deck() for the faces, or for the elements named by number, that lines of
+/// card `card` load alike: same label but for the face, same entries after it.
+std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest);
+std::string element_mark(std::size_t card, const LoadLabel& label, std::string_view rest);
 
 }  // namespace femscalpel

@@ -48,7 +48,7 @@ private:
         while (line.next_data_line())
             if (Index number = 0; line.integer(number))
                 if (const auto node = deck_.numbers().node(number))
-                    nodes_[std::to_string(deck_.step(c)) + parameters_key(card) + ":" + deck_key(line.rest())].push_back(*node);
+                    nodes_[std::string(mark_prefix) + "NODES" + std::to_string(deck_.step(c)) + parameters_key(card) + ":" + deck_key(line.rest())].push_back(*node);
     }
 
     void read_first_nodes(const Card& card) {
@@ -63,13 +63,12 @@ private:
             const auto what = read_number_or_set(line);
             if (!what) continue;
             const LoadLabel label(line.field());
-            const std::string key =
-                std::to_string(c) + ":" + label.prefix + "#" + label.suffix + "," + deck_key(line.rest());
+            const std::string faces = face_mark(c, label, line.rest()), cells = element_mark(c, label, line.rest());
             const auto mark = [&](Index number) {
                 const auto cell = deck_.numbers().cell(number);
                 if (!cell) return;
-                if (const int face = label.face(cell->type, deck_.is_plane(*cell))) faces_[key].push_back({*cell, face});
-                else if (what->is_number()) cells_[key].push_back(*cell);
+                if (const int face = label.face(cell->type, deck_.is_plane(*cell))) faces_[faces].push_back({*cell, face});
+                else if (what->is_number()) cells_[cells].push_back(*cell);
             };
             if (what->is_number()) mark(what->number);
             else if (label.number > 0)
@@ -84,7 +83,7 @@ private:
             while (!line.at_end()) {
                 const auto what = read_number_or_set(line);
                 if (what && what->is_number())
-                    if (const auto cell = deck_.numbers().cell(what->number)) cells_[std::to_string(c)].push_back(*cell);
+                    if (const auto cell = deck_.numbers().cell(what->number)) cells_[std::string(mark_prefix) + "LIST" + std::to_string(c)].push_back(*cell);
             }
     }
 
@@ -141,18 +140,18 @@ private:
 
     Mesh marked(std::vector<bool>& kept) const {
         Mesh mesh = deck_.mesh();
-        int count = 0;
-        const auto add = [&](GroupKind kind) {
-            mesh.groups.push_back({std::string(mark_prefix) + std::to_string(++count), kind, true});
+        // Names are unique as they are; add_group() would compare each with all.
+        const auto add = [&](const std::string& name, GroupKind kind) {
+            mesh.groups.push_back({name, kind, true});
             return static_cast<GroupIndex>(mesh.groups.size()) - 1;
         };
         const std::size_t first = mesh.groups.size();
-        for (const auto& [key, nodes] : nodes_) {
-            const GroupIndex group = add(GroupKind::node);
+        for (const auto& [name, nodes] : nodes_) {
+            const GroupIndex group = add(name, GroupKind::node);
             for (const Index n : nodes) mesh.node_families[n] = mesh.families.with(mesh.node_families[n], group);
         }
-        for (const auto& [key, cells] : cells_) {
-            const GroupIndex group = add(GroupKind::element);
+        for (const auto& [name, cells] : cells_) {
+            const GroupIndex group = add(name, GroupKind::element);
             for (const CellRef& c : cells) {
                 FamilyIndex& family = mesh.block(c.type).families[c.cell];
                 family = mesh.families.with(family, group);
@@ -165,17 +164,12 @@ private:
             FamilyIndex& family = facets[{face.first.type, face.first.cell, static_cast<std::int8_t>(face.second)}];
             family = mesh.families.with(family, group);
         };
-        for (const auto& [key, faces] : faces_) {
-            const GroupIndex group = add(GroupKind::facet);
+        for (const auto& [name, faces] : faces_) {
+            const GroupIndex group = add(name, GroupKind::facet);
             for (const auto& face : faces) join(face, group);
         }
         kept.assign(mesh.groups.size(), false);
         std::fill(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end(), true);
-        std::array<GroupIndex, largest_face + 1> trace{};
-        for (int face = 1; face <= largest_face; ++face) trace[face] = mesh.add_group(face_mark(face), GroupKind::facet, true);
-        kept.resize(mesh.groups.size(), false);
-        for (const auto& [key, faces] : faces_)
-            for (const auto& face : faces) join(face, trace[face.second]);
         mesh.facets.clear();
         for (const auto& [where, family] : facets) {
             const auto& [type, cell, face] = where;
@@ -186,7 +180,7 @@ private:
 
     DeckView deck_;
     std::set<Index> pinned_;
-    // By what is said of them; indices.
+    // By name of the group to be.
     std::map<std::string, std::vector<Index>> nodes_;
     std::map<std::string, std::vector<CellRef>> cells_;
     std::map<std::string, std::vector<std::pair<CellRef, int>>> faces_;
