@@ -7,7 +7,6 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "mesh/mesh.h"
 #include "mesh/quality.h"
 
 namespace py = pybind11;
@@ -26,12 +25,6 @@ GroupKind kind_from_name(const std::string& name) {
     throw Error("unknown group kind '" + name + "': it must be 'node', 'element' or 'facet'");
 }
 
-GroupIndex require_group(const Mesh& mesh, const std::string& name, const std::string& kind) {
-    const auto group = mesh.find_group(name, kind_from_name(kind));
-    if (!group) throw Error("the mesh has no " + kind + " group '" + name + "'");
-    return *group;
-}
-
 /// Numbers as Python gives them: (n,) for nodes and elements, (n, 2) for facets.
 GroupMembers members_from(GroupKind kind, const std::string& name, const IndexArray& ids) {
     GroupMembers out;
@@ -47,17 +40,6 @@ GroupMembers members_from(GroupKind kind, const std::string& name, const IndexAr
     for (py::ssize_t i = 0; i < ids.shape(0); ++i) {
         out.ids.push_back(ids.at(i, 0));
         out.faces.push_back(ids.at(i, 1));
-    }
-    return out;
-}
-
-py::array_t<std::int64_t> to_array(const GroupMembers& members) {
-    if (members.kind != GroupKind::facet) return copied<std::int64_t>(members.ids);
-    py::array_t<std::int64_t> out({static_cast<py::ssize_t>(members.ids.size()), py::ssize_t{2}});
-    auto a = out.mutable_unchecked<2>();
-    for (py::ssize_t i = 0; i < a.shape(0); ++i) {
-        a(i, 0) = members.ids[static_cast<std::size_t>(i)];
-        a(i, 1) = members.faces[static_cast<std::size_t>(i)];
     }
     return out;
 }
@@ -108,6 +90,23 @@ py::dict cell_ids(const py::object& self) {
 }
 
 }  // namespace
+
+GroupIndex require_group(const Mesh& mesh, const std::string& name, const std::string& kind) {
+    const auto group = mesh.find_group(name, kind_from_name(kind));
+    if (!group) throw Error("the mesh has no " + kind + " group '" + name + "'");
+    return *group;
+}
+
+py::array_t<std::int64_t> to_array(const GroupMembers& members) {
+    if (members.kind != GroupKind::facet) return copied<std::int64_t>(members.ids);
+    py::array_t<std::int64_t> out({static_cast<py::ssize_t>(members.ids.size()), py::ssize_t{2}});
+    auto a = out.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < a.shape(0); ++i) {
+        a(i, 0) = members.ids[static_cast<std::size_t>(i)];
+        a(i, 1) = members.faces[static_cast<std::size_t>(i)];
+    }
+    return out;
+}
 
 void bind_mesh(py::module_& module) {
     module.def("cell_types", [] {

@@ -5,6 +5,7 @@ PYBIND11_MODULE(_engine, module) {
     module.doc() = "Compiled part of femscalpel; use the package femscalpel instead.";
     femscalpel::bindings::bind_errors(module);
     femscalpel::bindings::bind_mesh(module);
+    femscalpel::bindings::bind_groups(module);
     femscalpel::bindings::bind_tools(module);
     femscalpel::bindings::bind_io(module);
     femscalpel::bindings::bind_operators(module);

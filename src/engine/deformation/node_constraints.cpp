@@ -31,65 +31,69 @@ private:
     std::vector<int> parent_;
 };
 
-/// Faces of the band's tetrahedra with the one or two tetrahedra behind each: open addressing over
-/// sorted node triples.
+constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+/// Faces of the band's tetrahedra that have a movable node, with the one or two tetrahedra behind each.
+/// Bucketed by smallest node: the few faces of a bucket are matched by looking at them all.
 class FaceTable {
 public:
     struct Entry {
-        std::array<int, 3> key{-1, -1, -1};
-        std::array<int, 3> oriented{};  // as the first tetrahedron has it, normal outwards
+        std::array<int, 3> oriented;  // as the first tetrahedron has it, normal outwards
+        int second, third;            // middle and largest node
         int tetra[2]{-1, -1};
-        int triangle_family = -1;  // -1: no triangle element on it
+        int triangle_family = -1;     // -1: no triangle element on it
     };
 
-    explicit FaceTable(std::size_t faces) {
-        std::size_t capacity = 64;
-        while (capacity < 2 * faces) capacity *= 2;
-        slots_.assign(capacity, -1);
-        entries_.reserve(faces);
-        mask_ = capacity - 1;
+    explicit FaceTable(const BandMesh& band) : start_(static_cast<std::size_t>(band.size()) + 1, 0), end_(static_cast<std::size_t>(band.size())) {
+        const auto for_each_face = [&](auto visit) {
+            for (int t = 0; t < band.tetras.size(); ++t)
+                for (const auto& f : outward_faces) {
+                    const auto& v = band.tetras[t];
+                    const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
+                    if (band.nodes[nodes[0]].movable() || band.nodes[nodes[1]].movable() || band.nodes[nodes[2]].movable()) visit(t, nodes);
+                }
+        };
+        for_each_face([&](int, const std::array<int, 3>& n) { ++start_[std::min({n[0], n[1], n[2]}) + 1]; });
+        for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+        entries_.resize(static_cast<std::size_t>(start_.back()));
+        std::copy(start_.begin(), start_.end() - 1, end_.begin());
+        for_each_face([&](int t, const std::array<int, 3>& n) {
+            const auto key = sorted(n);
+            if (Entry* e = find_sorted(key)) {
+                e->tetra[1] = t;
+                return;
+            }
+            Entry& e = entries_[end_[key[0]]++];
+            e.oriented = n;
+            e.second = key[1];
+            e.third = key[2];
+            e.tetra[0] = t;
+        });
     }
 
-    Entry& insert(std::array<int, 3> nodes) {
-        std::array<int, 3> key = nodes;
-        std::ranges::sort(key);
-        std::size_t h = hash(key) & mask_;
-        while (slots_[h] >= 0) {
-            if (entries_[slots_[h]].key == key) return entries_[slots_[h]];
-            h = (h + 1) & mask_;
-        }
-        slots_[h] = static_cast<int>(entries_.size());
-        entries_.push_back({});
-        entries_.back().key = key;
-        entries_.back().oriented = nodes;
-        return entries_.back();
-    }
+    Entry* find(const std::array<int, 3>& nodes) { return find_sorted(sorted(nodes)); }
 
-    Entry* find(std::array<int, 3> key) {
-        std::ranges::sort(key);
-        std::size_t h = hash(key) & mask_;
-        while (slots_[h] >= 0) {
-            if (entries_[slots_[h]].key == key) return &entries_[slots_[h]];
-            h = (h + 1) & mask_;
-        }
-        return nullptr;
+    template <class Visit>
+    void for_each(Visit visit) {
+        for (std::size_t v = 0; v < end_.size(); ++v)
+            for (int k = start_[v]; k < end_[v]; ++k) visit(entries_[k]);
     }
-
-    std::vector<Entry>& entries() { return entries_; }
 
 private:
-    static std::size_t hash(const std::array<int, 3>& k) {
-        std::uint64_t h = static_cast<std::uint64_t>(k[0]) * 0x9e3779b97f4a7c15u;
-        h ^= static_cast<std::uint64_t>(k[1]) * 0xc2b2ae3d27d4eb4fu;
-        h ^= static_cast<std::uint64_t>(k[2]) * 0x165667b19e3779f9u;
-        return h ^ (h >> 29);
+    static std::array<int, 3> sorted(std::array<int, 3> n) {
+        if (n[0] > n[1]) std::swap(n[0], n[1]);
+        if (n[1] > n[2]) std::swap(n[1], n[2]);
+        if (n[0] > n[1]) std::swap(n[0], n[1]);
+        return n;
     }
-    std::vector<int> slots_;
+    Entry* find_sorted(const std::array<int, 3>& key) {
+        for (int k = start_[key[0]]; k < end_[key[0]]; ++k)
+            if (entries_[k].second == key[1] && entries_[k].third == key[2]) return &entries_[k];
+        return nullptr;
+    }
+    std::vector<int> start_, end_;
     std::vector<Entry> entries_;
-    std::size_t mask_ = 0;
 };
-
-constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 Vec3 closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, Vec3& bary) {
     // Ericson, Real-Time Collision Detection, 5.1.5.
@@ -165,15 +169,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     const auto movable = [&](auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
 
     // 1. Faces of tetrahedra; which triangles are faces of tetrahedra and which are shells.
-    FaceTable table(static_cast<std::size_t>(band.tetras.size()) * 5 / 2 + 16);
-    for (int t = 0; t < band.tetras.size(); ++t)
-        for (const auto& f : outward_faces) {
-            const auto& v = band.tetras[t];
-            const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
-            if (!movable(nodes)) continue;
-            FaceTable::Entry& e = table.insert(nodes);
-            e.tetra[e.tetra[0] < 0 ? 0 : 1] = t;
-        }
+    FaceTable table(band);
     shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
     struct Face {
         std::array<int, 3> nodes;
@@ -206,12 +202,12 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             faces.push_back({v, kind_of({-2, -2, family, 0}), false, true});
         }
     }
-    for (const FaceTable::Entry& e : table.entries()) {
+    table.for_each([&](const FaceTable::Entry& e) {
         const int first = family_of(band.tetra_cells[e.tetra[0]]);
         const int second = e.tetra[1] < 0 ? -1 : family_of(band.tetra_cells[e.tetra[1]]);
-        if (second >= 0 && first == second && e.triangle_family == none) continue;
+        if (second >= 0 && first == second && e.triangle_family == none) return;
         faces.push_back({e.oriented, kind_of({std::min(first, second), std::max(first, second), e.triangle_family, 1}), second >= 0, false});
-    }
+    });
 
     // 2. Edges of those faces: smooth ones join faces to surfaces, the others are creases.
     std::vector<std::pair<std::uint64_t, int>> edges;
@@ -399,7 +395,6 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     }
 
     // 5. Freedom of each node.
-    std::vector<int> neighbours;
     for (int v = 0; v < node_count; ++v) {
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
@@ -412,11 +407,15 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         const FamilyIndex family = mesh.node_families[band.nodes[v].global];
         for (GroupIndex g : mesh.families.groups(family)) {
             if (!is_kept(g)) continue;
-            band.neighbours(v, neighbours);
-            if (std::ranges::none_of(neighbours, [&](int w) {
-                    return mesh.families.contains(mesh.node_families[band.nodes[w].global], g);
-                }))
-                c.freedom = NodeFreedom::fixed;
+            const auto has_company = [&](const auto& list) {
+                return std::ranges::any_of(list.around(v), [&](int s) {
+                    return std::ranges::any_of(list[s], [&](int w) {
+                        const FamilyIndex other = mesh.node_families[band.nodes[w].global];
+                        return w != v && (other == family || mesh.families.contains(other, g));
+                    });
+                });
+            };
+            if (!has_company(band.tetras) && !has_company(band.triangles) && !has_company(band.lines)) c.freedom = NodeFreedom::fixed;
         }
         if (c.freedom == NodeFreedom::fixed) continue;
         const auto& around = facets_around_[v];

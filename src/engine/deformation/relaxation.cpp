@@ -133,7 +133,8 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size()), nullptr) {
+    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size()), nullptr),
+      side(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -145,8 +146,38 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
     const int node = band.split_edge(a, b, at);
     contact.push_back(tool);
+    const double distance = barrier && !tool ? barrier->distance(at) : 0;
+    side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     constraints.add_node(band, node);
     return node;
+}
+
+Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Tool* tool) const {
+    const NodeConstraint constraint = constraints.on_edge(band, a, b);
+    if (constraint.freedom == NodeFreedom::free) return at;
+    Vec3 fitted = at;
+    if (!constraints.project(constraint, tool, fitted) || fitted == at) return at;
+    const auto worst_child = [&](const Vec3& p) {
+        double worst = 1;
+        const auto look = [&](const auto& list, auto quality) {
+            for (const int s : list.around(a)) {
+                if (std::ranges::find(list[s], b) == list[s].end()) continue;
+                for (const int replaced : {a, b}) {
+                    std::array<Vec3, 4> corner;
+                    for (std::size_t k = 0; k < list[s].size(); ++k) corner[k] = list[s][k] == replaced ? p : band.nodes[list[s][k]].at;
+                    worst = std::min(worst, quality(corner, s));
+                }
+            }
+        };
+        look(band.tetras, [](const auto& c, int) { return mean_ratio(c[0], c[1], c[2], c[3]); });
+        look(band.triangles, [&](const auto& c, int s) {
+            const int origin = band.triangles.origin(s);
+            if (!constraints.is_shell(origin)) return 1.0;
+            return std::copysign(mean_ratio(c[0], c[1], c[2]), (c[1] - c[0]).cross(c[2] - c[0]).dot(shell_normals[origin]));
+        });
+        return worst;
+    };
+    return worst_child(fitted) > 0.2 * worst_child(at) ? fitted : at;
 }
 
 double tetra_quality(const Deformable& d, int tetra) {
@@ -172,6 +203,17 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
     BandMesh& band = d.band;
     std::vector<char> may_move(static_cast<std::size_t>(band.size()), 0);
     for (const int v : movable) may_move[v] = 1;
+    std::vector<double> tetra_q(static_cast<std::size_t>(band.tetras.size())), shell_q(static_cast<std::size_t>(band.triangles.size()), 1.0);
+    for (int t = 0; t < band.tetras.size(); ++t)
+        if (band.tetras.alive(t)) tetra_q[t] = tetra_quality(d, t);
+    for (int t = 0; t < band.triangles.size(); ++t)
+        if (band.triangles.alive(t) && d.constraints.is_shell(band.triangles.origin(t))) shell_q[t] = shell_quality(d, t);
+    const auto worst_around = [&](int v) {
+        double worst = 1;
+        for (const int t : band.tetras.around(v)) worst = std::min(worst, tetra_q[t]);
+        for (const int t : band.triangles.around(v)) worst = std::min(worst, shell_q[t]);
+        return worst;
+    };
     std::vector<char> dirty(static_cast<std::size_t>(band.size()), 0);
     std::vector<int> active, next;
     Star star;
@@ -184,24 +226,23 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
         next.clear();
         for (const int v : active) dirty[v] = 0;
         for (const int v : active) {
+            if (worst_around(v) >= options.target) continue;
             BandNode& node = band.nodes[v];
             const Tool* tool = d.contact[v];
-            star.gather(d, v);
-            if (star.empty()) continue;
-            const double worst = star.worst(node.at);
-            if (worst >= options.target) continue;
             Eigen::Matrix3d basis;
             const int freedom = d.constraints.tangents(v, tool, node.at, basis);
             if (freedom == 0) continue;
+            star.gather(d, v);
             const auto tangent = basis.leftCols(freedom);
             const Vec3 before = node.at;
             Vec3 gradient;
             Eigen::Matrix3d hessian;
             double value = star.derivatives(node.at, doublings, gradient, hessian);
             for (int iteration = 0; iteration < 3; ++iteration) {
-                const Eigen::VectorXd g = tangent.transpose() * gradient;
-                Eigen::MatrixXd h = tangent.transpose() * hessian * tangent;
-                Eigen::LDLT<Eigen::MatrixXd> factors(h);
+                using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+                const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> g = tangent.transpose() * gradient;
+                Small h = tangent.transpose() * hessian * tangent;
+                Eigen::LDLT<Small> factors(h);
                 if (factors.info() != Eigen::Success || !factors.isPositive()) {
                     h.diagonal().array() += h.norm();
                     factors.compute(h);
@@ -211,7 +252,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
                 bool accepted = false;
                 for (int halving = 0; halving < 7; ++halving, length *= 0.5) {
                     Vec3 x = node.at + length * step;
-                    if (!d.constraints.project(v, tool, x)) continue;
+                    if (!d.constraints.project(v, tool, x) || d.passes_barrier(v, x)) continue;
                     const double tried = star.value(x, doublings);
                     if (tried < value) {
                         accepted = true;
@@ -227,6 +268,9 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
             }
             if (node.at == before) continue;
             ++moves;
+            for (const int t : band.tetras.around(v)) tetra_q[t] = tetra_quality(d, t);
+            for (const int t : band.triangles.around(v))
+                if (d.constraints.is_shell(band.triangles.origin(t))) shell_q[t] = shell_quality(d, t);
             const double reach = band.mean_edge_length(v);
             if ((node.at - before).norm() < 1e-3 * reach) continue;
             const auto wake = [&](const auto& list) {

@@ -15,11 +15,22 @@ struct Deformable {
     NodeConstraints constraints;
     std::vector<const Tool*> contact;  ///< by node: the tool it must stay on, or null
     std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
+    const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0
+    std::vector<signed char> side;     ///< by node: sign of its distance to `barrier`
 
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
 
     /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
     int split_edge(int a, int b, const Vec3& at, const Tool* tool);
+
+    /// The point near `at` on the surface or curve the edge a-b is on (and on `tool`), if elements split
+    /// there are nearly as good as those split at `at`; else `at` itself.
+    Vec3 fitted_split(int a, int b, const Vec3& at, const Tool* tool) const;
+
+    /// Whether a node may be at `x` as far as the barrier goes.
+    bool passes_barrier(int node, const Vec3& x) const {
+        return barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0;
+    }
 };
 
 /// Mean ratios of a band's tetrahedra and shells with its nodes where they are; negative when inverted

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numbers>
 #include <sstream>
 
@@ -121,6 +122,23 @@ void warn_of_grazing(Interface& f, const Tool& tool) {
                 << " degrees: elements in the wedge between them cannot be better than the wedge";
         f.warnings.push_back(message.str());
     }
+    double flattest = 90;
+    for (const auto* set : {&f.nodes, &f.transition})
+        for (const int v : *set) {
+            if (f.d.constraints[v].freedom != NodeFreedom::curve) continue;
+            if (std::abs(tool.distance(band.nodes[v].at)) > 0.15 * band.mean_edge_length(v)) continue;
+            Eigen::Matrix3d along;
+            f.d.constraints.tangents(v, nullptr, band.nodes[v].at, along);
+            const double sine = std::abs(along.col(0).dot(tool.normal(band.nodes[v].at)));
+            flattest = std::min(flattest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+        }
+    if (flattest < 5) {
+        std::ostringstream message;
+        message.precision(2);
+        message << "the " << tool.kind() << " runs along a feature line or border line at " << flattest
+                << " degrees: elements between them cannot be better than that wedge";
+        f.warnings.push_back(message.str());
+    }
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
@@ -207,6 +225,16 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
     }
 }
 
+/// Merging nodes can leave one that moved earlier outside the neighbourhood of the final interface; it still
+/// belongs to the transition.
+void add_moved_nodes(Interface& f) {
+    for (int v = 0; v < f.d.band.size(); ++v) {
+        const BandNode& n = f.d.band.nodes[v];
+        const bool counts = f.d.band.in_use(v) && (f.d.band.is_new(v) || n.at != n.start) && !f.d.contact[v];
+        if (counts && !std::ranges::binary_search(f.transition, v)) f.transition.insert(std::ranges::upper_bound(f.transition, v), v);
+    }
+}
+
 std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Index>& index, const Mesh& mesh, auto keep) {
     std::vector<Index> out;
     for (const int v : nodes)
@@ -241,6 +269,10 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
     const Mesh& mesh = marks.mesh ? *marks.mesh : input;
     if (marks.mesh) totals = nullptr;  // other families
     if (input.solver_input) watch.lap("mark deck");
+    // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
+    auto copy = std::async(std::launch::async, [&mesh, totals] {
+        return std::pair(std::make_unique<Mesh>(mesh), totals ? FamilyTotals() : family_totals(mesh));
+    });
     Location location = locate(mesh, tool, options.transition.value_or(2), adjacency);
     int width = options.transition.value_or(2);
     if (!options.transition && options.method == Method::deform) {
@@ -272,16 +304,19 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
 
     const Lips lips = open_lips(f);
     if (lips.copy_of.empty()) {
-        throw ToolError("the " + tool.kind() + " only touches the mesh: no element faces with material on both sides lie on it. Move the " +
-                        tool.kind() + " into the material");
+        throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
+                        " into the material");
     }
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
     for (int v = 0; v < f.d.band.size(); ++v)
         if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = nullptr;
     find_node_sets(f);
+    add_moved_nodes(f);
     warn_of_grazing(f, tool);
     watch.lap("open");
-    Rebuilt rebuilt = rebuild(mesh, f, lips, options.name + "_P", options.name + "_N");
+    auto [output, own_totals] = copy.get();
+    if (!totals) totals = &own_totals;
+    Rebuilt rebuilt = rebuild(mesh, std::move(*output), f, lips, options.name + "_P", options.name + "_N");
     add_front(lips, options.name, rebuilt);
     watch.lap("rebuild");
     std::vector<std::string> deck_warnings;
@@ -306,11 +341,6 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
     report.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;
     report.elements_added = rebuilt.elements_added;
     report.elements_removed = rebuilt.elements_removed;
-    FamilyTotals own;
-    if (!totals) {
-        own = family_totals(mesh);
-        totals = &own;
-    }
     FamilyTotals after = *totals;
     count_cells(after, mesh, rebuilt.before, -1);
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);

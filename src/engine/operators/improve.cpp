@@ -27,7 +27,9 @@ public:
     /// Bisects the longest edge of each bad element; true if any was.
     bool split_long_edges(double limit) {
         bool any = false;
+        std::size_t allowance = 16 + f_.nodes.size() / 8;
         for (const auto& [quality, v] : bad_elements(limit)) {
+            if (allowance-- == 0) break;
             const int corners = v[3] < 0 ? 3 : 4;
             int a = -1, b = -1;
             double longest = 0;
@@ -43,14 +45,19 @@ public:
             // An earlier split of this round may have taken the edge.
             if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
             const Tool* tool = d_.contact[a] && d_.contact[a] == d_.contact[b] ? d_.contact[a] : nullptr;
-            Vec3 at = (band_.nodes[a].at + band_.nodes[b].at) / 2;
-            const Vec3 chord = at;
-            if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), tool, at) || (at - chord).norm() > 0.1 * std::sqrt(longest)) at = chord;
+            const Vec3 at = d_.fitted_split(a, b, (band_.nodes[a].at + band_.nodes[b].at) / 2, tool);
             d_.split_edge(a, b, at, tool);
             f_.distance.push_back(tool ? 0 : tool_.distance(at));
             any = true;
         }
         return any;
+    }
+
+    /// How much the elements worse than `limit` lack, squared so that the worst weigh most.
+    double shortfall(double limit) const {
+        double sum = 0;
+        for (const auto& [quality, nodes] : bad_elements(limit)) sum += (limit - quality) * (limit - quality);
+        return sum;
     }
 
 private:
@@ -169,9 +176,14 @@ void improve(Interface& f, const Tool& tool, double goal) {
         relax(f.d, movable);
     };
     for (int round = 0; round < 4 && improver.merge_nodes(goal); ++round) relax_again();
-    for (int round = 0; round < split_rounds && improver.split_long_edges(split_below); ++round) {
+    // Splitting must pay: two rounds without gain end it.
+    double best = improver.shortfall(split_below);
+    for (int round = 0, idle = 0; round < split_rounds && idle < 2 && improver.split_long_edges(split_below); ++round) {
         relax_again();
         if (improver.merge_nodes(goal)) relax_again();
+        const double now = improver.shortfall(split_below);
+        idle = now < 0.95 * best ? 0 : idle + 1;
+        best = std::min(best, now);
     }
 }
 

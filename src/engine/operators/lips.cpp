@@ -117,7 +117,8 @@ private:
             return i;
         };
         std::vector<char> touches(static_cast<std::size_t>(count), 0);
-        std::map<std::pair<int, int>, int> first;  // (neighbour, side or 0) -> item
+        // First item met with each (neighbour, side or 0); a short list, searched from the start.
+        std::vector<std::pair<std::pair<int, int>, int>> first;
         for (int i = 0; i < count; ++i) {
             const auto visit = [&](const auto& nodes) {
                 item_side[i] = side(nodes) > 0 ? 1 : -1;
@@ -127,8 +128,11 @@ private:
                     // are on different sides of it.
                     const bool open = on_tool(w) && open_edges_.contains(edge_key(v, w));
                     if (open) touches[i] = 1;
-                    const auto [it, fresh] = first.emplace(std::pair(w, open ? item_side[i] : 0), i);
-                    if (!fresh) {
+                    const std::pair key(w, open ? item_side[i] : 0);
+                    const auto it = std::ranges::find(first, key, [](const auto& entry) { return entry.first; });
+                    if (it == first.end()) {
+                        first.push_back({key, i});
+                    } else {
                         const int a = find(i), b = find(it->second);
                         part[std::max(a, b)] = std::min(a, b);
                     }

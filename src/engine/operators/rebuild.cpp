@@ -13,15 +13,17 @@ namespace {
 
 class Rebuilder {
 public:
-    Rebuilder(const Mesh& input, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {}
+    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {
+        out_.mesh = std::move(copy);
+    }
 
     Rebuilt run(const std::string& positive, const std::string& negative) {
-        out_.mesh = input_;
         Mesh& mesh = out_.mesh;
         next_node_ = input_.largest_node_id() + 1;
         next_cell_ = input_.largest_cell_id() + 1;
         if (input_.solver_input) next_cell_ = std::max(next_cell_, input_.solver_input->largest_other_element() + 1);
         write_nodes();
+        find_mid_owners();
         write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
         write_cells(band_.triangles, lips_.triangles, band_.triangle_cells, triangle_cell_);
         write_cells(band_.lines, lips_.lines, band_.line_cells, line_cell_);
@@ -90,31 +92,57 @@ private:
         return out_.mesh.families.intersect(family(a), family(b));
     }
 
+    /// Which image of each second-order edge keeps the edge's own mid-side node: the uncopied one where an
+    /// element still has it.
+    void find_mid_owners() {
+        const auto look = [&](const auto& corners, const auto& images, CellType type) {
+            const CellTraits& t = traits(type);
+            if (!t.quadratic) return;
+            for (const auto& e : t.edges) {
+                const std::uint64_t base = edge_key(corners[e[0]], corners[e[1]]), image = edge_key(images[e[0]], images[e[1]]);
+                if (image == base) owner_[base] = base;
+                else owner_.emplace(base, image);
+            }
+        };
+        for (int t = 0; t < band_.tetras.size(); ++t)
+            if (band_.tetras.alive(t)) look(band_.tetras[t], lips_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)].type);
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (band_.triangles.alive(t)) look(band_.triangles[t], lips_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)].type);
+        for (int l = 0; l < band_.lines.size(); ++l)
+            if (band_.lines.alive(l)) look(band_.lines[l], lips_.lines[l], band_.line_cells[band_.lines.origin(l)].type);
+    }
+
+    Index make_mid_node(int a, int b) {
+        Mesh& mesh = out_.mesh;
+        const auto original = band_.mid_nodes.find(edge_key(a, b));
+        if (original == band_.mid_nodes.end()) {
+            ++out_.nodes_split;
+            note_born(a, b);
+            return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
+        }
+        if (moved(a) || moved(b)) mesh.points[original->second] = half_way(a, b);
+        return original->second;
+    }
+
     /// The mid-side node between the images of two band nodes.
     Index mid_node(int a, int b, int image_a, int image_b) {
-        const auto known = mids_.find(edge_key(image_a, image_b));
-        if (known != mids_.end()) return known->second;
-        Mesh& mesh = out_.mesh;
-        Index mid;
-        if (image_a != a || image_b != b) {
-            const Index source = mid_node(a, b, a, b);
-            out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
-            mid = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
-            ++out_.nodes_doubled;
-        } else {
-            const auto original = band_.mid_nodes.find(edge_key(a, b));
-            if (original != band_.mid_nodes.end()) {
-                mid = original->second;
-                if (moved(a) || moved(b)) mesh.points[mid] = half_way(a, b);
-            } else {
-                note_born(a, b);
-                mid = mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
-                ++out_.nodes_split;
-            }
+        const std::uint64_t base = edge_key(a, b), image = edge_key(image_a, image_b);
+        MidNodes& mids = mids_[base];
+        if (mids.nodes.empty()) {
+            mids.ends = {a, b};
+            mids.nodes.push_back({owner_.at(base), make_mid_node(a, b)});
+            edge_of_mid_.emplace(mids.nodes[0].second, base);
         }
-        mids_.emplace(edge_key(image_a, image_b), mid);
-        mid_ends_.emplace(mid, std::array<Index, 2>{out_.node[image_a], out_.node[image_b]});
-        return mid;
+        for (const auto& [key, node] : mids.nodes)
+            if (key == image) return node;
+        Mesh& mesh = out_.mesh;
+        const Index source = mids.nodes[0].second;
+        out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
+        const Index copy = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
+        ++out_.nodes_doubled;
+        mids.nodes.push_back({image, copy});
+        edge_of_mid_.emplace(copy, base);
+        return copy;
     }
 
     Vec3 half_way(int a, int b) const {
@@ -218,7 +246,7 @@ private:
     void straighten_bad_tetrahedra() {
         Mesh& mesh = out_.mesh;
         const CellBlock& block = mesh.block(CellType::tetra10);
-        std::set<Index> straightened;
+        std::set<std::uint64_t> straightened;
         for (bool again = true; again;) {
             again = false;
             for (const CellRef& cell : out_.after) {
@@ -226,15 +254,16 @@ private:
                 const auto n = block.nodes(cell.cell);
                 std::array<Vec3, 10> at;
                 for (int k = 0; k < 10; ++k) at[k] = mesh.points[n[k]];
-                if (smallest_jacobian(at) > 0.05 * signed_volume(at[0], at[1], at[2], at[3])) continue;
+                if (smallest_jacobian(at) > 1e-3 * signed_volume(at[0], at[1], at[2], at[3])) continue;
                 for (int k = 4; k < 10; ++k) {
-                    const auto ends = mid_ends_.find(n[k]);
-                    if (ends == mid_ends_.end()) continue;
-                    const Vec3 chord = (mesh.points[ends->second[0]] + mesh.points[ends->second[1]]) / 2;
-                    const bool was_in_input = n[k] < input_.node_count();
-                    if (mesh.points[n[k]] == chord || (was_in_input && mesh.points[n[k]] == input_.points[n[k]])) continue;
-                    mesh.points[n[k]] = chord;
-                    straightened.insert(n[k]);
+                    const auto edge = edge_of_mid_.find(n[k]);
+                    if (edge == edge_of_mid_.end()) continue;
+                    const MidNodes& mids = mids_.at(edge->second);
+                    const Vec3 chord = (band_.nodes[mids.ends[0]].at + band_.nodes[mids.ends[1]].at) / 2;
+                    const bool untouched = n[k] < input_.node_count() && mesh.points[n[k]] == input_.points[n[k]];
+                    if (mesh.points[n[k]] == chord || untouched) continue;
+                    for (const auto& [image, node] : mids.nodes) mesh.points[node] = chord;  // both lips alike
+                    straightened.insert(edge->second);
                     again = true;
                 }
             }
@@ -332,14 +361,20 @@ private:
     std::vector<Index> tetra_cell_, triangle_cell_, line_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
-    std::unordered_map<std::uint64_t, Index> mids_;              // by image edge
-    std::unordered_map<Index, std::array<Index, 2>> mid_ends_;
+    struct MidNodes {
+        std::array<int, 2> ends;
+        std::vector<std::pair<std::uint64_t, Index>> nodes;  // (image edge, node), the owner first
+    };
+    std::unordered_map<std::uint64_t, MidNodes> mids_;        // by uncopied edge
+    std::unordered_map<std::uint64_t, std::uint64_t> owner_;  // uncopied edge -> image that keeps its node
+    std::unordered_map<Index, std::uint64_t> edge_of_mid_;
 };
 
 }  // namespace
 
-Rebuilt rebuild(const Mesh& input, const Interface& interface, const Lips& lips, const std::string& positive, const std::string& negative) {
-    return Rebuilder(input, interface, lips).run(positive, negative);
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips, const std::string& positive,
+                const std::string& negative) {
+    return Rebuilder(input, std::move(copy), interface, lips).run(positive, negative);
 }
 
 }  // namespace femscalpel

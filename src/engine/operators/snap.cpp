@@ -122,12 +122,7 @@ private:
                 da /= 2;
             }
         }
-        const NodeConstraint constraint = d_.constraints.on_edge(band_, a, b);
-        Vec3 moved = at;
-        if (constraint.freedom != NodeFreedom::free && d_.constraints.project(constraint, &tool_, moved) &&
-            (moved - at).norm() < 0.2 * std::min((at - pa).norm(), (at - pb).norm()))
-            return moved;
-        return at;
+        return d_.fitted_split(a, b, at, &tool_);
     }
 
     Interface& f_;
@@ -146,6 +141,9 @@ void snap_to_tool(Interface& f, const Tool& tool) {
     watch.lap("snap");
     snapper.split_edges();
     watch.lap("split");
+    f.d.barrier = &tool;
+    for (int v = 0; v < f.d.band.size(); ++v)
+        f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
     find_node_sets(f);
     deform(f.d, f.nodes, f.transition);
     watch.lap("deform");

@@ -13,8 +13,9 @@ or raises an error of class :class:`Error`.
 """
 
 from ._engine import Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
+from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
-from .mesh import Group, Groups, Mesh
+from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
 from .operators import Result, Scalpel, crack
 from .quality import mean_ratio, measure
@@ -24,6 +25,8 @@ from .tools import Plane, Tool
 __version__ = "0.1.0"
 
 __all__ = [
+    "BoundaryPart",
+    "ElementaryGroup",
     "ElementQuality",
     "Error",
     "Group",
@@ -41,6 +44,7 @@ __all__ = [
     "Tool",
     "ToolError",
     "UnsupportedElementError",
+    "VirtualBoundary",
     "WriteError",
     "crack",
     "from_meshio",
@@ -48,5 +52,7 @@ __all__ = [
     "measure",
     "read",
     "to_meshio",
+    "virtual_boundaries",
+    "virtual_boundary",
     "write",
 ]

@@ -2,7 +2,7 @@
 """Meshes and their groups."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Dict, Optional, Tuple, Union
+from typing import Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -112,6 +112,19 @@ def _group_entries(groups) -> list:
         _arguments.text(name, "groups: name")
         out.append((name, _check_kind(kind, f"groups[{name!r}]: kind"), _arguments.integers(ids, f"groups[{name!r}]: ids")))
     return out
+
+
+class ElementaryGroup(NamedTuple):
+    """Entities that belong to exactly the same groups, from :meth:`Mesh.elementary_groups`."""
+
+    #: "node", "element" or "facet".
+    kind: str
+    #: Of the entities: 0 for nodes, 0 to 3 for elements, 1 (edge) or 2 (face) for facets.
+    dimension: int
+    #: Names of the groups, all of this kind, in the mesh's order.
+    groups: Tuple[str, ...]
+    #: Members as in :attr:`Group.ids`, in mesh order.
+    ids: np.ndarray
 
 
 class Mesh:
@@ -294,6 +307,18 @@ class Mesh:
 
     def _find(self, name: str, kind: Optional[str]) -> Group:
         return self.groups[name] if kind is None else self.groups[name, _check_kind(kind)]
+
+    def elementary_groups(self) -> Tuple[ElementaryGroup, ...]:
+        """The disjoint classes that the overlapping groups fall into, as a tuple of :class:`ElementaryGroup`.
+
+        Every node, element and facet of a group is in exactly one of them; what is in no group is in none. Nodes
+        come first, then elements of dimension 0 to 3, then facets. Linear time.
+
+        See Also
+        --------
+        femscalpel.virtual_boundary : what of the mesh a group covers
+        """
+        return tuple(ElementaryGroup(*entry) for entry in _engine.elementary_groups(self._engine_mesh))
 
     def copy(self) -> "Mesh":
         """An independent copy."""

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import numpy as np
+import pytest
+
+import femscalpel as fs
+from meshes import box_with_groups, grid_box
+
+
+def rows(array):
+    return {frozenset(row) for row in array.tolist()}
+
+
+def test_elementary_groups_are_disjoint_and_complete():
+    mesh = box_with_groups()
+    mesh.add_group("CORNER", "node", [*mesh.groups["FIX"].ids[:3], *mesh.groups["TOP"].ids[:2]])
+    classes = mesh.elementary_groups()
+    assert {(c.kind, c.dimension, c.groups) for c in classes} == {
+        ("node", 0, ("FIX",)), ("node", 0, ("TOP",)), ("node", 0, ("FIX", "CORNER")), ("node", 0, ("TOP", "CORNER")),
+        ("element", 3, ("LEFT", "ALL")), ("element", 3, ("RIGHT", "ALL"))}
+    for kind in ("node", "element"):
+        ids = np.concatenate([c.ids for c in classes if c.kind == kind])
+        assert len(np.unique(ids)) == len(ids)
+    for group in mesh.groups.all():
+        ids = [c.ids for c in classes if c.kind == group.kind and group.name in c.groups]
+        np.testing.assert_array_equal(np.sort(np.concatenate(ids)) if ids else [], np.sort(group.ids))
+
+
+def test_facet_classes_have_element_and_face():
+    mesh = grid_box((1, 1, 1), (1.0, 1.0, 1.0), groups={"S": ("facet", [[1, 1], [2, 4]])})
+    (found,) = mesh.elementary_groups()
+    assert (found.kind, found.dimension, found.groups) == ("facet", 2, ("S",))
+    np.testing.assert_array_equal(found.ids, [[1, 1], [2, 4]])
+
+
+def test_support_on_a_face():
+    mesh = box_with_groups()
+    found = fs.virtual_boundary(mesh, "FIX")
+    assert (found.name, found.kind) == ("FIX", "node")
+    # 6 x 5 squares, two triangles each; nothing else.
+    assert found.linking.triangles.shape == (60, 3) and found.linking.triangles.dtype == np.int64
+    assert rows(found.linking.triangles) and set(found.linking.triangles.ravel()) == set(mesh.groups["FIX"].ids)
+    np.testing.assert_array_equal(found.linking.triangle_elements, np.zeros(60))
+    assert len(found.bounding) == len(found.isolated) == len(found.enclosed) == 0
+    assert len(found.linking) == 60
+
+
+def test_volume_group_is_bounded_by_its_surface():
+    mesh = box_with_groups()
+    found = fs.virtual_boundary(mesh, "LEFT", "element")
+    assert found.bounding.triangles.shape == (2 * 2 * (3 * 5 + 5 * 4 + 3 * 4), 3)
+    np.testing.assert_array_equal(np.sort(found.enclosed), np.sort(mesh.groups["LEFT"].ids))
+    index = {number: k for k, number in enumerate(mesh.node_ids)}
+    corners = mesh.points[np.vectorize(index.get)(found.bounding.triangles)]
+    # Normals out of the area: the flux of x is its volume.
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    assert np.isclose(np.einsum("ij,ij->", corners.mean(axis=1), normals) / 3, 3 * 5 * 4)
+
+
+def test_figure_9():
+    points = [[x, y, 0] for y in range(3) for x in range(3)]
+    cells = [[a, a + 1, a + 4] for a in (0, 1, 3, 4)] + [[a, a + 4, a + 3] for a in (0, 1, 3, 4)]
+    mesh = fs.Mesh(points, {"triangle": cells, "line": [[0, 3]]}, groups={"GN": ("node", [1, 4, 7]), "ALONE": ("node", [5])})
+    found = fs.virtual_boundary(mesh, "GN")
+    assert rows(found.linking.edges) == {frozenset({1, 4}), frozenset({4, 7})}
+    by_edge = dict(zip(map(frozenset, found.linking.edges.tolist()), found.linking.edge_elements.tolist()))
+    assert by_edge == {frozenset({1, 4}): 9, frozenset({4, 7}): 0}
+    np.testing.assert_array_equal(fs.virtual_boundary(mesh, "ALONE").isolated.nodes, [5])
+
+
+def test_quadrangles_are_listed_apart():
+    points = [[x, y, z] for z in range(2) for y in range(2) for x in range(2)]
+    mesh = fs.Mesh(points, {"hexahedron": [[0, 1, 3, 2, 4, 5, 7, 6]]}, groups={"BASE": ("node", [1, 2, 3, 4])})
+    found = fs.virtual_boundary(mesh, "BASE")
+    assert rows(found.linking.quads) == {frozenset({1, 2, 3, 4})} and found.linking.quads.shape == (1, 4)
+    assert found.linking.triangles.shape == (0, 3)
+
+
+def test_all_at_once_equals_one_by_one():
+    mesh = box_with_groups()
+    mesh.add_group("FIX", "element", mesh.groups["LEFT"].ids[:5])
+    found = fs.virtual_boundaries(mesh)
+    assert [(b.name, b.kind) for b in found] == [(g.name, g.kind) for g in mesh.groups.all()]
+    for b in found:
+        one = fs.virtual_boundary(mesh, b.name, b.kind)
+        for part in ("bounding", "linking", "isolated"):
+            for name in ("nodes", "edges", "triangles", "quads", "edge_elements", "triangle_elements"):
+                np.testing.assert_array_equal(getattr(getattr(b, part), name), getattr(getattr(one, part), name))
+        np.testing.assert_array_equal(b.enclosed, one.enclosed)
+    assert [b.name for b in fs.virtual_boundaries(mesh, "node")] == ["FIX", "TOP", "EMPTY"]
+    assert "60 triangles" in repr(found[3])
+
+
+def test_errors():
+    mesh = box_with_groups()
+    with pytest.raises(KeyError, match="NOPE"):
+        fs.virtual_boundary(mesh, "NOPE")
+    with pytest.raises(KeyError):
+        fs.virtual_boundary(mesh, "FIX", "element")
+    with pytest.raises(ValueError, match="kind"):
+        fs.virtual_boundary(mesh, "FIX", "nodes")
+    with pytest.raises(TypeError, match="mesh must be"):
+        fs.virtual_boundary("mesh", "FIX")
