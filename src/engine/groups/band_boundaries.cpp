@@ -117,7 +117,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (kept[f] < 0) {
             std::vector<GroupIndex> set;
             for (const GroupIndex g : mesh.families.groups(f))
-                if (!mesh.groups[g].hidden && (drifting.empty() || !drifting[g])) set.push_back(g);
+                if (drifting.empty() ? !mesh.groups[g].hidden : !drifting[g]) set.push_back(g);
             kept[f] = sets_.intern(set);
         }
         return kept[f];
