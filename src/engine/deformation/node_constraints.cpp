@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deformation/node_constraints.h"
 
+#include "groups/band_boundaries.h"
+
 #include <Eigen/LU>
 #include <cmath>
 #include <map>
@@ -30,74 +32,6 @@ public:
 private:
     std::vector<int> parent_;
 };
-
-/// Faces of the band's tetrahedra with the one or two tetrahedra behind each: open addressing over
-/// sorted node triples.
-class FaceTable {
-public:
-    struct Entry {
-        std::array<int, 3> key{-1, -1, -1};
-        std::array<int, 3> oriented{};  // as the first tetrahedron has it, normal outwards
-        int tetra[2]{-1, -1};
-        int triangle_family = -1;  // -1: no triangle element on it
-    };
-
-    explicit FaceTable(std::size_t faces) {
-        std::size_t capacity = 64;
-        while (capacity < 2 * faces) capacity *= 2;
-        slots_.assign(capacity, -1);
-        entries_.reserve(faces);
-        mask_ = capacity - 1;
-    }
-
-    Entry& insert(std::array<int, 3> nodes) {
-        const std::array<int, 3> key = sorted(nodes);
-        std::size_t h = hash(key) & mask_;
-        while (slots_[h] >= 0) {
-            if (same(entries_[slots_[h]].key, key)) return entries_[slots_[h]];
-            h = (h + 1) & mask_;
-        }
-        slots_[h] = static_cast<int>(entries_.size());
-        entries_.push_back({});
-        entries_.back().key = key;
-        entries_.back().oriented = nodes;
-        return entries_.back();
-    }
-
-    Entry* find(std::array<int, 3> key) {
-        key = sorted(key);
-        std::size_t h = hash(key) & mask_;
-        while (slots_[h] >= 0) {
-            if (same(entries_[slots_[h]].key, key)) return &entries_[slots_[h]];
-            h = (h + 1) & mask_;
-        }
-        return nullptr;
-    }
-
-    std::vector<Entry>& entries() { return entries_; }
-
-private:
-    static std::array<int, 3> sorted(std::array<int, 3> n) {
-        if (n[0] > n[1]) std::swap(n[0], n[1]);
-        if (n[1] > n[2]) std::swap(n[1], n[2]);
-        if (n[0] > n[1]) std::swap(n[0], n[1]);
-        return n;
-    }
-    static bool same(const std::array<int, 3>& a, const std::array<int, 3>& b) {
-        return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-    }
-    static std::size_t hash(const std::array<int, 3>& k) {
-        std::uint64_t h = static_cast<std::uint64_t>(k[0]) * 0x9e3779b97f4a7c15u;
-        h ^= static_cast<std::uint64_t>(k[1]) * 0xc2b2ae3d27d4eb4fu;
-        h ^= static_cast<std::uint64_t>(k[2]) * 0x165667b19e3779f9u;
-        return h ^ (h >> 29);
-    }
-    std::vector<int> slots_;
-    std::vector<Entry> entries_;
-    std::size_t mask_ = 0;
-};
-
-constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 Vec3 closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, Vec3& bary) {
     // Ericson, Real-Time Collision Detection, 5.1.5.
@@ -147,41 +81,13 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     // Rounding grows with the coordinates themselves, so a model far from the origin counts as larger.
     if (node_count > 0) size_ = std::max({(high - low).norm(), 0.1 * low.cwiseAbs().maxCoeff(), 0.1 * high.cwiseAbs().maxCoeff()});
 
-    // A family counts by those of its groups whose boundary is to be kept.
-    std::vector<int> kept_family(static_cast<std::size_t>(mesh.families.size()), -1);
-    std::map<std::vector<GroupIndex>, int> kept_sets;
-    const auto is_kept = [&](GroupIndex g) {
-        return !mesh.groups[g].hidden && (options.drifting_groups.empty() || !options.drifting_groups[g]);
-    };
-    const auto kept = [&](FamilyIndex f) {
-        if (kept_family[f] < 0) {
-            std::vector<GroupIndex> set;
-            for (GroupIndex g : mesh.families.groups(f))
-                if (is_kept(g)) set.push_back(g);
-            kept_family[f] = kept_sets.emplace(std::move(set), static_cast<int>(kept_sets.size())).first->second;
-        }
-        return kept_family[f];
-    };
-    const auto family_of = [&](const CellRef& c) { return kept(mesh.block(c.type).families[c.cell]); };
-    // Several elements on one face or edge: one number for the pair, made on first sight.
-    std::map<std::array<int, 2>, int> pairs;
-    const auto combine = [&](int first, int second) {
-        return -3 - pairs.emplace(std::array{first, second}, static_cast<int>(pairs.size())).first->second;
-    };
-    constexpr int none = -1;
     const auto movable = [&](auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
+    const auto shared = [](const auto& list, int a, int b) {
+        return std::ranges::any_of(list.around(a), [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
+    };
 
-    // 1. Faces of tetrahedra; which triangles are faces of tetrahedra and which are shells.
-    FaceTable table(static_cast<std::size_t>(band.tetras.size()) * 5 / 2 + 16);
-    for (int t = 0; t < band.tetras.size(); ++t)
-        for (const auto& f : outward_faces) {
-            const auto& v = band.tetras[t];
-            const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
-            if (!movable(nodes)) continue;
-            FaceTable::Entry& e = table.insert(nodes);
-            e.tetra[e.tetra[0] < 0 ? 0 : 1] = t;
-        }
-    shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
+    // 1. Faces to be kept; which triangles are shells of their own, which segments hang loose.
+    const BandBoundaries boundaries(band, mesh, options.drifting_groups);
     struct Face {
         std::array<int, 3> nodes;
         int kind;
@@ -189,35 +95,25 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         bool shell;
     };
     std::vector<Face> faces;
-    std::map<std::array<int, 4>, int> kinds;
-    const auto kind_of = [&](std::array<int, 4> key) { return kinds.emplace(key, static_cast<int>(kinds.size())).first->second; };
-    for (int f = 0; f < band.facet_faces.size(); ++f)
-        if (FaceTable::Entry* e = movable(band.facet_faces[f]) ? table.find(band.facet_faces[f]) : nullptr) {
-            const int family = kept(mesh.facets[band.facet_faces.tag(f)].family);
-            e->triangle_family = e->triangle_family == none ? family : combine(e->triangle_family, family);
-        }
-    std::map<int, int> side_family;
-    for (const auto& [slot, facet] : band.facet_sides) {
-        auto [it, fresh] = side_family.emplace(slot, kept(mesh.facets[facet].family));
-        if (!fresh) it->second = combine(it->second, kept(mesh.facets[facet].family));
+    for (const BandBoundaries::Face& f : boundaries.faces()) {
+        // Faces that differ in this are never one surface.
+        const int place = f.is_shell() ? 0 : f.is_skin() ? 1 : 2;
+        faces.push_back({f.nodes, (f.kind * 3 + place) * 2 + f.element, f.is_internal(), f.is_shell()});
     }
+    shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
-        if (!movable(v)) continue;
-        int family = family_of(band.triangle_cells[t]);
-        if (const auto side = side_family.find(t); side != side_family.end()) family = combine(family, side->second);
-        if (FaceTable::Entry* e = table.find(v)) {
-            e->triangle_family = e->triangle_family == none ? family : combine(e->triangle_family, family);
-        } else {
-            shell_[t] = 1;
-            faces.push_back({v, kind_of({-2, -2, family, 0}), false, true});
-        }
+        shell_[t] = std::ranges::none_of(band.tetras.around(v[0]), [&](int s) {
+            const auto& n = band.tetras[s];
+            return std::ranges::find(n, v[1]) != n.end() && std::ranges::find(n, v[2]) != n.end();
+        });
     }
-    for (const FaceTable::Entry& e : table.entries()) {
-        const int first = family_of(band.tetra_cells[e.tetra[0]]);
-        const int second = e.tetra[1] < 0 ? -1 : family_of(band.tetra_cells[e.tetra[1]]);
-        if (second >= 0 && first == second && e.triangle_family == none) continue;
-        faces.push_back({e.oriented, kind_of({std::min(first, second), std::max(first, second), e.triangle_family, 1}), second >= 0, false});
+    loose_.assign(static_cast<std::size_t>(band.lines.size()), 0);
+    for (int l = 0; l < band.lines.size(); ++l) {
+        const auto& v = band.lines[l];
+        if (shared(band.tetras, v[0], v[1]) || shared(band.triangles, v[0], v[1])) continue;
+        loose_[l] = 1;
+        for (int n : v) nodes_[n].freedom = NodeFreedom::fixed;
     }
 
     // 2. Edges of those faces: smooth ones join faces to surfaces, the others are creases.
@@ -229,29 +125,10 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             if (movable(e)) edges.push_back({edge_key(e[0], e[1]), f});
         }
     std::ranges::sort(edges);
-    loose_.assign(static_cast<std::size_t>(band.lines.size()), 0);
+    constexpr int none = -1;
     std::map<std::uint64_t, int> line_family;
-    for (int l = 0; l < band.lines.size(); ++l) {
-        const auto& v = band.lines[l];
-        const auto holds = [&](const auto& list) {
-            return std::ranges::any_of(list.around(v[0]), [&](int s) { return std::ranges::find(list[s], v[1]) != list[s].end(); });
-        };
-        if (!holds(band.tetras) && !holds(band.triangles)) {
-            loose_[l] = 1;
-            for (int n : v) nodes_[n].freedom = NodeFreedom::fixed;
-        } else if (movable(v)) {
-            const int family = family_of(band.line_cells[l]);
-            auto [it, fresh] = line_family.emplace(edge_key(v[0], v[1]), family);
-            if (!fresh) it->second = combine(it->second, family);
-        }
-    }
-    for (int f = 0; f < band.facet_edges.size(); ++f) {
-        const auto& v = band.facet_edges[f];
-        if (!movable(v)) continue;
-        const int family = kept(mesh.facets[band.facet_edges.tag(f)].family);
-        auto [it, fresh] = line_family.emplace(edge_key(v[0], v[1]), family);
-        if (!fresh) it->second = combine(it->second, family);
-    }
+    for (const BandBoundaries::Line& l : boundaries.lines())
+        if (movable(l.nodes)) line_family.emplace(edge_key(l.nodes[0], l.nodes[1]), l.kind * 2 + l.element);
     const double smooth = -std::cos(options.feature_angle * std::numbers::pi / 180);
     const auto is_smooth = [&](std::uint64_t key, int f, int g) {
         if (faces[f].kind != faces[g].kind) return false;
@@ -405,7 +282,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             if (c.direction.cross(p - c.origin).norm() > flat_tolerance * size_) c.straight = false;
     }
 
-    // 5. Freedom of each node.
+    // 5. Freedom of each node. Isolated members of groups (IE) do not move.
+    for (const BandBoundaries::Node& n : boundaries.isolated()) nodes_[n.node].freedom = NodeFreedom::fixed;
     for (int v = 0; v < node_count; ++v) {
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
@@ -413,21 +291,6 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             c.freedom = NodeFreedom::fixed;
             continue;
         }
-        // An isolated member of a node group (IE) does not move.
-        const FamilyIndex family = mesh.node_families[band.nodes[v].global];
-        for (GroupIndex g : mesh.families.groups(family)) {
-            if (!is_kept(g)) continue;
-            const auto has_company = [&](const auto& list) {
-                return std::ranges::any_of(list.around(v), [&](int s) {
-                    return std::ranges::any_of(list[s], [&](int w) {
-                        const FamilyIndex other = mesh.node_families[band.nodes[w].global];
-                        return w != v && (other == family || mesh.families.contains(other, g));
-                    });
-                });
-            };
-            if (!has_company(band.tetras) && !has_company(band.triangles) && !has_company(band.lines)) c.freedom = NodeFreedom::fixed;
-        }
-        if (c.freedom == NodeFreedom::fixed) continue;
         const auto& around = facets_around_[v];
         if (!creases_at[v].empty()) {
             c.freedom = passes[v] ? NodeFreedom::curve : NodeFreedom::fixed;

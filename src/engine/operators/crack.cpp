@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numbers>
 #include <sstream>
 
@@ -120,6 +121,23 @@ void warn_of_grazing(Interface& f, const Tool& tool) {
                 << " degrees: elements in the wedge between them cannot be better than the wedge";
         f.warnings.push_back(message.str());
     }
+    double flattest = 90;
+    for (const auto* set : {&f.nodes, &f.transition})
+        for (const int v : *set) {
+            if (f.d.constraints[v].freedom != NodeFreedom::curve) continue;
+            if (std::abs(tool.distance(band.nodes[v].at)) > 0.15 * band.mean_edge_length(v)) continue;
+            Eigen::Matrix3d along;
+            f.d.constraints.tangents(v, nullptr, band.nodes[v].at, along);
+            const double sine = std::abs(along.col(0).dot(tool.normal(band.nodes[v].at)));
+            flattest = std::min(flattest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+        }
+    if (flattest < 5) {
+        std::ostringstream message;
+        message.precision(2);
+        message << "the " << tool.kind() << " runs along a feature line or border line at " << flattest
+                << " degrees: elements between them cannot be better than that wedge";
+        f.warnings.push_back(message.str());
+    }
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
@@ -158,11 +176,14 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
         int last = -1;
     };
     std::vector<Motion> motion(before.groups.size());
+    for (Index n = 0; n < before.node_count(); ++n) {
+        if (rebuilt.mesh.points[n] == before.points[n]) continue;
+        ++report.nodes_moved;
+        report.max_displacement = std::max(report.max_displacement, (rebuilt.mesh.points[n] - before.points[n]).norm());
+    }
     for (int v = 0; v < band.original_nodes(); ++v) {
         const BandNode& n = band.nodes[v];
         if (n.at == n.start) continue;
-        ++report.nodes_moved;
-        report.max_displacement = std::max(report.max_displacement, (n.at - n.start).norm());
         const double drift = f.d.constraints.distance(f.d.constraints[v], n.at);
         const auto meet = [&](FamilyIndex family) {
             for (GroupIndex g : before.families.groups(family)) {
@@ -246,6 +267,10 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
 
     Stopwatch watch(report.seconds);
+    // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
+    auto copy = std::async(std::launch::async, [&mesh, totals] {
+        return std::pair(std::make_unique<Mesh>(mesh), totals ? FamilyTotals() : family_totals(mesh));
+    });
     Location location = locate(mesh, tool, options.transition.value_or(2), adjacency);
     int width = options.transition.value_or(2);
     if (!options.transition && options.method == Method::deform) {
@@ -285,7 +310,9 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     add_moved_nodes(f);
     warn_of_grazing(f, tool);
     watch.lap("open");
-    Rebuilt rebuilt = rebuild(mesh, f, lips, options.name + "_P", options.name + "_N");
+    auto [output, own_totals] = copy.get();
+    if (!totals) totals = &own_totals;
+    Rebuilt rebuilt = rebuild(mesh, std::move(*output), f, lips, options.name + "_P", options.name + "_N");
     add_front(lips, options.name, rebuilt);
     watch.lap("rebuild");
 
@@ -305,11 +332,6 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     report.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;
     report.elements_added = rebuilt.elements_added;
     report.elements_removed = rebuilt.elements_removed;
-    FamilyTotals own;
-    if (!totals) {
-        own = family_totals(mesh);
-        totals = &own;
-    }
     FamilyTotals after = *totals;
     count_cells(after, mesh, rebuilt.before, -1);
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);

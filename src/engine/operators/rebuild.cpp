@@ -13,10 +13,11 @@ namespace {
 
 class Rebuilder {
 public:
-    Rebuilder(const Mesh& input, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {}
+    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {
+        out_.mesh = std::move(copy);
+    }
 
     Rebuilt run(const std::string& positive, const std::string& negative) {
-        out_.mesh = input_;
         Mesh& mesh = out_.mesh;
         next_node_ = input_.largest_node_id() + 1;
         next_cell_ = input_.largest_cell_id() + 1;
@@ -345,8 +346,9 @@ private:
 
 }  // namespace
 
-Rebuilt rebuild(const Mesh& input, const Interface& interface, const Lips& lips, const std::string& positive, const std::string& negative) {
-    return Rebuilder(input, interface, lips).run(positive, negative);
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips, const std::string& positive,
+                const std::string& negative) {
+    return Rebuilder(input, std::move(copy), interface, lips).run(positive, negative);
 }
 
 }  // namespace femscalpel

@@ -22,13 +22,14 @@ struct Rebuilt {
     std::vector<std::string> warnings;
 };
 
-/// Copies `input` with the band's changes: moved nodes, split elements, doubled nodes, lip elements in
+/// Puts the band's changes into `copy`, a copy of `input`: moved nodes, split elements, doubled nodes, lip elements in
 /// the groups `positive` and `negative` (appended to the mesh's groups). Everything else is the input's, bit
 /// for bit. Children inherit the groups of their parent; a node born on an edge is in the node groups of
 /// both ends; a copied node is in all groups of its original. New numbers start above the largest in use.
 ///
 /// Mid-side nodes follow their edges in the band: half way, on the surface or curve the edge is on; where
 /// that would spoil an element's Jacobian at its integration points, on the chord.
-Rebuilt rebuild(const Mesh& input, const Interface& interface, const Lips& lips, const std::string& positive, const std::string& negative);
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips, const std::string& positive,
+                const std::string& negative);
 
 }  // namespace femscalpel

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Time and memory of the reference crack of the design: two glued boxes, plane normal (0.9, 0.3, 0.2) through
+// (7.3, 5, 5), at 39 k, 505 k and (after `cmake --build ... --target femscalpel_large_mesh`) 2.5 M tetrahedra.
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <new>
+#include <random>
+
+#include "io/io.h"
+#include "operators/scalpel.h"
+#include "tools/plane.h"
+
+namespace {
+
+bool counting = false;  // only while memory is measured, so that it does not cost time elsewhere
+std::atomic<long> bytes_now{0};
+std::atomic<long> bytes_peak{0};
+
+void note(long bytes) {
+    const long now = bytes_now += bytes;
+    long peak = bytes_peak;
+    while (now > peak && !bytes_peak.compare_exchange_weak(peak, now)) {
+    }
+}
+
+}  // namespace
+
+// Counted allocation, so that the engine's own memory can be told from the input mesh and the process.
+void* operator new(std::size_t size) {
+    void* p = std::malloc(size);
+    if (!p) throw std::bad_alloc();
+    if (counting) note(static_cast<long>(malloc_usable_size(p)));
+    return p;
+}
+void operator delete(void* p) noexcept {
+    if (p && counting) note(-static_cast<long>(malloc_usable_size(p)));
+    std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept { operator delete(p); }
+
+namespace femscalpel {
+namespace {
+
+const Plane reference_plane({7.3, 5, 5}, {0.9, 0.3, 0.2});
+
+std::shared_ptr<const Mesh> mesh_of(const std::string& name) {
+    static std::map<std::string, std::shared_ptr<const Mesh>> known;
+    auto& mesh = known[name];
+    if (!mesh) mesh = std::make_shared<Mesh>(read(std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (name + ".inp")));
+    return mesh;
+}
+
+void report(benchmark::State& state, const Mesh& mesh, const Report& r) {
+    state.counters["tetra"] = static_cast<double>(mesh.block(CellType::tetra).size());
+    state.counters["band"] = static_cast<double>(r.quality_after.count);
+    state.counters["min_quality"] = r.quality_after.minimum;
+    state.counters["new_nodes"] = static_cast<double>(r.nodes_split);
+}
+
+void BM_crack(benchmark::State& state, const std::string& name) {
+    const auto mesh = mesh_of(name);
+    Report last;
+    for (auto _ : state) last = crack(*mesh, reference_plane).report;
+    report(state, *mesh, last);
+    bytes_now = bytes_peak = 0;
+    counting = true;
+    benchmark::DoNotOptimize(crack(*mesh, reference_plane));
+    counting = false;
+    state.counters["bytes_per_tetra"] = static_cast<double>(bytes_peak) / static_cast<double>(mesh->block(CellType::tetra).size());
+}
+
+/// A further plane position on the same mesh, as in a preview.
+void BM_session(benchmark::State& state, const std::string& name) {
+    const Scalpel scalpel(mesh_of(name));
+    Report last;
+    double offset = 0;
+    for (auto _ : state) {
+        offset += 0.01;
+        last = scalpel.crack(Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2})).report;
+    }
+    report(state, scalpel.mesh(), last);
+}
+
+/// The reference mesh with so many more overlapping groups. Every other one holds the whole middle of the model,
+/// so that each element near the crack is in half of them; the rest are random boxes elsewhere. All borders are
+/// away from the crack: only the number of groups differs, not the geometry to be kept.
+void BM_crack_with_groups(benchmark::State& state) {
+    Mesh mesh = *mesh_of("two_boxes_505k");
+    const CellBlock& tetras = mesh.block(CellType::tetra);
+    std::vector<GroupMembers> members;
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) members.push_back(group_members(mesh, static_cast<GroupIndex>(g)));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> far_end(14, 19);
+    for (Index g = 0; g < state.range(0); ++g) {
+        mesh.add_group("ZONE" + std::to_string(g), GroupKind::element);
+        const double from = g % 2 == 0 ? 2 : far_end(random), to = g % 2 == 0 ? 12.5 : from + 1;
+        GroupMembers m{GroupKind::element, {}, {}};
+        for (Index c = 0; c < tetras.size(); ++c)
+            if (const double x = mesh.points[tetras.nodes(c)[0]].x(); x > from && x < to) m.ids.push_back(tetras.ids[c]);
+        members.push_back(std::move(m));
+    }
+    assign_groups(mesh, members);
+    Report last;
+    for (auto _ : state) last = crack(mesh, reference_plane).report;
+    report(state, mesh, last);
+    state.counters["groups"] = static_cast<double>(mesh.groups.size());
+}
+
+}  // namespace
+}  // namespace femscalpel
+
+int main(int argc, char** argv) {
+    using namespace femscalpel;
+    for (const char* name : {"two_boxes_39k", "two_boxes_505k", "two_boxes_2500k"}) {
+        if (!std::filesystem::exists(std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (std::string(name) + ".inp"))) continue;
+        benchmark::RegisterBenchmark((std::string("crack/") + name).c_str(), BM_crack, name)->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)->Unit(benchmark::kMillisecond);
+    }
+    benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)->Arg(5)->Arg(500)->Unit(benchmark::kMillisecond);
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+}
