@@ -19,8 +19,12 @@ constexpr double good_enough = 0.1;
 constexpr double acceptable = 0.02;
 /// Interfaces tried before giving up.
 constexpr int attempts = 6;
+/// Cuts tried to find an interface without conflicts on creases.
+constexpr int cuts = 40;
+/// Most that a node's cost is multiplied with.
+constexpr double largest_penalty = 1e4;
 /// An interface node may move by so many mean edge lengths.
-constexpr double reach = 1.6;
+constexpr double reach = 2;
 
 /// Least weight of nodes that separates two sides of a graph: a maximum flow through nodes split in an
 /// entrance and an exit. Dinic, "Algorithm for solution of a problem of maximum flow in networks with
@@ -28,7 +32,7 @@ constexpr double reach = 1.6;
 class VertexCut {
 public:
     using Weight = std::int64_t;
-    static constexpr Weight endless = std::numeric_limits<Weight>::max() / 1000000;
+    static constexpr Weight endless = std::numeric_limits<Weight>::max() / 1000;
 
     explicit VertexCut(int nodes) : first_(2 * static_cast<std::size_t>(nodes) + 2, -1), source_(2 * nodes), sink_(2 * nodes + 1) {}
 
@@ -289,42 +293,35 @@ public:
     Deformer(Interface& f, const Tool& tool, const Mesh& mesh, Lessons& lessons)
         : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), lessons_(lessons) {}
 
-    /// 3.1.1: the interface nodes, with Figure 4's splits.
-    void classify() {
+    /// 3.1.1: the interface nodes, with Figure 4's splits. False when fixed nodes leave none.
+    bool classify() {
         measure_nodes();
-        for (int round = 0;; ++round) {
-            cut();
-            if (!penalise_impossible() || round == 40) break;
+        for (int round = 0; round < cuts; ++round) {
+            if (!cut()) return false;
+            if (!penalise_impossible()) break;
         }
         split_astray();
+        return true;
     }
 
     /// 3.1.2. Returns the worst quality.
     double move() {
-        std::vector<int> interface, others;
-        std::vector<Vec3> given;
         for (int v = 0; v < band_.size(); ++v) {
             f_.distance[v] = side_[v];
-            d_.contact[v] = nullptr;
-            if (side_[v] == 0) {
-                interface.push_back(v);
-                given.push_back(target_[v] - band_.nodes[v].at);
-            } else if (band_.nodes[v].movable()) {
-                others.push_back(v);
-            }
-        }
-        const std::vector<Vec3> spread = bar_network_displacements(d_, interface, given, others);
-        for (std::size_t k = 0; k < others.size(); ++k) {
-            Vec3 x = band_.nodes[others[k]].at + spread[k];
-            if (d_.constraints.project(others[k], nullptr, x)) band_.nodes[others[k]].at = x;
-        }
-        for (const int v : interface) {
-            band_.nodes[v].at = target_[v];
-            d_.contact[v] = &tool_;
+            d_.contact[v] = side_[v] == 0 ? &tool_ : nullptr;
         }
         find_node_sets(f_);
-        std::vector<int> movable = interface;
-        movable.insert(movable.end(), others.begin(), others.end());
+        std::vector<Vec3> given;
+        for (const int v : f_.nodes) given.push_back(target_[v] - band_.nodes[v].at);
+        const std::vector<Vec3> spread = bar_network_displacements(d_, f_.nodes, given, f_.transition);
+        for (std::size_t k = 0; k < f_.transition.size(); ++k) {
+            const int v = f_.transition[k];
+            Vec3 x = band_.nodes[v].at + spread[k];
+            if (d_.constraints.project(v, nullptr, x)) band_.nodes[v].at = x;
+        }
+        for (const int v : f_.nodes) band_.nodes[v].at = target_[v];
+        std::vector<int> movable = f_.nodes;
+        movable.insert(movable.end(), f_.transition.begin(), f_.transition.end());
         worst_ = Untangler(d_).run(movable, 0.2);
         if (worst_ > 0) {
             relax(d_, movable);
@@ -341,7 +338,7 @@ public:
             if (!band_.is_new(v)) lessons_.held[v] = 1;
         for_bad([&](const auto& v, const CellRef&) {
             for (const int n : v)
-                if (side_[n] == 0 && !band_.is_new(n)) lessons_.penalty[n] = std::min(lessons_.penalty[n] * 2, 1e3);
+                if (side_[n] == 0 && !band_.is_new(n)) raise(n, 2);
         });
     }
 
@@ -361,6 +358,26 @@ public:
         throw QualityError("method \"deform\" cannot bring the interface onto the " + std::string(tool_.kind()) +
                            " without flattening elements (" + list(elements) +
                            "). Moving nodes alone is not enough here; use method \"snap\"");
+    }
+
+    /// For classify() == false.
+    [[noreturn]] void fail_fixed() const {
+        std::set<Index> elements;
+        const auto look = [&](const auto& list, const auto& cells) {
+            for (int s = 0; s < list.size(); ++s) {
+                bool positive = false, negative = false;
+                for (const int v : list[s]) {
+                    if (slide_[v] <= reach) continue;
+                    positive = positive || f_.distance[v] > 0;
+                    negative = negative || f_.distance[v] < 0;
+                }
+                if (positive && negative) elements.insert(mesh_.block(cells[s].type).ids[cells[s].cell]);
+            }
+        };
+        look(band_.tetras, band_.tetra_cells);
+        look(band_.triangles, band_.triangle_cells);
+        throw QualityError("method \"deform\" finds no row of nodes that could be moved onto the " + std::string(tool_.kind()) +
+                           ": nodes on both sides of it cannot be moved there (elements " + list(elements) + "); use method \"snap\"");
     }
 
 private:
@@ -392,7 +409,7 @@ private:
     }
 
     void for_bad(auto visit) const {
-        const double limit = std::max(good_enough, worst_);
+        const double limit = misplaced_.empty() ? std::max(good_enough, worst_) : acceptable;
         for (int t = 0; t < band_.tetras.size(); ++t)
             if (tetra_quality(d_, t) <= limit) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
         for (int t = 0; t < band_.triangles.size(); ++t)
@@ -415,7 +432,7 @@ private:
     }
 
     /// T1 and T2 by half-space; between them the interface nodes that have least to move.
-    void cut() {
+    bool cut() {
         VertexCut cut(band_.size());
         const auto weight = [](double w) { return static_cast<VertexCut::Weight>(w * 1e6); };
         std::vector<int> neighbours;
@@ -438,41 +455,22 @@ private:
             neighbours.erase(rest.begin(), rest.end());
             for (const int w : neighbours) cut.join(v, w);
         }
-        if (!cut.solve()) fail_fixed();
+        if (!cut.solve()) return false;
         side_.resize(static_cast<std::size_t>(band_.size()));
         for (int v = 0; v < band_.size(); ++v) side_[v] = cut.side(v);
         // A node that ended in the cut although it has only one side around it belongs to that side.
         for (int v = 0; v < band_.size(); ++v) {
             if (side_[v] != 0) continue;
             bool positive = false, negative = false;
-            look_around(v, [&](int w) { (side_[w] > 0 ? positive : side_[w] < 0 ? negative : positive) |= side_[w] != 0; });
+            look_around(v, [&](int w) { (side_[w] > 0 ? positive : negative) |= side_[w] != 0; });
             if (positive != negative) side_[v] = positive ? 1 : -1;
         }
+        return true;
     }
 
     void look_around(int v, auto visit) const {
         for (const int s : band_.tetras.around(v)) std::ranges::for_each(band_.tetras[s], visit);
         for (const int s : band_.triangles.around(v)) std::ranges::for_each(band_.triangles[s], visit);
-    }
-
-    [[noreturn]] void fail_fixed() const {
-        std::set<Index> elements;
-        const auto look = [&](const auto& list, const auto& cells) {
-            for (int s = 0; s < list.size(); ++s) {
-                bool positive = false, negative = false;
-                for (const int v : list[s]) {
-                    if (slide_[v] <= reach) continue;
-                    positive = positive || f_.distance[v] > 0;
-                    negative = negative || f_.distance[v] < 0;
-                }
-                if (positive && negative) elements.insert(mesh_.block(cells[s].type).ids[cells[s].cell]);
-            }
-        };
-        look(band_.tetras, band_.tetra_cells);
-        look(band_.triangles, band_.triangle_cells);
-        throw QualityError("method \"deform\" finds no row of nodes that could be moved onto the " + std::string(tool_.kind()) +
-                           (elements.empty() ? std::string() : ": corners on both sides of it are fixed in elements " + list(elements)) +
-                           "; use method \"snap\"");
     }
 
     /// Where no split helps the farthest node becomes dearer: two interface nodes on one crease would go to
@@ -575,8 +573,10 @@ private:
 
     /// Makes the node that would have to move farthest dearer.
     void penalise(const auto& nodes, double factor) {
-        lessons_.penalty[*std::ranges::max_element(nodes, {}, [&](int v) { return std::pair(slide_[v], v); })] *= factor;
+        raise(*std::ranges::max_element(nodes, {}, [&](int v) { return std::pair(slide_[v], v); }), factor);
     }
+
+    void raise(int v, double factor) const { lessons_.penalty[v] = std::min(lessons_.penalty[v] * factor, largest_penalty); }
 
     Interface& f_;
     Deformable& d_;
@@ -608,7 +608,10 @@ void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     for (int k = 0; k < attempts; ++k) {
         Interface g = f;
         Deformer deformer(g, tool, mesh, lessons);
-        deformer.classify();
+        if (!deformer.classify()) {
+            if (best) break;
+            deformer.fail_fixed();
+        }
         const double quality = deformer.move();
         if (quality > best_quality) {
             best_quality = quality;
