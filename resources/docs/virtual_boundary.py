@@ -92,12 +92,9 @@ def draw(axes, mesh, members, title):
     dashed = dict(edgecolors=MEMBER, linewidths=1.2, linestyles="dashed", zorder=7)
     if isinstance(members[0], int):
         axes.scatter(*points[np.array(members) - 1].T, s=24, color=MEMBER, zorder=7)
-    elif len(members[0]) == 4:
-        # A tetrahedron is marked by its own edges, drawn smaller.
-        put(PolyCollection, [t for m in members for t in itertools.combinations(m, 3)], facecolors="none", shrink=0.2, **dashed)
     elif len(members[0]) == 3:
         put(PolyCollection, members, facecolors="none", shrink=0.2, **dashed)
-    else:
+    elif len(members[0]) == 2:
         put(LineCollection, members, **dashed)
     isolated = points[found.isolated.nodes - 1]
     axes.scatter(*isolated.T, s=170, facecolors="none", edgecolors=ISOLATED, linewidths=2.2, zorder=8)

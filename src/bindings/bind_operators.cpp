@@ -70,12 +70,13 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle) {
+CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, bool strict) {
     CrackOptions out;
     out.name = name;
     out.method = method_from_name(method);
     out.transition = transition;
     out.feature_angle = feature_angle;
+    out.strict = strict;
     return out;
 }
 
@@ -97,8 +98,8 @@ py::tuple run(Operation operation) {
 
 void bind_operators(py::module_& module) {
     module.def("crack", [](const Mesh& mesh, const Tool& tool, const std::string& name, const std::string& method,
-                           std::optional<int> transition, double feature_angle) {
-        const CrackOptions o = options(name, method, transition, feature_angle);
+                           std::optional<int> transition, double feature_angle, bool strict) {
+        const CrackOptions o = options(name, method, transition, feature_angle, strict);
         return run([&] { return crack(mesh, tool, o); });
     });
 
@@ -108,8 +109,8 @@ void bind_operators(py::module_& module) {
              py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
         .def("crack", [](const Scalpel& scalpel, const Tool& tool, const std::string& name, const std::string& method,
-                         std::optional<int> transition, double feature_angle) {
-            const CrackOptions o = options(name, method, transition, feature_angle);
+                         std::optional<int> transition, double feature_angle, bool strict) {
+            const CrackOptions o = options(name, method, transition, feature_angle, strict);
             return run([&] { return scalpel.crack(tool, o); });
         });
 }

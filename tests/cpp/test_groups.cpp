@@ -531,6 +531,31 @@ TEST_P(RandomGroups, BandHasTheBoundaries) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomGroups, testing::Range(0, 24));
 
+TEST(BandBoundaries, ShortcutsThroughTheMaterialAreNotKept) {
+    // Four tetrahedra around the edge 0-1; on one of the ring's nodes hang two more, with a skin face at each end.
+    Mesh mesh;
+    for (const Vec3& p : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0),
+                          Vec3(1, -1, 2), Vec3(1, 1, 2), Vec3(1, -1, -2), Vec3(1, 1, -2)})
+        mesh.add_node(p, mesh.node_count() + 1);
+    add_cells(mesh, CellType::tetra, {{1, 2, 3, 0}, {1, 3, 4, 0}, {1, 4, 5, 0}, {1, 5, 2, 0}, {0, 2, 6, 7}, {1, 2, 9, 8}});
+    const GroupIndex ends = add_group(mesh, "ENDS", GroupKind::node, {1, 2});
+    const GroupIndex sides = add_group(mesh, "SIDES", GroupKind::node, {1, 2, 7, 8, 9, 10});
+    for (const GroupIndex g : {ends, sides}) EXPECT_EQ(edges_of(virtual_boundary(mesh, g).linking), (std::multiset<Nodes>{{0, 1}}));
+
+    const BandMesh band = extract_band(mesh, std::vector<std::int8_t>(10, 0));
+    const BandBoundaries boundaries(band, mesh);
+    ASSERT_EQ(boundaries.lines().size(), 1u);
+    EXPECT_THAT(boundaries.lines()[0].nodes, UnorderedElementsAre(0, 1));
+    EXPECT_THAT(boundaries.groups(boundaries.lines()[0].kind), ElementsAre(ends)) << "the only link of its nodes is kept";
+    int faces_of_sides = 0;
+    for (const auto& f : boundaries.faces())
+        if (f.kind != 0) {
+            EXPECT_THAT(boundaries.groups(f.kind), ElementsAre(sides));
+            ++faces_of_sides;
+        }
+    EXPECT_EQ(faces_of_sides, 2);
+}
+
 TEST(BandBoundaries, NodeBornOnALinkingEdgeIsLinked) {
     Mesh mesh = plate();
     const GroupIndex g = add_group(mesh, "GN", GroupKind::node, {1, 4, 7});

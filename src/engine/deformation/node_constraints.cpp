@@ -87,7 +87,11 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     };
 
     // 1. Faces to be kept; which triangles are shells of their own, which segments hang loose.
-    const BandBoundaries boundaries(band, mesh, options.drifting_groups);
+    std::vector<bool> drifting(mesh.groups.size());
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+        drifting[g] = mesh.groups[g].hidden ? options.kept_hidden.empty() || !options.kept_hidden[g]
+                                            : !options.drifting_groups.empty() && options.drifting_groups[g];
+    const BandBoundaries boundaries(band, mesh, drifting);
     struct Face {
         std::array<int, 3> nodes;
         int kind;
@@ -287,7 +291,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     for (int v = 0; v < node_count; ++v) {
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
-        if (!band.nodes[v].movable() || !band.vertices.around(v).empty()) {
+        if (!band.nodes[v].movable() || !band.vertices.around(v).empty() ||
+            std::ranges::binary_search(options.pinned, band.nodes[v].global)) {
             c.freedom = NodeFreedom::fixed;
             continue;
         }

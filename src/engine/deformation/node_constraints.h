@@ -28,6 +28,8 @@ struct NodeConstraint {
 struct ConstraintOptions {
     double feature_angle = 30;           ///< degrees
     std::vector<bool> drifting_groups;   ///< by group index: boundary may drift; empty = all are kept
+    std::vector<bool> kept_hidden;       ///< by group index: hidden, but its boundary is kept; empty = none
+    std::vector<Index> pinned;           ///< nodes (indices in the mesh, ascending) that must not move
 };
 
 /// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of

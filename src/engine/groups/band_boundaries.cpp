@@ -117,7 +117,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (kept[f] < 0) {
             std::vector<GroupIndex> set;
             for (const GroupIndex g : mesh.families.groups(f))
-                if (!mesh.groups[g].hidden && (drifting.empty() || !drifting[g])) set.push_back(g);
+                if (drifting.empty() ? !mesh.groups[g].hidden : !drifting[g]) set.push_back(g);
             kept[f] = sets_.intern(set);
         }
         return kept[f];
@@ -134,7 +134,9 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
             in[v] = sets.both(in[a], in[b]);
         }
     }
-    const auto movable = [&](const auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
+    const auto movable = [&](const auto& nodes) {
+        return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); });
+    };
     const auto in_all = [&](const std::array<int, 3>& f) { return sets.both(sets.both(in[f[0]], in[f[1]]), in[f[2]]); };
 
     // 1. All faces of tetrahedra, and what lies on them.
@@ -156,7 +158,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (!band.triangles.alive(t) || !movable(band.triangles[t])) continue;
         const auto& v = band.triangles[t];
         int kind = of_cell(band.triangle_cells[band.triangles.origin(t)]);
-        if (const auto side = side_groups.find(band.triangles.origin(t)); side != side_groups.end()) kind = sets.either(kind, side->second);
+        const auto side = side_groups.find(band.triangles.origin(t));
+        if (side != side_groups.end()) kind = sets.either(kind, side->second);
         if (const int at = index.find(v); at >= 0) {
             faces[at].element = true;
             faces[at].kind = sets.either(faces[at].kind, kind);
@@ -258,7 +261,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     std::vector<int> pinned(in.size(), 0);
     for (int v = 0; v < band.size(); ++v) {
         if (!band.in_use(v) || !band.nodes[v].movable()) continue;
-        for (const int s : band.vertices.around(v)) pinned[v] = sets.either(pinned[v], of_cell(band.vertex_cells[band.vertices.origin(s)]));
+        for (const int s : band.vertices.around(v))
+            pinned[v] = sets.either(pinned[v], of_cell(band.vertex_cells[band.vertices.origin(s)]));
         int rest = in[v];
         const auto link_to = [&](const auto& list) {
             for (const int s : list.around(v)) {

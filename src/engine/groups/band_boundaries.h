@@ -48,7 +48,7 @@ public:
         int kind;
     };
 
-    /// Analyses `band`. Groups with drifting[g], if given, and hidden ones count for nothing.
+    /// Analyses `band`. Groups with drifting[g] count for nothing; if `drifting` is empty, hidden groups do.
     BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {});
 
     /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once.

@@ -2,7 +2,7 @@
 #include "groups/elementary_groups.h"
 
 #include <algorithm>
-#include <tuple>
+#include <iterator>
 
 namespace femscalpel {
 namespace {
@@ -10,9 +10,8 @@ namespace {
 /// The classes of one kind and dimension, by family.
 class Classes {
 public:
-    Classes(GroupKind kind, int dimension, const FamilyTable& visible) : kind_(kind), dimension_(dimension), visible_(visible) {
-        slot_.assign(static_cast<std::size_t>(visible.size()), -1);
-    }
+    Classes(GroupKind kind, int dimension, const FamilyTable& visible)
+        : kind_(kind), dimension_(dimension), visible_(visible), slot_(static_cast<std::size_t>(visible.size()), -1) {}
 
     /// Members of a class of `visible`; what is in no visible group belongs nowhere.
     GroupMembers* members(FamilyIndex family) {

@@ -13,22 +13,6 @@ void fit(FamilyTotals& totals, const Mesh& mesh) {
         totals.by_family.resize(static_cast<std::size_t>(mesh.families.size()));
 }
 
-/// Area of a volume element's face, length of a triangle's edge, or a triangle's own area.
-double facet_measure(const Mesh& mesh, const Facet& f) {
-    const CellTraits& t = traits(f.type);
-    const auto n = mesh.block(f.type).nodes(f.cell);
-    const auto at = [&](int k) -> const Vec3& { return mesh.points[n[k]]; };
-    if (t.dimension == 3) {
-        const auto& face = t.faces[f.face - 1];
-        double area = (at(face[1]) - at(face[0])).cross(at(face[2]) - at(face[0])).norm() / 2;
-        if (face[3] >= 0) area += (at(face[2]) - at(face[0])).cross(at(face[3]) - at(face[0])).norm() / 2;
-        return area;
-    }
-    if (f.face <= 2) return cell_measure(mesh, f.type, f.cell);
-    const auto& edge = t.edges[f.face - 3];
-    return (at(edge[1]) - at(edge[0])).norm();
-}
-
 struct GroupTotals {
     Index count = 0;
     std::array<Index, 4> cells{};
@@ -62,6 +46,21 @@ std::vector<GroupTotals> by_group(const Mesh& mesh, const FamilyTotals& totals) 
 }
 
 }  // namespace
+
+double facet_measure(const Mesh& mesh, const Facet& f) {
+    const CellTraits& t = traits(f.type);
+    const auto n = mesh.block(f.type).nodes(f.cell);
+    const auto at = [&](int k) -> const Vec3& { return mesh.points[n[k]]; };
+    if (t.dimension == 3) {
+        const auto& face = t.faces[f.face - 1];
+        double area = (at(face[1]) - at(face[0])).cross(at(face[2]) - at(face[0])).norm() / 2;
+        if (face[3] >= 0) area += (at(face[2]) - at(face[0])).cross(at(face[3]) - at(face[0])).norm() / 2;
+        return area;
+    }
+    if (f.face <= 2) return cell_measure(mesh, f.type, f.cell);
+    const auto& edge = t.edges[f.face - 3];
+    return (at(edge[1]) - at(edge[0])).norm();
+}
 
 FamilyTotals family_totals(const Mesh& mesh) {
     FamilyTotals totals;

@@ -37,6 +37,9 @@ struct FamilyTotals {
     std::vector<Entry> by_family;
 };
 
+/// Area of a volume element's face, length of a triangle's or quadrangle's edge, or the element's own area.
+double facet_measure(const Mesh& mesh, const Facet& facet);
+
 /// Totals of a whole mesh; one pass over it.
 FamilyTotals family_totals(const Mesh& mesh);
 

@@ -117,7 +117,9 @@ Rows<T> make_rows(Index rows, Generate generate) {
 /// An element in eight bytes, in mesh order.
 constexpr int type_shift = 56;
 Index pack(CellType type, Index cell) { return (static_cast<Index>(type) << type_shift) | cell; }
-CellRef unpack(Index packed) { return {static_cast<CellType>(packed >> type_shift), packed & ((Index{1} << type_shift) - 1)}; }
+CellRef unpack(Index packed) {
+    return {static_cast<CellType>(packed >> type_shift), packed & ((Index{1} << type_shift) - 1)};
+}
 
 /// Centre nodes of second-order elements: local node, and the corners of the face it is the centre of.
 struct Centre {
@@ -230,14 +232,17 @@ private:
             const bool all = std::ranges::all_of(n, in);
             if (all && t.dimension == t_.dimension && t.dimension >= 2) area_.push_back(element);
             if (t.dimension == 3 && !all) {
-                for (std::size_t k = 0; k < t.faces.size(); ++k)
-                    if (const Face face = face_of(t, n, k); std::ranges::all_of(face, in)) faces_.insert(face).belongs = true;
+                for (std::size_t k = 0; k < t.faces.size(); ++k) {
+                    const Face face = face_of(t, n, k);
+                    if (std::ranges::all_of(face, in)) faces_.insert(face).belongs = true;
+                }
             } else if (t.dimension == 2 && all && t_.dimension == 3) {
                 faces_.insert(face_of(n)).belongs = true;
             }
             // Of the edges only those that no face (area) of this element covers: the others cannot be in LE.
             for (const auto& e : t.edges)
-                if (in(n[e[0]]) && in(n[e[1]]) && !covers_edge(t, n, e, in)) edges_.insert({n[e[0]], n[e[1]]}).belongs = true;
+                if (in(n[e[0]]) && in(n[e[1]]) && !covers_edge(t, n, e, in))
+                    edges_.insert({n[e[0]], n[e[1]]}).belongs = true;
             if (t.quadratic) cover_middle_nodes(element, in, all, covered);
         };
         Index size = 0;
@@ -249,10 +254,11 @@ private:
                     for (Index c = 0; c < b.size(); ++c)
                         if (const Index element = pack(b.type, c); std::ranges::any_of(corners(element), in)) look(element);
         } else {
+            // Each once, from its first group node.
             for (const FamilyIndex f : t_.families[group_])
                 for (const Index v : t_.nodes[f])
                     for (const Index element : t_.around[v])
-                        if (*std::ranges::find_if(corners(element), in) == v) look(element);  // once, from its first group node
+                        if (*std::ranges::find_if(corners(element), in) == v) look(element);
         }
         std::ranges::sort(covered);
         for (const FamilyIndex f : t_.families[group_])
@@ -270,7 +276,8 @@ private:
 
     /// Whether a face of this element that belongs holds its edge `e`.
     template <class In>
-    static bool covers_edge(const CellTraits& t, std::span<const Index> n, const std::array<std::int8_t, 2>& e, const In& in) {
+    static bool covers_edge(const CellTraits& t, std::span<const Index> n, const std::array<std::int8_t, 2>& e,
+                            const In& in) {
         if (t.dimension == 2) return std::ranges::all_of(n, in);
         return std::ranges::any_of(t.faces, [&](const auto& f) {
             return holds(f, e[0]) && holds(f, e[1]) && std::ranges::all_of(f, [&](int k) { return k < 0 || in(n[k]); });
@@ -395,7 +402,8 @@ private:
             const CellTraits& t = traits_of(element);
             if (t.dimension > dimension) break;  // in mesh order dimensions rise
             const auto n = corners(element);
-            if (t.dimension < dimension || n.size() != nodes.size() || !std::ranges::all_of(n, [&](Index v) { return holds(nodes, v); })) continue;
+            if (t.dimension < dimension || n.size() != nodes.size()) continue;
+            if (!std::ranges::all_of(n, [&](Index v) { return holds(nodes, v); })) continue;
             const CellRef c = unpack(element);
             if (mesh_.families.contains(mesh_.block(c.type).families[c.cell], group_)) return c;
             if (found.cell == none) found = c;
@@ -459,7 +467,8 @@ VirtualBoundaryFinder::VirtualBoundaryFinder(VirtualBoundaryFinder&&) noexcept =
 VirtualBoundary VirtualBoundaryFinder::find(GroupIndex group) const {
     const auto count = tables_->mesh.groups.size();
     if (group < 0 || static_cast<std::size_t>(group) >= count)
-        throw Error("the mesh has no group with index " + std::to_string(group) + "; it has " + std::to_string(count) + " groups");
+        throw Error("the mesh has no group with index " + std::to_string(group) + "; it has " + std::to_string(count) +
+                    " groups");
     return Search(*tables_, group).run();
 }
 

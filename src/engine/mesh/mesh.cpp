@@ -368,13 +368,26 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members) {
 }
 
 void remove_group(Mesh& mesh, GroupIndex group) {
-    mesh.groups.erase(mesh.groups.begin() + group);
+    std::vector<bool> gone(mesh.groups.size(), false);
+    gone.at(static_cast<std::size_t>(group)) = true;
+    remove_groups(mesh, gone);
+}
+
+void remove_groups(Mesh& mesh, const std::vector<bool>& gone) {
+    std::vector<GroupIndex> now(mesh.groups.size(), -1);
+    std::vector<Group> left;
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+        if (gone[g]) continue;
+        now[g] = static_cast<GroupIndex>(left.size());
+        left.push_back(std::move(mesh.groups[g]));
+    }
+    mesh.groups = std::move(left);
     FamilyTable table;
     std::vector<GroupIndex> set;
     Memo renumbered([&](FamilyIndex f) {
         set.clear();
         for (GroupIndex g : mesh.families.groups(f))
-            if (g != group) set.push_back(g > group ? g - 1 : g);
+            if (now[g] >= 0) set.push_back(now[g]);
         return table.intern(set);
     });
     for_each_family_slot(mesh, [&](FamilyIndex& f) { f = renumbered(f); });

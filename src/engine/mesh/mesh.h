@@ -158,6 +158,9 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members);
 /// Removes a group and its memberships; indices of later groups drop by one.
 void remove_group(Mesh& mesh, GroupIndex group);
 
+/// Removes all groups with gone[group] and their memberships, in one pass over the mesh.
+void remove_groups(Mesh& mesh, const std::vector<bool>& gone);
+
 /// Drops families no entity uses any more.
 void compact_families(Mesh& mesh);
 

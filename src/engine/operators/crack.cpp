@@ -13,6 +13,7 @@
 #include "operators/rebuild.h"
 #include "operators/scalpel.h"
 #include "operators/stopwatch.h"
+#include "semantics/carry_over.h"
 
 namespace femscalpel {
 namespace {
@@ -176,11 +177,14 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
         int last = -1;
     };
     std::vector<Motion> motion(before.groups.size());
+    for (Index n = 0; n < before.node_count(); ++n) {
+        if (rebuilt.mesh.points[n] == before.points[n]) continue;
+        ++report.nodes_moved;
+        report.max_displacement = std::max(report.max_displacement, (rebuilt.mesh.points[n] - before.points[n]).norm());
+    }
     for (int v = 0; v < band.original_nodes(); ++v) {
         const BandNode& n = band.nodes[v];
         if (n.at == n.start) continue;
-        ++report.nodes_moved;
-        report.max_displacement = std::max(report.max_displacement, (n.at - n.start).norm());
         const double drift = f.d.constraints.distance(f.d.constraints[v], n.at);
         const auto meet = [&](FamilyIndex family) {
             for (GroupIndex g : before.families.groups(family)) {
@@ -251,19 +255,23 @@ void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
     }
 }
 
-Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& options, const Adjacency* adjacency, const FamilyTotals* totals) {
+Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& options, const Adjacency* adjacency, const FamilyTotals* totals) {
     Result result;
     Report& report = result.report;
     report.operation = "crack";
     report.name = options.name;
     report.method = std::string(to_string(options.method));
-    check_name(mesh, options.name);
+    check_name(input, options.name);
     if (options.transition && (*options.transition < 1 || *options.transition > 20))
         throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20");
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
 
     Stopwatch watch(report.seconds);
+    const DeckMarks marks = mark_deck(input);
+    const Mesh& mesh = marks.mesh ? *marks.mesh : input;
+    if (marks.mesh) totals = nullptr;  // other families
+    if (input.solver_input) watch.lap("mark deck");
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
     auto copy = std::async(std::launch::async, [&mesh, totals] {
         return std::pair(std::make_unique<Mesh>(mesh), totals ? FamilyTotals() : family_totals(mesh));
@@ -277,6 +285,8 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     watch.lap("locate");
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options.feature_angle;
+    constraint_options.kept_hidden = marks.kept;
+    constraint_options.pinned = marks.pinned;
     Interface f{Deformable(extract_band(mesh, location.level), mesh, constraint_options), {}, location.tolerance, {}, {}, width, {}, {}};
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {
@@ -312,6 +322,11 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), f, lips, options.name + "_P", options.name + "_N");
     add_front(lips, options.name, rebuilt);
     watch.lap("rebuild");
+    std::vector<std::string> deck_warnings;
+    if (input.solver_input) {
+        carry_deck(mesh, rebuilt.mesh, rebuilt.changes, options.strict, deck_warnings);
+        watch.lap("carry deck");
+    }
 
     const auto exterior = [&](int v) { return f.d.constraints.is_exterior(v); };
     const auto interior = [&](int v) { return !f.d.constraints.is_exterior(v); };
@@ -337,8 +352,10 @@ Result crack_with(const Mesh& mesh, const Tool& tool, const CrackOptions& option
     report.warnings = f.warnings;
     report.warnings.insert(report.warnings.end(), lips.warnings.begin(), lips.warnings.end());
     report.warnings.insert(report.warnings.end(), rebuilt.warnings.begin(), rebuilt.warnings.end());
+    report.warnings.insert(report.warnings.end(), deck_warnings.begin(), deck_warnings.end());
     describe_motion(f, mesh, rebuilt, report);
     watch.lap("report");
+    remove_marks(rebuilt.mesh);
     result.mesh = std::move(rebuilt.mesh);
     return result;
 }

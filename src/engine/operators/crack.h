@@ -16,6 +16,7 @@ struct CrackOptions {
     Method method = Method::snap;
     std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
     double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
+    bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
 };
 
 /// Cracks `mesh` along the whole of `tool` (paper, 3.1): makes element faces lie on the tool, then gives

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <set>
+
+#include <Eigen/Cholesky>
 
 #include "deformation/bar_network.h"
 #include "operators/interface.h"
@@ -9,313 +13,615 @@
 namespace femscalpel {
 namespace {
 
-/// Tags of tetrahedra and shells during classification (the paper's T1 and T2).
-constexpr int in_t1 = 1;
-constexpr int in_t2 = 2;
+/// A result is taken at once when no element is worse than this, or than half the worst of the input.
+constexpr double good_enough = 0.1;
+/// Worse than this counts as flattened.
+constexpr double acceptable = 0.02;
+/// Interfaces tried before giving up.
+constexpr int attempts = 6;
+/// Cuts tried to find an interface without conflicts on creases.
+constexpr int cuts = 40;
+/// Most that a node's cost is multiplied with.
+constexpr double largest_penalty = 1e4;
+/// An interface node may move by so many mean edge lengths.
+constexpr double reach = 2;
 
-constexpr int faces_of_tetra[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};  // opposite corner k
-
-class Deformer {
+/// Least weight of nodes that separates two sides of a graph: a maximum flow through nodes split in an
+/// entrance and an exit. Dinic, "Algorithm for solution of a problem of maximum flow in networks with
+/// power estimation", Soviet Math. Dokl. 11 (1970).
+class VertexCut {
 public:
-    Deformer(Interface& f, const Tool& tool, const Mesh& mesh, bool positive)
-        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), t1_side_(positive ? 1 : -1) {}
+    using Weight = std::int64_t;
+    static constexpr Weight endless = std::numeric_limits<Weight>::max() / 1000;
 
-    void classify() {
-        const auto label = [&](auto& list) {
-            for (int s = 0; s < list.size(); ++s)
-                list.set_tag(s, std::ranges::all_of(list[s], [&](int v) { return t1_side_ * f_.distance[v] >= 0; }) ? in_t1 : in_t2);
-        };
-        label(band_.tetras);
-        label(band_.triangles);
-        while (hand_over_tetras() || split_figure_4() || hand_over_shells()) {}
+    explicit VertexCut(int nodes) : first_(2 * static_cast<std::size_t>(nodes) + 2, -1), source_(2 * nodes), sink_(2 * nodes + 1) {}
+
+    void set_weight(int v, Weight weight) { add(2 * v, 2 * v + 1, weight); }
+    void join(int v, int w) {
+        add(2 * v + 1, 2 * w, endless);
+        add(2 * w + 1, 2 * v, endless);
+    }
+    /// What it costs to leave v wholly on the negative (positive) side.
+    void hold_positive(int v, Weight weight) { add(source_, 2 * v, weight); }
+    void hold_negative(int v, Weight weight) { add(2 * v + 1, sink_, weight); }
+
+    /// False when only an endless weight would separate the sides.
+    bool solve() {
+        Weight flow = 0;
+        while (find_levels()) {
+            next_ = first_;
+            while (const Weight pushed = push(endless)) {
+                flow += pushed;
+                if (flow >= endless) return false;
+            }
+        }
+        return true;
     }
 
-    /// The crack interface CI: nodes of faces (edges) between T1 and T2.
-    void find_interface() {
-        interface_.clear();
-        for (int t = 0; t < band_.tetras.size(); ++t) {
-            if (band_.tetras.tag(t) != in_t1) continue;
-            for (int k = 0; k < 4; ++k)
-                if (across(t, k) >= 0 && band_.tetras.tag(across(t, k)) == in_t2)
-                    for (int c : faces_of_tetra[k]) interface_.insert(band_.tetras[t][c]);
-        }
-        for (int t = 0; t < band_.triangles.size(); ++t) {
-            if (!is_shell(t) || band_.triangles.tag(t) != in_t1) continue;
-            for (int k = 0; k < 3; ++k)
-                if (meets_t2(t, k)) {
-                    interface_.insert(band_.triangles[t][(k + 1) % 3]);
-                    interface_.insert(band_.triangles[t][(k + 2) % 3]);
+    /// +1, -1, or 0 for a node of the cut.
+    int side(int v) const { return level_[2 * v] < 0 ? -1 : level_[2 * v + 1] < 0 ? 0 : 1; }
+
+private:
+    struct Arc {
+        int to;
+        int next;
+        Weight left;
+    };
+
+    void add(int from, int to, Weight capacity) {
+        arcs_.push_back({to, first_[from], capacity});
+        first_[from] = static_cast<int>(arcs_.size()) - 1;
+        arcs_.push_back({from, first_[to], 0});
+        first_[to] = static_cast<int>(arcs_.size()) - 1;
+    }
+
+    bool find_levels() {
+        level_.assign(first_.size(), -1);
+        level_[source_] = 0;
+        queue_.assign(1, source_);
+        for (std::size_t k = 0; k < queue_.size(); ++k)
+            for (int a = first_[queue_[k]]; a >= 0; a = arcs_[a].next)
+                if (arcs_[a].left > 0 && level_[arcs_[a].to] < 0) {
+                    level_[arcs_[a].to] = level_[queue_[k]] + 1;
+                    queue_.push_back(arcs_[a].to);
                 }
-        }
-        for (const int v : interface_)
-            if (!band_.nodes[v].movable())
-                throw QualityError("the interface reaches node " + number(v) + " outside the transition band; choose a larger transition");
-        // From here on a node's side is that of its elements.
-        for (int v = 0; v < band_.size(); ++v) {
-            if (interface_.contains(v)) {
-                f_.distance[v] = 0;
-                continue;
-            }
-            d_.contact[v] = nullptr;
-            const auto side = [&](const auto& list) {
-                if (!list.around(v).empty()) f_.distance[v] = list.tag(list.around(v)[0]) == in_t1 ? t1_side_ : -t1_side_;
-            };
-            if (!band_.triangles.around(v).empty() && is_shell(band_.triangles.around(v)[0])) side(band_.triangles);
-            side(band_.tetras);
-        }
+        return level_[sink_] >= 0;
     }
 
-    void move() {
-        for (const int v : interface_) d_.contact[v] = nullptr;
-        std::vector<int> waiting(interface_.begin(), interface_.end());
-        find_movable();
-        spread(waiting);
-        for (int round = 0; round < 40 && !waiting.empty(); ++round) {
-            bool progress = false;
-            std::vector<int> left;
-            for (const int v : waiting) {
-                if (approach(v, progress)) d_.contact[v] = &tool_;
-                else left.push_back(v);
+    /// Pushes along one path of rising level from the source; 0 when none is left.
+    Weight push(Weight most) {
+        path_.clear();
+        int at = source_;
+        while (at != sink_) {
+            int& a = next_[at];
+            while (a >= 0 && !(arcs_[a].left > 0 && level_[arcs_[a].to] == level_[at] + 1)) a = arcs_[a].next;
+            if (a >= 0) {
+                path_.push_back(a);
+                at = arcs_[a].to;
+            } else {
+                if (path_.empty()) return 0;
+                at = arcs_[path_.back() ^ 1].to;
+                path_.pop_back();
+                next_[at] = arcs_[next_[at]].next;
             }
-            waiting.swap(left);
-            const bool stuck = !progress;
-            std::vector<int> relaxed;
-            for (const int v : movable_)
-                if (!interface_.contains(v) || d_.contact[v]) relaxed.push_back(v);
-            RelaxationOptions options;
-            options.sweeps = 3;
-            const long moves = relax(d_, relaxed, options);
-            if (stuck && moves == 0) break;
         }
-        if (!waiting.empty()) fail(waiting);
-        find_node_sets(f_);
-        std::vector<int> all = f_.nodes;
-        all.insert(all.end(), f_.transition.begin(), f_.transition.end());
-        relax(d_, all);
+        for (const int a : path_) most = std::min(most, arcs_[a].left);
+        for (const int a : path_) {
+            arcs_[a].left -= most;
+            arcs_[a ^ 1].left += most;
+        }
+        return most;
+    }
+
+    std::vector<Arc> arcs_;
+    std::vector<int> first_, next_, level_, queue_, path_;
+    int source_, sink_;
+};
+
+/// Pulls elements that moving nodes turned over back into shape: each node in turn minimises the sum of
+/// the squared inverse mean ratios around it, with the volume V replaced by (V + sqrt(V^2 + 4 delta^2)) / 2,
+/// which is positive for every V, and delta lowered step by step. Escobar et al., "Simultaneous
+/// untangling and smoothing of tetrahedral meshes", Comput. Methods Appl. Mech. Engng. 192 (2003).
+class Untangler {
+public:
+    explicit Untangler(Deformable& d) : d_(d), band_(d.band) {
+        for (int t = 0; t < band_.tetras.size(); ++t) tetra_volume_.push_back(regular_measure(band_.tetras[t]));
+        for (int t = 0; t < band_.triangles.size(); ++t) shell_area_.push_back(regular_measure(band_.triangles[t]));
+    }
+
+    /// The worst quality reached.
+    double run(const std::vector<int>& movable, double goal) {
+        std::vector<char> may_move(static_cast<std::size_t>(band_.size()), 0);
+        for (const int v : movable) may_move[v] = 1;
+        double worst = 0;
+        for (double delta = 0.5; delta > 0.004; delta /= 2)
+            for (int sweep = 0; sweep < 4; ++sweep) {
+                std::vector<char> chosen(may_move.size(), 0);
+                worst = choose(goal, chosen);
+                if (worst >= goal) return worst;
+                for (const int v : movable)
+                    if (chosen[v]) improve(v, delta);
+            }
+        return worst;
     }
 
 private:
-    bool is_shell(int t) const { return d_.constraints.is_shell(band_.triangles.origin(t)); }
+    struct Term {
+        Vec3 gradient;    // of the measure (volume or area) by the node's position
+        double offset;
+        Vec3 corner_sum;
+        double constant;  // squared edges = edges |x|^2 - 2 x.corner_sum + constant
+        double edges;
+        double exponent;
+        double delta;
+        double scale;
+    };
 
-    std::string number(int v) const {
-        return band_.nodes[v].global >= 0 ? std::to_string(mesh_.node_ids[band_.nodes[v].global]) : "(new)";
+    template <std::size_t N>
+    double regular_measure(const std::array<int, N>& v) const {
+        double squares = 0;
+        for (std::size_t i = 0; i < N; ++i)
+            for (std::size_t j = 0; j < i; ++j) squares += (band_.nodes[v[i]].start - band_.nodes[v[j]].start).squaredNorm();
+        const double square = squares / (N * (N - 1) / 2.0);
+        return N == 4 ? square * std::sqrt(square) / (6 * std::sqrt(2.0)) : square * std::sqrt(3.0) / 4;
     }
 
-    /// The tetrahedron on the other side of the face opposite corner k, or -1.
-    int across(int t, int k) const {
-        const auto& n = band_.tetras[t];
-        const int a = n[faces_of_tetra[k][0]], b = n[faces_of_tetra[k][1]], c = n[faces_of_tetra[k][2]];
-        for (const int s : band_.tetras.around(a))
-            if (s != t && std::ranges::find(band_.tetras[s], b) != band_.tetras[s].end() &&
-                std::ranges::find(band_.tetras[s], c) != band_.tetras[s].end())
-                return s;
-        return -1;
+    /// Marks the nodes of bad elements and their neighbours.
+    double choose(double goal, std::vector<char>& chosen) const {
+        double worst = 1;
+        std::vector<int> seeds;
+        const auto look = [&](const auto& v, double quality) {
+            worst = std::min(worst, quality);
+            if (quality < goal) seeds.insert(seeds.end(), v.begin(), v.end());
+        };
+        for (int t = 0; t < band_.tetras.size(); ++t) look(band_.tetras[t], tetra_quality(d_, t));
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (d_.constraints.is_shell(band_.triangles.origin(t))) look(band_.triangles[t], shell_quality(d_, t));
+        for (const int v : seeds) {
+            for (const int s : band_.tetras.around(v))
+                for (const int w : band_.tetras[s]) chosen[w] = 1;
+            for (const int s : band_.triangles.around(v))
+                for (const int w : band_.triangles[s]) chosen[w] = 1;
+        }
+        return worst;
     }
 
-    /// Whether the shell's edge opposite corner k is shared with a T2 shell.
-    bool meets_t2(int t, int k) const {
-        const int a = band_.triangles[t][(k + 1) % 3], b = band_.triangles[t][(k + 2) % 3];
-        return std::ranges::any_of(band_.triangles.around(a), [&](int s) {
-            return s != t && is_shell(s) && band_.triangles.tag(s) == in_t2 &&
-                   std::ranges::find(band_.triangles[s], b) != band_.triangles[s].end();
+    void gather(int node, double delta) {
+        terms_.clear();
+        constexpr int opposite[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+        const Vec3 origin = band_.nodes[node].at;
+        for (const int t : band_.tetras.around(node)) {
+            const auto& v = band_.tetras[t];
+            const int k = static_cast<int>(std::ranges::find(v, node) - v.begin());
+            const Vec3 a = band_.nodes[v[opposite[k][0]]].at - origin, b = band_.nodes[v[opposite[k][1]]].at - origin,
+                       c = band_.nodes[v[opposite[k][2]]].at - origin;
+            const Vec3 gradient = (b - a).cross(c - a) / 6;
+            terms_.push_back({gradient, -gradient.dot(a), a + b + c,
+                              a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() + (c - a).squaredNorm() +
+                                  (c - b).squaredNorm(),
+                              3, 2.0 / 3, delta * tetra_volume_[t], 1 / (12 * std::cbrt(9.0))});
+        }
+        for (const int t : band_.triangles.around(node)) {
+            if (!d_.constraints.is_shell(band_.triangles.origin(t))) continue;
+            const auto& v = band_.triangles[t];
+            const int k = static_cast<int>(std::ranges::find(v, node) - v.begin());
+            const Vec3 a = band_.nodes[v[(k + 1) % 3]].at - origin, b = band_.nodes[v[(k + 2) % 3]].at - origin;
+            const Vec3 gradient = d_.shell_normals[band_.triangles.origin(t)].cross(b - a) / 2;
+            terms_.push_back({gradient, -gradient.dot(a), a + b, a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm(), 2, 1,
+                              delta * shell_area_[t], 1 / (4 * std::sqrt(3.0))});
+        }
+    }
+
+    /// Objective at the node's position plus y, with derivatives if asked for.
+    double value(const Vec3& y, Vec3* gradient, Eigen::Matrix3d* hessian) const {
+        double sum = 0;
+        if (gradient) {
+            gradient->setZero();
+            hessian->setZero();
+        }
+        for (const Term& t : terms_) {
+            const double measure = t.gradient.dot(y) + t.offset;
+            const double root = std::sqrt(measure * measure + 4 * t.delta * t.delta);
+            // Of the two equal forms the one without cancellation.
+            const double positive = measure > 0 ? (measure + root) / 2 : 2 * t.delta * t.delta / (root - measure);
+            const double squares = t.edges * y.squaredNorm() - 2 * y.dot(t.corner_sum) + t.constant;
+            const double u = t.scale * squares / std::pow(positive, t.exponent);
+            const double power = u * u;
+            sum += power;
+            if (!gradient) continue;
+            const Vec3 squares_part = 2 * (t.edges * y - t.corner_sum) / squares;
+            const Vec3 measure_part = t.gradient / root;
+            const Vec3 log_gradient = squares_part - t.exponent * measure_part;
+            *gradient += 2 * power * log_gradient;
+            *hessian += 2 * power *
+                        (2 * log_gradient * log_gradient.transpose() - squares_part * squares_part.transpose() +
+                         t.exponent * std::max(0.0, measure / root) * measure_part * measure_part.transpose());
+            hessian->diagonal().array() += 2 * power * 2 * t.edges / squares;
+        }
+        return sum;
+    }
+
+    void improve(int v, double delta) {
+        BandNode& node = band_.nodes[v];
+        Eigen::Matrix3d basis;
+        const int freedom = d_.constraints.tangents(v, d_.contact[v], node.at, basis);
+        if (freedom == 0) return;
+        gather(v, delta);
+        const auto tangent = basis.leftCols(freedom);
+        const Vec3 origin = node.at;
+        const double limit = 0.5 * band_.mean_edge_length(v);
+        Vec3 gradient;
+        Eigen::Matrix3d hessian;
+        for (int iteration = 0; iteration < 2; ++iteration) {
+            const double now = value(node.at - origin, &gradient, &hessian);
+            using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+            Small h = tangent.transpose() * hessian * tangent;
+            Eigen::LDLT<Small> factors(h);
+            if (factors.info() != Eigen::Success || !factors.isPositive()) {
+                h.diagonal().array() += h.norm();
+                factors.compute(h);
+            }
+            const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> g = tangent.transpose() * gradient;
+            Vec3 step = -(tangent * factors.solve(g));
+            if (!step.allFinite()) return;
+            if (step.norm() > limit) step *= limit / step.norm();
+            bool accepted = false;
+            for (int halving = 0; halving < 6 && !accepted; ++halving, step /= 2) {
+                Vec3 x = node.at + step;
+                if (!d_.constraints.project(v, d_.contact[v], x) || !(value(x - origin, nullptr, nullptr) < now)) continue;
+                node.at = x;
+                accepted = true;
+            }
+            if (!accepted) return;
+        }
+    }
+
+    Deformable& d_;
+    BandMesh& band_;
+    std::vector<double> tetra_volume_, shell_area_;
+    std::vector<Term> terms_;
+};
+
+/// What one attempt tells the next, by node of the input's band.
+struct Lessons {
+    std::vector<double> penalty;  ///< factor on the cost of having a node in the interface
+    std::vector<char> held;       ///< nodes that have to stay on the side they are on
+};
+
+class Deformer {
+public:
+    Deformer(Interface& f, const Tool& tool, const Mesh& mesh, Lessons& lessons)
+        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), lessons_(lessons) {}
+
+    /// 3.1.1: the interface nodes, with Figure 4's splits. False when fixed nodes leave none.
+    bool classify() {
+        measure_nodes();
+        for (int round = 0; round < cuts; ++round) {
+            if (!cut()) return false;
+            if (!penalise_impossible()) break;
+        }
+        split_astray();
+        return true;
+    }
+
+    /// 3.1.2. Returns the worst quality.
+    double move() {
+        for (int v = 0; v < band_.size(); ++v) {
+            f_.distance[v] = side_[v];
+            d_.contact[v] = side_[v] == 0 ? &tool_ : nullptr;
+        }
+        find_node_sets(f_);
+        std::vector<Vec3> given;
+        for (const int v : f_.nodes) given.push_back(target_[v] - band_.nodes[v].at);
+        const std::vector<Vec3> spread = bar_network_displacements(d_, f_.nodes, given, f_.transition);
+        for (std::size_t k = 0; k < f_.transition.size(); ++k) {
+            const int v = f_.transition[k];
+            Vec3 x = band_.nodes[v].at + spread[k];
+            if (d_.constraints.project(v, nullptr, x)) band_.nodes[v].at = x;
+        }
+        for (const int v : f_.nodes) band_.nodes[v].at = target_[v];
+        std::vector<int> movable = f_.nodes;
+        movable.insert(movable.end(), f_.transition.begin(), f_.transition.end());
+        worst_ = Untangler(d_).run(movable, 0.2);
+        if (worst_ > 0) {
+            relax(d_, movable);
+            worst_ = worst_quality();
+        }
+        find_misplaced();
+        return misplaced_.empty() ? worst_ : -1;
+    }
+
+    /// For the next attempt: interface nodes around the worst elements become dearer, nodes that ended on
+    /// the wrong side of the tool are held on theirs.
+    void learn() const {
+        for (const int v : misplaced_)
+            if (!band_.is_new(v)) lessons_.held[v] = 1;
+        for_bad([&](const auto& v, const CellRef&) {
+            for (const int n : v)
+                if (side_[n] == 0 && !band_.is_new(n)) raise(n, 2);
         });
     }
 
-    std::vector<int> interface_corners(int t) const {
-        std::vector<int> corners;
-        for (int k = 0; k < 4; ++k)
-            if (const int s = across(t, k); s >= 0 && band_.tetras.tag(s) == in_t2) corners.push_back(k);
-        return corners;
-    }
-
-    bool hand_over_tetras() {
-        bool any = false;
-        for (int t = 0; t < band_.tetras.size(); ++t)
-            if (band_.tetras.tag(t) == in_t1 && interface_corners(t).size() >= 3) {
-                band_.tetras.set_tag(t, in_t2);
-                any = true;
-            }
-        return any;
-    }
-
-    /// Nodes of faces between T1 and T2.
-    std::vector<char> interface_flags() const {
-        std::vector<char> on(static_cast<std::size_t>(band_.size()), 0);
-        for (int t = 0; t < band_.tetras.size(); ++t) {
-            if (band_.tetras.tag(t) != in_t1) continue;
-            for (const int k : interface_corners(t))
-                for (const int c : faces_of_tetra[k]) on[band_.tetras[t][c]] = 1;
-        }
-        return on;
-    }
-
-    /// Figure 4: in a tetrahedron with two interface faces, the edge that joins the two corners opposite
-    /// them is split in the middle. Every other tetrahedron whose four corners are all on the interface
-    /// would be flattened just the same, so it is split too, at an edge that is in no interface face.
-    bool split_figure_4() {
-        bool any = false;
-        const std::vector<char> on = interface_flags();
-        const int count = band_.tetras.size();
-        for (int t = 0; t < count; ++t) {
-            const auto v = band_.tetras[t];
-            if (!std::ranges::all_of(v, [&](int n) { return n < static_cast<int>(on.size()) && on[n] != 0; })) continue;
-            int a = -1, b = -1;
-            const std::vector<int> corners = band_.tetras.tag(t) == in_t1 ? interface_corners(t) : std::vector<int>{};
-            if (corners.size() == 2) {
-                a = v[corners[0]];
-                b = v[corners[1]];
-            } else {
-                double longest = 0;
-                for (int i = 0; i < 4; ++i)
-                    for (int j = 0; j < i; ++j) {
-                        const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).norm();
-                        if (length > longest && !in_interface(v[i], v[j])) {
-                            longest = length;
-                            a = v[i];
-                            b = v[j];
-                        }
-                    }
-            }
-            if (a < 0 || (!band_.nodes[a].movable() && !band_.nodes[b].movable())) continue;
-            Vec3 at = (band_.nodes[a].at + band_.nodes[b].at) / 2;
-            const Vec3 middle = at;
-            const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
-            if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), nullptr, at) || (at - middle).norm() > 0.1 * length) at = middle;
-            d_.split_edge(a, b, at, nullptr);
-            f_.distance.push_back(tool_.distance(at));
-            any = true;
-        }
-        return any;
-    }
-
-    /// Whether tetrahedra of both sets share the edge a-b.
-    bool in_interface(int a, int b) const {
-        bool one = false, two = false;
-        for (const int s : band_.tetras.around(a))
-            if (std::ranges::find(band_.tetras[s], b) != band_.tetras[s].end()) (band_.tetras.tag(s) == in_t1 ? one : two) = true;
-        return one && two;
-    }
-
-    bool hand_over_shells() {
-        bool any = false;
-        for (int t = 0; t < band_.triangles.size(); ++t) {
-            if (!is_shell(t) || band_.triangles.tag(t) != in_t1) continue;
-            int shared = 0;
-            for (int k = 0; k < 3; ++k) shared += meets_t2(t, k);
-            if (shared < 2) continue;
-            band_.triangles.set_tag(t, in_t2);
-            any = true;
-        }
-        return any;
-    }
-
-    void find_movable() {
-        movable_.clear();
-        for (int v = 0; v < band_.size(); ++v)
-            if (band_.nodes[v].movable()) movable_.push_back(v);
-    }
-
-    /// The bar network carries the whole band along as far as elements stay sound.
-    void spread(const std::vector<int>& interface) {
-        std::vector<Vec3> given;
-        for (const int v : interface) {
-            Vec3 target = band_.nodes[v].at;
-            if (!d_.constraints.project(v, &tool_, target)) target = band_.nodes[v].at;
-            given.push_back(target - band_.nodes[v].at);
-        }
-        std::vector<int> others;
-        for (const int v : movable_)
-            if (!interface_.contains(v)) others.push_back(v);
-        const std::vector<Vec3> displacement = bar_network_displacements(d_, interface, given, others);
-        const auto step = [&](const std::vector<int>& nodes, const std::vector<Vec3>& by, double factor) {
-            for (std::size_t k = 0; k < nodes.size(); ++k) {
-                Vec3 x = band_.nodes[nodes[k]].at + factor * by[k];
-                if (d_.constraints.project(nodes[k], nullptr, x)) band_.nodes[nodes[k]].at = x;
-            }
-        };
-        std::vector<Vec3> kept;
-        for (const BandNode& n : band_.nodes) kept.push_back(n.at);
-        for (double factor = 1; factor > 0.1; factor /= 2) {
-            step(interface, given, factor);
-            step(others, displacement, factor);
-            double worst = 1;
-            for (int t = 0; t < band_.tetras.size(); ++t) worst = std::min(worst, tetra_quality(d_, t));
-            for (int t = 0; t < band_.triangles.size(); ++t)
-                if (is_shell(t)) worst = std::min(worst, shell_quality(d_, t));
-            if (worst > 0.02) return;
-            for (int v = 0; v < band_.size(); ++v) band_.nodes[v].at = kept[v];
-        }
-    }
-
-    /// Moves an interface node towards the tool as far as its elements allow; true when it has arrived.
-    bool approach(int v, bool& progress) {
-        Vec3 target = band_.nodes[v].at;
-        if (!d_.constraints.project(v, &tool_, target)) return false;
-        const Vec3 from = band_.nodes[v].at;
-        const double now = quality_around(d_, v, from);
-        for (double factor = 1; factor > 0.05; factor /= 2) {
-            Vec3 x = factor == 1 ? target : Vec3(from + factor * (target - from));
-            if (factor < 1 && !d_.constraints.project(v, nullptr, x)) continue;
-            if (quality_around(d_, v, x) < std::min(0.02, now / 2)) continue;
-            band_.nodes[v].at = x;
-            if ((x - from).norm() > 1e-3 * band_.mean_edge_length(v) || factor == 1) progress = true;
-            return factor == 1;
-        }
-        return false;
-    }
-
-    [[noreturn]] void fail(const std::vector<int>& waiting) const {
+    [[noreturn]] void fail() const {
         std::set<Index> elements;
-        for (const int v : waiting) {
+        for_bad([&](const auto&, const CellRef& c) { elements.insert(mesh_.block(c.type).ids[c.cell]); });
+        for (const int v : misplaced_) {
             for (const int t : band_.tetras.around(v)) {
                 const CellRef& c = band_.tetra_cells[band_.tetras.origin(t)];
                 elements.insert(mesh_.block(c.type).ids[c.cell]);
             }
             for (const int t : band_.triangles.around(v)) {
                 const CellRef& c = band_.triangle_cells[band_.triangles.origin(t)];
-                if (is_shell(t)) elements.insert(mesh_.block(c.type).ids[c.cell]);
+                elements.insert(mesh_.block(c.type).ids[c.cell]);
             }
         }
-        std::string list;
+        throw QualityError("method \"deform\" cannot bring the interface onto the " + std::string(tool_.kind()) +
+                           " without flattening elements (" + list(elements) +
+                           "). Moving nodes alone is not enough here; use method \"snap\"");
+    }
+
+    /// For classify() == false.
+    [[noreturn]] void fail_fixed() const {
+        std::set<Index> elements;
+        const auto look = [&](const auto& list, const auto& cells) {
+            for (int s = 0; s < list.size(); ++s) {
+                bool positive = false, negative = false;
+                for (const int v : list[s]) {
+                    if (slide_[v] <= reach) continue;
+                    positive = positive || f_.distance[v] > 0;
+                    negative = negative || f_.distance[v] < 0;
+                }
+                if (positive && negative) elements.insert(mesh_.block(cells[s].type).ids[cells[s].cell]);
+            }
+        };
+        look(band_.tetras, band_.tetra_cells);
+        look(band_.triangles, band_.triangle_cells);
+        throw QualityError("method \"deform\" finds no row of nodes that could be moved onto the " + std::string(tool_.kind()) +
+                           ": nodes on both sides of it cannot be moved there (elements " + list(elements) + "); use method \"snap\"");
+    }
+
+private:
+    bool is_shell(int t) const { return d_.constraints.is_shell(band_.triangles.origin(t)); }
+
+    static std::string list(const std::set<Index>& elements) {
+        std::string text;
         int shown = 0;
         for (const Index id : elements) {
             if (shown++ == 8) break;
-            list += (list.empty() ? "" : ", ") + std::to_string(id);
+            text += (text.empty() ? "" : ", ") + std::to_string(id);
         }
-        if (elements.size() > 8) list += ", ...";
-        throw QualityError("method \"deform\" cannot bring " + std::to_string(waiting.size()) +
-                           " interface node(s) onto the tool without flattening elements around them (elements " + list +
-                           "). Moving nodes alone is not enough here; use method \"snap\"");
+        return elements.size() > 8 ? text + ", ..." : text;
     }
+
+    /// Nodes beyond the tool: there the interface does not separate what the tool does.
+    void find_misplaced() {
+        for (int v = 0; v < band_.size(); ++v)
+            if (side_[v] * tool_.distance(band_.nodes[v].at) < -f_.tolerance && !(band_.tetras.around(v).empty() && band_.triangles.around(v).empty()))
+                misplaced_.push_back(v);
+    }
+
+    double worst_quality() const {
+        double worst = 1;
+        for (int t = 0; t < band_.tetras.size(); ++t) worst = std::min(worst, tetra_quality(d_, t));
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (is_shell(t)) worst = std::min(worst, shell_quality(d_, t));
+        return worst;
+    }
+
+    void for_bad(auto visit) const {
+        const double limit = misplaced_.empty() ? std::max(good_enough, worst_) : acceptable;
+        for (int t = 0; t < band_.tetras.size(); ++t)
+            if (tetra_quality(d_, t) <= limit) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (is_shell(t) && shell_quality(d_, t) <= limit) visit(band_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)]);
+    }
+
+    /// Where each node would go, and how far that is.
+    void measure_nodes() {
+        const auto count = static_cast<std::size_t>(band_.size());
+        target_.resize(count);
+        slide_.assign(count, reach + 1);
+        length_.assign(count, 0);
+        for (int v = 0; v < band_.size(); ++v) {
+            length_[v] = band_.mean_edge_length(v);
+            target_[v] = band_.nodes[v].at;
+            if (band_.tetras.around(v).empty() && band_.triangles.around(v).empty()) continue;
+            if (!band_.nodes[v].movable() || std::abs(f_.distance[v]) > reach * length_[v]) continue;
+            if (d_.constraints.project(v, &tool_, target_[v])) slide_[v] = (target_[v] - band_.nodes[v].at).norm() / length_[v];
+        }
+    }
+
+    /// T1 and T2 by half-space; between them the interface nodes that have least to move.
+    bool cut() {
+        VertexCut cut(band_.size());
+        const auto weight = [](double w) { return static_cast<VertexCut::Weight>(w * 1e6); };
+        std::vector<int> neighbours;
+        for (int v = 0; v < band_.size(); ++v) {
+            const double r = slide_[v];
+            cut.set_weight(v, r > reach ? VertexCut::endless : weight(lessons_.penalty[v] * (0.1 + r * r + 2 * r * r * r * r)));
+            const double off = std::abs(f_.distance[v]) / length_[v];
+            const bool held = band_.nodes[v].level != 0 || off > 1 || r > reach || lessons_.held[v] != 0;
+            const auto wrong = held ? VertexCut::endless : weight(0.5 * off * off);
+            if (f_.distance[v] > 0) cut.hold_positive(v, wrong);
+            if (f_.distance[v] < 0) cut.hold_negative(v, wrong);
+            neighbours.clear();
+            const auto gather = [&](int w) {
+                if (w > v) neighbours.push_back(w);
+            };
+            for (const int s : band_.tetras.around(v)) std::ranges::for_each(band_.tetras[s], gather);
+            for (const int s : band_.triangles.around(v)) std::ranges::for_each(band_.triangles[s], gather);
+            std::ranges::sort(neighbours);
+            const auto rest = std::ranges::unique(neighbours);
+            neighbours.erase(rest.begin(), rest.end());
+            for (const int w : neighbours) cut.join(v, w);
+        }
+        if (!cut.solve()) return false;
+        side_.resize(static_cast<std::size_t>(band_.size()));
+        for (int v = 0; v < band_.size(); ++v) side_[v] = cut.side(v);
+        // A node that ended in the cut although it has only one side around it belongs to that side.
+        for (int v = 0; v < band_.size(); ++v) {
+            if (side_[v] != 0) continue;
+            bool positive = false, negative = false;
+            look_around(v, [&](int w) { (side_[w] > 0 ? positive : negative) |= side_[w] != 0; });
+            if (positive != negative) side_[v] = positive ? 1 : -1;
+        }
+        return true;
+    }
+
+    void look_around(int v, auto visit) const {
+        for (const int s : band_.tetras.around(v)) std::ranges::for_each(band_.tetras[s], visit);
+        for (const int s : band_.triangles.around(v)) std::ranges::for_each(band_.triangles[s], visit);
+    }
+
+    /// Where no split helps the farthest node becomes dearer: two interface nodes on one crease would go to
+    /// the same point; three whose edges are all in the interface but whose triangle is not would enclose
+    /// elements between it and the interface.
+    bool penalise_impossible() {
+        bool any = false;
+        for (int s = 0; s < band_.creases.size(); ++s) {
+            const auto& [a, b] = band_.creases[s];
+            if (side_[a] != 0 || side_[b] != 0) continue;
+            if ((target_[a] - target_[b]).norm() > 0.2 * (band_.nodes[a].at - band_.nodes[b].at).norm()) continue;
+            penalise(band_.creases[s], 4);
+            any = true;
+        }
+        std::set<std::array<int, 3>> seen;
+        const auto look = [&](std::array<int, 3> face) {
+            std::ranges::sort(face);
+            if (!std::ranges::all_of(face, [&](int v) { return side_[v] == 0; }) || !seen.insert(face).second) return;
+            const auto [a, b, c] = face;
+            if (!in_interface(a, b) || !in_interface(b, c) || !in_interface(a, c)) return;
+            bool positive = false, negative = false;
+            look_edge(a, b, [&, c = c](const auto& element) {
+                if (std::ranges::find(element, c) == element.end()) return;
+                for (const int v : element) (side_[v] > 0 ? positive : negative) |= side_[v] != 0;
+            });
+            if (positive && negative) return;
+            penalise(face, 2);
+            any = true;
+        };
+        for (int t = 0; t < band_.tetras.size(); ++t) {
+            const auto& v = band_.tetras[t];
+            if (std::ranges::count_if(v, [&](int n) { return side_[n] == 0; }) < 3) continue;
+            for (int k = 0; k < 4; ++k) look({v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]});
+        }
+        return any;
+    }
+
+    /// Whether elements of both sides share the edge a-b.
+    bool in_interface(int a, int b) const {
+        bool positive = false, negative = false;
+        look_edge(a, b, [&](const auto& element) {
+            for (const int v : element) (side_[v] > 0 ? positive : negative) |= side_[v] != 0;
+        });
+        return positive && negative;
+    }
+
+    /// Figure 4: an edge between two interface nodes that is in no interface face would come to lie in the
+    /// interface all the same, and flatten what is between; it is split in the middle, so that the new node
+    /// can move away.
+    void split_astray() {
+        for (const auto& [a, b] : astray()) {
+            if (in_interface(a, b)) continue;  // since a split before it
+            int side = 0;
+            look_edge(a, b, [&](const auto& element) {
+                for (const int v : element) side = side != 0 ? side : side_[v];
+            });
+            const Vec3 middle = (band_.nodes[a].at + band_.nodes[b].at) / 2;
+            Vec3 at = middle;
+            if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), nullptr, at) ||
+                (at - middle).norm() > 0.1 * (band_.nodes[a].at - band_.nodes[b].at).norm())
+                at = middle;
+            d_.split_edge(a, b, at, nullptr);
+            side_.push_back(side != 0 ? side : tool_.distance(at) < 0 ? -1 : 1);
+            target_.push_back(at);
+            f_.distance.push_back(side_.back());
+        }
+    }
+
+    /// Edges between interface nodes that are in no interface face, longest first.
+    std::vector<std::pair<int, int>> astray() const {
+        std::vector<std::pair<double, std::pair<int, int>>> found;
+        std::vector<int> others;
+        for (int v = 0; v < band_.size(); ++v) {
+            if (side_[v] != 0) continue;
+            others.clear();
+            look_around(v, [&](int w) {
+                if (w > v && side_[w] == 0) others.push_back(w);
+            });
+            std::ranges::sort(others);
+            const auto rest = std::ranges::unique(others);
+            others.erase(rest.begin(), rest.end());
+            for (const int w : others)
+                if (!in_interface(v, w)) found.push_back({-(band_.nodes[v].at - band_.nodes[w].at).norm(), {v, w}});
+        }
+        std::ranges::sort(found);
+        std::vector<std::pair<int, int>> edges;
+        for (const auto& [length, edge] : found) edges.push_back(edge);
+        return edges;
+    }
+
+    /// Calls visit(nodes) for the elements around the edge a-b.
+    void look_edge(int a, int b, auto visit) const {
+        const auto look = [&](const auto& list) {
+            for (const int s : list.around(a))
+                if (std::ranges::find(list[s], b) != list[s].end()) visit(list[s]);
+        };
+        look(band_.tetras);
+        look(band_.triangles);
+    }
+
+    /// Makes the node that would have to move farthest dearer.
+    void penalise(const auto& nodes, double factor) {
+        raise(*std::ranges::max_element(nodes, {}, [&](int v) { return std::pair(slide_[v], v); }), factor);
+    }
+
+    void raise(int v, double factor) const { lessons_.penalty[v] = std::min(lessons_.penalty[v] * factor, largest_penalty); }
 
     Interface& f_;
     Deformable& d_;
     BandMesh& band_;
     const Tool& tool_;
     const Mesh& mesh_;
-    int t1_side_;
-    std::set<int> interface_;
-    std::vector<int> movable_;
+    Lessons& lessons_;
+    std::vector<int> side_;       ///< +1, -1, 0: in the interface
+    std::vector<Vec3> target_;    ///< on the tool
+    std::vector<double> slide_;   ///< distance to it in mean edge lengths
+    std::vector<double> length_;  ///< mean edge lengths
+    std::vector<int> misplaced_;  ///< nodes that ended on the wrong side of the tool
+    double worst_ = 1;
 };
 
 }  // namespace
 
 void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     Stopwatch watch(f.seconds);
-    const auto attempt = [&](Interface& g, bool positive) {
-        Deformer deformer(g, tool, mesh, positive);
-        deformer.classify();
-        deformer.find_interface();
-        deformer.move();
-    };
-    // The paper leaves open which half-space is T1: the other one is tried when the first cannot be done.
-    Interface first = f;
-    try {
-        attempt(first, true);
-        f = std::move(first);
-    } catch (const QualityError&) {
-        attempt(f, false);
+    const auto count = static_cast<std::size_t>(f.d.band.size());
+    Lessons lessons{std::vector<double>(count, 1), std::vector<char>(count, 0)};
+    double worst = 1;
+    for (int t = 0; t < f.d.band.tetras.size(); ++t) worst = std::min(worst, tetra_quality(f.d, t));
+    for (int t = 0; t < f.d.band.triangles.size(); ++t)
+        if (f.d.constraints.is_shell(f.d.band.triangles.origin(t))) worst = std::min(worst, shell_quality(f.d, t));
+    const double enough = std::min(good_enough, worst / 2);
+    std::optional<Interface> best;
+    double best_quality = acceptable;
+    for (int k = 0; k < attempts; ++k) {
+        Interface g = f;
+        Deformer deformer(g, tool, mesh, lessons);
+        if (!deformer.classify()) {
+            if (best) break;
+            deformer.fail_fixed();
+        }
+        const double quality = deformer.move();
+        if (quality > best_quality) {
+            best_quality = quality;
+            best = std::move(g);
+        }
+        if (best_quality >= enough) break;
+        if (k + 1 == attempts && !best) deformer.fail();
+        deformer.learn();
     }
+    f = std::move(*best);
     watch.lap("deform");
 }
 

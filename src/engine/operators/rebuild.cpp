@@ -53,14 +53,36 @@ private:
                 continue;
             }
             const auto& [a, b] = band_.births[v - band_.original_nodes()];
+            note_born(a, b);
             out_.node[v] = mesh.add_node(n.at, next_node_++, mesh.families.intersect(family(a), family(b)));
             ++out_.nodes_split;
         }
         for (std::size_t k = 0; k < lips_.copy_of.size(); ++k) {
             const Index source = out_.node[lips_.copy_of[k]];
+            out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
             out_.node[band_.size() + static_cast<int>(k)] = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
             ++out_.nodes_doubled;
         }
+    }
+
+    /// The next node is born on the edge a-b.
+    void note_born(int a, int b) {
+        Changes::Born born{next_node_, {}};
+        gather_ancestors(a, born.ancestors);
+        gather_ancestors(b, born.ancestors);
+        std::ranges::sort(born.ancestors);
+        born.ancestors.erase(std::unique(born.ancestors.begin(), born.ancestors.end()), born.ancestors.end());
+        out_.changes.born.push_back(std::move(born));
+    }
+
+    void gather_ancestors(int v, std::vector<Index>& out) const {
+        if (band_.nodes[v].global >= 0) {
+            out.push_back(input_.node_ids[band_.nodes[v].global]);
+            return;
+        }
+        const auto& [a, b] = band_.births[v - band_.original_nodes()];
+        gather_ancestors(a, out);
+        gather_ancestors(b, out);
     }
 
     /// Node family of a band node, also of one that was merged away after others were born on its edges.
@@ -95,6 +117,7 @@ private:
         const auto original = band_.mid_nodes.find(edge_key(a, b));
         if (original == band_.mid_nodes.end()) {
             ++out_.nodes_split;
+            note_born(a, b);
             return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
         }
         if (moved(a) || moved(b)) mesh.points[original->second] = half_way(a, b);
@@ -114,6 +137,7 @@ private:
             if (key == image) return node;
         Mesh& mesh = out_.mesh;
         const Index source = mids.nodes[0].second;
+        out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
         const Index copy = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
         ++out_.nodes_doubled;
         mids.nodes.push_back({image, copy});
@@ -164,6 +188,7 @@ private:
                     out_.after.push_back(cell);
                 }
             } else {
+                out_.changes.parts.push_back({next_cell_, block.ids[cell.cell]});
                 written[s] = mesh.add_cell(cell.type, nodes, next_cell_++, block.families[cell.cell]);
                 out_.after.push_back({cell.type, written[s]});
             }
@@ -181,6 +206,7 @@ private:
         for (const auto& twin : twins) {
             const CellRef& cell = cells[list.origin(twin.slot)];
             const std::vector<Index> nodes = connectivity(cell.type, list[twin.slot], twin.nodes);
+            out_.changes.parts.push_back({next_cell_, out_.mesh.block(cell.type).ids[cell.cell]});
             const Index made = out_.mesh.add_cell(cell.type, nodes, next_cell_++, out_.mesh.block(cell.type).families[cell.cell]);
             written.push_back({cell.type, made});
             out_.after.push_back(written.back());

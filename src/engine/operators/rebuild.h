@@ -6,6 +6,7 @@
 
 #include "operators/interface.h"
 #include "operators/lips.h"
+#include "semantics/changes.h"
 
 namespace femscalpel {
 
@@ -15,6 +16,7 @@ struct Rebuilt {
     std::vector<Index> node;             ///< index in `mesh` of each band node, then of each copy; -1 if unused
     std::vector<CellRef> before;         ///< elements of the input that were changed (indices in the input)
     std::vector<CellRef> after;          ///< what they became, and what was added (indices in `mesh`)
+    Changes changes;                     ///< where new nodes and elements come from, by number
     Index nodes_split = 0;
     Index nodes_doubled = 0;
     Index elements_added = 0;

@@ -132,6 +132,36 @@ private:
     std::vector<int> neighbours_;
 };
 
+/// Nodes born on a curved skin where the curve would have spoiled an element lie on the chord at first. Now
+/// that the band is relaxed, brings them onto their surface or curve; true if any moved.
+bool fit_to_shapes(Deformable& d) {
+    bool any = false;
+    for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
+        if (!d.band.in_use(v) || d.constraints[v].freedom == NodeFreedom::free) continue;
+        Vec3 x = d.band.nodes[v].at;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v)) continue;
+        if (!d.constraints.project(v, d.contact[v], x) || d.passes_barrier(v, x)) continue;
+        if (quality_around(d, v, x) < std::min(0.05, 0.5 * quality_around(d, v, d.band.nodes[v].at))) continue;
+        d.band.nodes[v].at = x;
+        any = true;
+    }
+    return any;
+}
+
+void warn_of_misfits(Interface& f) {
+    int count = 0;
+    double worst = 0;
+    for (int v = f.d.band.original_nodes(); v < f.d.band.size(); ++v) {
+        if (!f.d.band.in_use(v)) continue;
+        const double off = f.d.constraints.distance(f.d.constraints[v], f.d.band.nodes[v].at) / f.d.band.mean_edge_length(v);
+        count += off > 1e-3;
+        worst = std::max(worst, off);
+    }
+    if (count > 0)
+        f.warnings.push_back(std::to_string(count) + " new node(s) lie off the curved skin by up to " + std::to_string(worst) +
+                             " edge lengths: on it, elements would be flat");
+}
+
 }  // namespace
 
 void snap_to_tool(Interface& f, const Tool& tool) {
@@ -148,6 +178,13 @@ void snap_to_tool(Interface& f, const Tool& tool) {
     deform(f.d, f.nodes, f.transition);
     watch.lap("deform");
     improve(f, tool, improvement_goal);
+    for (int round = 0; round < 3 && fit_to_shapes(f.d); ++round) {
+        find_node_sets(f);
+        std::vector<int> movable = f.nodes;
+        movable.insert(movable.end(), f.transition.begin(), f.transition.end());
+        relax(f.d, movable);
+    }
+    warn_of_misfits(f);
     watch.lap("improve");
 }
 

@@ -68,6 +68,8 @@ struct DeckSet {
     std::vector<std::array<Index, 2>> unheld;
     /// How many numbers and names its cards mentioned that the deck did not define.
     Index absent = 0;
+    /// Made by an operator for loads that must not multiply (carry_over.h): new nodes do not join it.
+    bool closed = false;
 };
 
 /// An element that has no place in the mesh: of a user type, or a network element without an end node.
@@ -146,6 +148,8 @@ public:
     bool fits_calculix() const { return fits_; }
     /// Reads the next field, without blanks.
     std::string field();
+    /// What is left of the line, as written.
+    std::string_view rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
     /// The line has a comma as its last character.
     bool ends_with_comma() const;
 

@@ -25,7 +25,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _crack_options(name, method, transition, feature_angle) -> tuple:
+def _crack_options(name, method, transition, feature_angle, strict) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -34,11 +34,13 @@ def _crack_options(name, method, transition, feature_angle) -> tuple:
     feature_angle = _arguments.real(feature_angle, "feature_angle")
     if not 0 < feature_angle < 180:
         raise ValueError(f"feature_angle must be between 0 and 180 degrees, not {feature_angle}")
-    return name, method, transition, feature_angle
+    if not isinstance(strict, bool):
+        raise TypeError(f"strict must be True or False, not {_arguments.describe(strict)}")
+    return name, method, transition, feature_angle, strict
 
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-          feature_angle: float = 30.0) -> Result:
+          feature_angle: float = 30.0, strict: bool = False) -> Result:
     """Cracks a mesh along the whole of a tool.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -63,6 +65,9 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         How many rings of elements around the tool may move; computed when not given.
     feature_angle : float
         Degrees; a skin edge sharper than this is a feature line that keeps its shape.
+    strict : bool
+        For a mesh read from a CalculiX deck: what its cards say is carried over to new nodes and elements, and
+        where that is not possible the report warns with file and line. With strict=True that is an Error.
 
     Returns
     -------
@@ -77,6 +82,8 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         The band around the tool reaches quadrangles, prisms, pyramids or hexahedra.
     QualityError
         No valid mesh can be made this way.
+    Error
+        With strict=True: a card of the deck cannot follow; the message lists all of them.
     TypeError, ValueError
         An argument of the wrong type or out of range, named in the message.
 
@@ -88,7 +95,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      *_crack_options(name, method, transition, feature_angle)))
+                                      *_crack_options(name, method, transition, feature_angle, strict)))
 
 
 class Scalpel:
@@ -110,6 +117,6 @@ class Scalpel:
         return Mesh._wrap(self._session.mesh)
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-              feature_angle: float = 30.0) -> Result:
+              feature_angle: float = 30.0, strict: bool = False) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), *_crack_options(name, method, transition, feature_angle)))
+        return Result._wrap(self._session.crack(check_tool(tool), *_crack_options(name, method, transition, feature_angle, strict)))

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// Where the new nodes and elements of an operator's result come from, by number. What kept its number is
+/// not listed; what was removed or moved shows from the meshes themselves.
+struct Changes {
+    /// A further node at the place of another: the other side of a crack.
+    struct Copy {
+        Index node;
+        Index source;  ///< a node of the input, or one listed in `born`
+    };
+    /// A node made on an edge.
+    struct Born {
+        Index node;
+        std::vector<Index> ancestors;  ///< nodes of the input: the ends of the edge; of edges born themselves, theirs
+    };
+    /// A further part of an element, or a second copy of one.
+    struct Part {
+        Index element;
+        Index parent;  ///< element of the input; may itself have kept its number, or be gone
+    };
+
+    std::vector<Copy> copies;
+    std::vector<Born> born;
+    std::vector<Part> parts;
+
+    bool empty() const { return copies.empty() && born.empty() && parts.empty(); }
+};
+
+}  // namespace femscalpel

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include "error.h"
+#include "mesh/quality.h"
+#include "operators/crack.h"
+#include "tools/plane.h"
+
+namespace femscalpel {
+namespace {
+
+constexpr int cells = 10;
+
+/// The same numbers with every standard library.
+class Random {
+public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+    double operator()(double low, double high) { return low + (high - low) * (engine_() / 4294967296.0); }
+    Vec3 direction() {
+        for (;;) {
+            const Vec3 v((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1));
+            if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+        }
+    }
+
+private:
+    std::mt19937 engine_;
+};
+
+enum class Split { six, five };
+
+/// A cube of 10 x 10 x 10 cells of side 1, each split in tetrahedra, inner nodes displaced at random.
+Mesh cube(Split split, double jitter) {
+    Mesh mesh;
+    Random random(7);
+    Index id = 0;
+    for (int i = 0; i <= cells; ++i)
+        for (int j = 0; j <= cells; ++j)
+            for (int k = 0; k <= cells; ++k) {
+                Vec3 x(i, j, k);
+                for (int c = 0; c < 3; ++c)
+                    if (x[c] > 0 && x[c] < cells) x[c] += random(-jitter, jitter);
+                mesh.add_node(x, ++id);
+            }
+    const auto node = [](int i, int j, int k) { return static_cast<Index>((i * (cells + 1) + j) * (cells + 1) + k); };
+    constexpr int six[6][4] = {{0, 4, 6, 7}, {0, 4, 5, 7}, {0, 2, 6, 7}, {0, 2, 3, 7}, {0, 1, 5, 7}, {0, 1, 3, 7}};
+    constexpr int five[2][5][4] = {{{0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}, {1, 2, 4, 7}},
+                                   {{1, 0, 3, 5}, {2, 0, 3, 6}, {4, 0, 5, 6}, {7, 3, 5, 6}, {0, 3, 5, 6}}};
+    id = 0;
+    for (int i = 0; i < cells; ++i)
+        for (int j = 0; j < cells; ++j)
+            for (int k = 0; k < cells; ++k)
+                for (int t = 0; t < (split == Split::six ? 6 : 5); ++t) {
+                    const int* corners = split == Split::six ? six[t] : five[(i + j + k) % 2][t];
+                    std::array<Index, 4> v;
+                    for (int c = 0; c < 4; ++c) v[c] = node(i + (corners[c] >> 2), j + (corners[c] >> 1 & 1), k + (corners[c] & 1));
+                    const auto& p = mesh.points;
+                    if ((p[v[1]] - p[v[0]]).cross(p[v[2]] - p[v[0]]).dot(p[v[3]] - p[v[0]]) < 0) std::swap(v[2], v[3]);
+                    mesh.add_cell(CellType::tetra, v, ++id);
+                }
+    return mesh;
+}
+
+/// A square plate of 10 x 10 cells of side 1 in the plane z = 0.
+Mesh plate(double jitter) {
+    Mesh mesh;
+    Random random(7);
+    Index id = 0;
+    for (int i = 0; i <= cells; ++i)
+        for (int j = 0; j <= cells; ++j) {
+            Vec3 x(i, j, 0);
+            for (int c = 0; c < 2; ++c)
+                if (x[c] > 0 && x[c] < cells) x[c] += random(-jitter, jitter);
+            mesh.add_node(x, ++id);
+        }
+    const auto node = [](int i, int j) { return static_cast<Index>(i * (cells + 1) + j); };
+    id = 0;
+    for (int i = 0; i < cells; ++i)
+        for (int j = 0; j < cells; ++j) {
+            mesh.add_cell(CellType::triangle, std::array<Index, 3>{node(i, j), node(i + 1, j), node(i + 1, j + 1)}, ++id);
+            mesh.add_cell(CellType::triangle, std::array<Index, 3>{node(i, j), node(i + 1, j + 1), node(i, j + 1)}, ++id);
+        }
+    return mesh;
+}
+
+double measure(const Mesh& mesh, CellType type) {
+    double sum = 0;
+    for (Index c = 0; c < mesh.block(type).size(); ++c) sum += cell_measure(mesh, type, c);
+    return sum;
+}
+
+/// Area (length, for shells) of the part of a cube (plate) of side 10 in a plane, from the other method.
+double section(const Mesh& mesh, const Plane& plane) {
+    const Result r = crack(mesh, plane);
+    return std::ranges::find(r.report.groups, "CRACK_P", &GroupRecord::name)->measure_after;
+}
+
+struct Tally {
+    int tried = 0;
+    int done = 0;
+    Index added = 0;
+    double worst = 1;
+    double rate() const { return static_cast<double>(done) / tried; }
+};
+
+/// Cracks the mesh; whatever comes out has to be right.
+void attempt(const Mesh& mesh, const Plane& plane, Tally& tally) {
+    CrackOptions options;
+    options.method = Method::deform;
+    ++tally.tried;
+    std::optional<Result> result;
+    try {
+        result = crack(mesh, plane, options);
+    } catch (const QualityError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("snap"));
+        return;
+    }
+    ++tally.done;
+    tally.added += result->report.nodes_split;
+    const Mesh& m = result->mesh;
+    m.validate();
+    const CellType type = mesh.block(CellType::tetra).size() > 0 ? CellType::tetra : CellType::triangle;
+    double worst = 1;
+    for (const double q : mean_ratios(m, type)) worst = std::min(worst, q);
+    EXPECT_GT(worst, 0.01);
+    tally.worst = std::min(tally.worst, worst);
+    EXPECT_NEAR(measure(m, type), measure(mesh, type), 1e-9 * measure(mesh, type));
+    // The whole section is opened, on both sides alike.
+    const auto lip = [&](const char* name) { return *std::ranges::find(result->report.groups, name, &GroupRecord::name); };
+    EXPECT_EQ(lip("CRACK_P").count_after, lip("CRACK_N").count_after);
+    const double area = section(mesh, plane);
+    EXPECT_NEAR(lip("CRACK_P").measure_after, area, 1e-9 * area);
+    // No element is crossed.
+    const CellBlock& block = m.block(type);
+    for (Index c = 0; c < block.size(); ++c) {
+        double low = 0, high = 0;
+        for (const Index n : block.nodes(c)) {
+            low = std::min(low, plane.distance(m.points[n]));
+            high = std::max(high, plane.distance(m.points[n]));
+        }
+        EXPECT_FALSE(low < -1e-8 && high > 1e-8) << "element " << block.ids[c];
+    }
+}
+
+void print(const char* what, const Tally& t) {
+    std::cout << what << ": " << t.done << " of " << t.tried << " planes, worst mean ratio " << t.worst << ", "
+              << (t.done > 0 ? static_cast<double>(t.added) / t.done : 0) << " nodes added on average\n";
+}
+
+class DeformCube : public testing::TestWithParam<std::pair<Split, double>> {};
+
+TEST_P(DeformCube, AxisAlignedPlanes) {
+    const Mesh mesh = cube(GetParam().first, GetParam().second);
+    Random random(1);
+    Tally tally;
+    for (int i = 0; i < 15; ++i) attempt(mesh, Plane(Vec3::Constant(random(1.2, 8.8)), Vec3::Unit(i % 3)), tally);
+    print("axis-aligned", tally);
+    EXPECT_GE(tally.rate(), 0.9);
+}
+
+TEST_P(DeformCube, ObliquePlanes) {
+    const Mesh mesh = cube(GetParam().first, GetParam().second);
+    Random random(2);
+    Tally tally;
+    for (int i = 0; i < 15; ++i) {
+        const Vec3 axis = Vec3::Unit(i % 3), side = axis.cross(random.direction()).normalized();
+        const double angle = random(0, std::numbers::pi / 6);
+        attempt(mesh, Plane(Vec3(random(4, 6), random(4, 6), random(4, 6)), std::cos(angle) * axis + std::sin(angle) * side), tally);
+    }
+    print("oblique", tally);
+    EXPECT_GE(tally.rate(), 0.8);
+}
+
+TEST_P(DeformCube, RandomPlanes) {
+    const Mesh mesh = cube(GetParam().first, GetParam().second);
+    Random random(3);
+    Tally tally;
+    for (int i = 0; i < 15; ++i) attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), random(2, 8)), random.direction()), tally);
+    print("random", tally);
+    EXPECT_GE(tally.rate(), 0.6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cubes, DeformCube,
+                         testing::Values(std::pair(Split::six, 0.0), std::pair(Split::six, 0.15), std::pair(Split::five, 0.15)));
+
+/// A tip smaller than an element must not silently stay uncut.
+TEST(Deform, CornerTip) {
+    const Mesh mesh = cube(Split::five, 0.15);
+    Tally tally;
+    for (const double depth : {0.1, 0.3, 0.5, 0.8, 1.2, 1.7, 2.4})
+        attempt(mesh, Plane(Vec3(depth, 0, 0), Vec3(1, 1, 1)), tally);
+    print("corner tip", tally);
+}
+
+TEST(Deform, ThinSlice) {
+    const Mesh mesh = cube(Split::six, 0.15);
+    Tally tally;
+    for (const double depth : {0.05, 0.2, 0.5, 0.8}) attempt(mesh, Plane(Vec3(depth, 0, 0), Vec3(1, 0, 0)), tally);
+    print("thin slice", tally);
+}
+
+TEST(Deform, Plate) {
+    const Mesh mesh = plate(0.2);
+    Random random(4);
+    Tally tally;
+    for (int i = 0; i < 30; ++i) {
+        const double angle = random(0, 2 * std::numbers::pi);
+        attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), 0), Vec3(std::cos(angle), std::sin(angle), random(-0.5, 0.5))), tally);
+    }
+    print("plate", tally);
+    EXPECT_GE(tally.rate(), 0.8);
+}
+
+}  // namespace
+}  // namespace femscalpel
