@@ -304,7 +304,7 @@ std::map<std::string, double> border_lengths(const Mesh& mesh, const std::functi
         for (const std::string& m : meeting) key += "[" + m + "]";
         const Vec3 &a = mesh.points[first->key[0]], &b = mesh.points[first->key[1]];
         if (!inside) lengths[key] += (a - b).norm();
-        if (segments) segments->push_back({{a, b}, (a + b) / 2, plates, {}, key});
+        if (segments) segments->push_back({{a, b}, (a + b) / 2, plates, {}, key, 0});
     });
     return lengths;
 }
@@ -399,6 +399,7 @@ public:
             return bad_.lines();
         }
         index();
+        faces_ = tetra_faces(out_);
         if (!numbers_and_nodes()) return bad_.lines();
         far_elements();
         shapes();
@@ -518,6 +519,13 @@ private:
         std::unordered_map<Index, CellRef> cells;
     };
 
+    /// Whether a triangle of a mesh with solids stands on its own.
+    bool is_shell(std::span<const Index> n) const {
+        if (!model_.mixed || n.size() == 4 || n.size() == 10) return false;
+        const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {}, [](const TetraFace& f) { return f.key; });
+        return host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]});
+    }
+
     void shapes() {
         std::map<Key2, Index> mids;
         const auto look = [&](CellType type, Index c, std::span<const Index> n) {
@@ -525,7 +533,7 @@ private:
             const Index number = out_.block(type).ids[c];
             const double q = is_tetra(type) ? tetra_shape(at(0), at(1), at(2), at(3)) : triangle_shape(at(0), at(1), at(2));
             const int corners = corners_of(type);
-            if (is_tetra(type) == model_.solid) {
+            if (is_tetra(type) == model_.solid || is_shell(n)) {
                 if (!(q > 0)) bad_.add("inverted", "element ", number, ", mean ratio ", q);
                 else if (q < degenerate) bad_.add("degenerate", "element ", number, ", mean ratio ", q);
                 if (std::any_of(n.begin(), n.begin() + corners, [&](Index k) { return in_sets_.contains(id(k)) || on_plane(k); })) {
@@ -594,7 +602,6 @@ private:
     }
 
     void solid_conformity() {
-        faces_ = tetra_faces(out_);
         const std::vector<std::string> names = family_names(out_, made_);
         AreaByPlane skin;
         if (model_.flat) skin = planes_of(model_.skin).emptied();
@@ -718,9 +725,10 @@ private:
     void attached() {
         if (model_.solid) {
             std::map<Key3, int> seen;
+            const std::vector<std::string> names = family_names(out_, made_);
             for_each_cell(out_, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
                 const Index number = out_.block(type).ids[c];
-                if (model_.loose_cells.contains(number)) return;
+                if (model_.mixed && model_.loose_kinds.contains(names[out_.block(type).families[c]])) return;
                 const Key3 key = ascending(Key3{n[0], n[1], n[2]});
                 const auto host = std::ranges::lower_bound(faces_, key, {}, [](const TetraFace& f) { return f.key; });
                 if (host == faces_.end() || host->key != key) {
@@ -754,11 +762,13 @@ private:
         // Only elements around the lines' nodes matter; the set look-up is what costs.
         std::vector<char> ends(out_.points.size(), 0);
         for (const Key2& l : lines) ends[l[0]] = ends[l[1]] = 1;
-        for_each_cell(out_, model_.solid ? is_tetra : is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
+        const auto look = [&](CellType type, Index c, std::span<const Index> n) {
             int count = 0;
             for (int k = 0; k < corners_of(type); ++k) count += ends[n[k]];
             if (count >= 2) collect(type, c, n);
-        });
+        };
+        if (model_.solid) for_each_cell(out_, is_tetra, look);
+        if (!model_.solid || model_.mixed) for_each_cell(out_, is_triangle, look);
         for (std::size_t k = 0; k < lines.size(); ++k)
             if (!edges.contains(lines[k])) bad_.add("attached", "segment ", numbers[k], " is on no element's edge");
     }
@@ -807,7 +817,7 @@ private:
         for (int side = 0; side < 2; ++side)
             for (const CellRef& c : side ? positive : negative) {
                 const auto n = out_.block(c.type).nodes(c.cell);
-                const bool wanted = model_.solid ? is_triangle(c.type) : is_line(c.type);
+                const bool wanted = (model_.solid && is_triangle(c.type)) || ((!model_.solid || model_.mixed) && is_line(c.type));
                 const Index number = out_.block(c.type).ids[c.cell];
                 if (!wanted) bad_.add("lips", "element ", number, " is of the wrong type");
                 std::vector<Place> key;
@@ -818,7 +828,7 @@ private:
                 }
                 std::ranges::sort(key);
                 faces[key] += side ? 1 : -1;
-                if (!model_.solid) continue;
+                if (!is_triangle(c.type)) continue;
                 const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {}, [](const TetraFace& f) { return f.key; });
                 if (host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]})) continue;  // found by attached()
                 if ((host + 1) != faces_.end() && (host + 1)->key == host->key) bad_.add("lips", "element ", number, " is not on the outside");
@@ -876,7 +886,7 @@ private:
             for (const CellRef& c : lip(suffix)) {
                 const auto n = out_.block(c.type).nodes(c.cell);
                 if (is_triangle(c.type)) measure += flat_area({out_.points[n[0]], out_.points[n[1]], out_.points[n[2]]});
-                else if (is_line(c.type)) measure += (out_.points[n[1]] - out_.points[n[0]]).norm();
+                else if (is_line(c.type) && !model_.solid) measure += (out_.points[n[1]] - out_.points[n[0]]).norm();
             }
             const double allowed = rounding * std::max(wanted, model_.solid ? 1e-3 * model_.size * model_.size : 1e-3 * model_.size);
             if (std::abs(measure - wanted) > allowed + model_.section_slack(plane_))
@@ -971,7 +981,7 @@ private:
         Index moved = 0;
         double farthest = 0;
         for (std::size_t n = 0; n < out_.points.size(); ++n)
-            if (is_input_node(static_cast<Index>(n)) && !same_place(static_cast<Index>(n)) && !mid_nodes().contains(static_cast<Index>(n))) {
+            if (is_input_node(static_cast<Index>(n)) && !same_place(static_cast<Index>(n))) {
                 ++moved;
                 farthest = std::max(farthest, (out_.points[n] - in_.points[model_.node_index.at(out_.node_ids[n])]).norm());
             }
@@ -1147,8 +1157,7 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         for (const Index i : b.ids) largest_cell = std::max(largest_cell, i);
 
     std::set<Key3> host_faces;
-    std::set<Key2> host_edges;
-    const std::vector<std::string> names = family_names(mesh);
+        const std::vector<std::string> names = family_names(mesh);
     if (solid) {
         const std::vector<TetraFace> faces = tetra_faces(mesh);
         runs(faces, [&](auto first, auto last) {
@@ -1159,13 +1168,16 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         });
     }
     for_each_cell(mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
-        if (solid && !host_faces.contains(ascending(Key3{n[0], n[1], n[2]}))) loose_cells.insert(mesh.block(type).ids[c]);
+        if (solid && !host_faces.contains(ascending(Key3{n[0], n[1], n[2]}))) {
+            mixed = true;
+            loose_kinds.insert(names[mesh.block(type).families[c]]);
+        }
         if (!solid) skin.push_back(make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
     });
     std::set<Key2> neighbours;
-    for (const Edge& e : edges_of(mesh, solid ? is_tetra : is_triangle)) neighbours.insert(e.key);
+    for (const Edge& e : edges_of(mesh, [](CellType t) { return is_tetra(t) || is_triangle(t); })) neighbours.insert(e.key);
     const auto segment = [&](std::span<const Index> n) {
-        Segment s{{mesh.points[n[0]], mesh.points[n[1]]}, (mesh.points[n[0]] + mesh.points[n[1]]) / 2, {}, {}, {}};
+        Segment s{{mesh.points[n[0]], mesh.points[n[1]]}, (mesh.points[n[0]] + mesh.points[n[1]]) / 2, {}, {}, {}, 0};
         if (n.size() == 3) s.mid = mesh.points[n[2]];
         return s;
     };
@@ -1193,7 +1205,7 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         for (const auto& [key, normals] : meeting) {
             bool feature = normals.size() != 2;
             for (const Vec3& n : normals) feature = feature || n.dot(normals[0]) < std::cos(std::numbers::pi / 6);
-            if (feature) lines.push_back({{mesh.points[key[0]], mesh.points[key[1]]}, (mesh.points[key[0]] + mesh.points[key[1]]) / 2, normals, inward.at(key)});
+            if (feature) lines.push_back({{mesh.points[key[0]], mesh.points[key[1]]}, (mesh.points[key[0]] + mesh.points[key[1]]) / 2, normals, inward.at(key), {}, 0});
         }
     }
 

@@ -106,7 +106,9 @@ public:
     std::vector<int> group_twin;     ///< node group: element group of the same name with just these nodes, or -1
     std::vector<char> group_planar;  ///< by group: all nodes in one plane, or a group of volumes
     std::vector<Index> isolated_nodes;  ///< indices of members of a node group that have no neighbour in it
-    std::set<Index> loose_cells;     ///< numbers of triangles and lines that are on no other element's face or edge
+    bool mixed = false;              ///< a solid mesh with shells of their own
+    std::set<std::string> loose_kinds;  ///< the groups such shells are in, as one text
+    std::set<Index> loose_cells;     ///< numbers of line elements that are on no other element's edge
     std::map<Index, Index> node_index;  ///< index of each node number
     Index largest_node = 0, largest_cell = 0;
 

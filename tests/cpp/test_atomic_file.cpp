@@ -26,7 +26,9 @@ std::string content(const fs::path& path) {
 class AtomicFileTest : public testing::Test {
 protected:
     void SetUp() override {
-        directory_ = fs::path(testing::TempDir()) / "femscalpel_atomic_file";
+        // One directory per test: CTest runs them at the same time.
+        directory_ = fs::path(testing::TempDir()) /
+                     (std::string("femscalpel_") + testing::UnitTest::GetInstance()->current_test_info()->name());
         fs::remove_all(directory_);
         fs::create_directories(directory_);
     }

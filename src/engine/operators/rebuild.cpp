@@ -216,6 +216,13 @@ private:
     void write_lips(const std::string& positive, const std::string& negative) {
         Mesh& mesh = out_.mesh;
         const GroupIndex group[2] = {mesh.add_group(negative, GroupKind::element), mesh.add_group(positive, GroupKind::element)};
+        // An element of the input that joins a lip is a changed element, though its nodes may be the same.
+        const auto list_as_changed = [&](const CellRef& cell) {
+            if (std::ranges::find(out_.before, cell) != out_.before.end()) return;
+            if (cell.cell >= input_.block(cell.type).size()) return;
+            out_.before.push_back(cell);
+            out_.after.push_back(cell);
+        };
         const auto join = [&](CellType type, Index cell, bool side) {
             FamilyIndex& family = mesh.block(type).families[cell];
             family = mesh.families.with(family, group[side]);
@@ -230,6 +237,7 @@ private:
                     const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, mesh.families.with(0, group[lip.positive]));
                     out_.after.push_back({type, made});
                 } else if (lip.element >= 0) {
+                    list_as_changed({cells(lip.element).type, written[lip.element]});
                     join(cells(lip.element).type, written[lip.element], lip.positive);
                 } else {
                     const CellRef& twin = twins[-1 - lip.element];

@@ -141,7 +141,7 @@ bool fit_to_shapes(Deformable& d) {
         Vec3 x = d.band.nodes[v].at;
         if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v)) continue;
         if (!d.constraints.project(v, d.contact[v], x) || d.passes_barrier(v, x)) continue;
-        if (quality_around(d, v, x) < std::min(0.05, 0.5 * quality_around(d, v, d.band.nodes[v].at))) continue;
+        if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
         any = true;
     }
