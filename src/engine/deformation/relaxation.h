@@ -27,9 +27,10 @@ struct Deformable {
     /// there are nearly as good as those split at `at`; else `at` itself.
     Vec3 fitted_split(int a, int b, const Vec3& at, const Tool* tool) const;
 
-    /// Whether a node may be at `x` as far as the barrier goes.
-    bool passes_barrier(int node, const Vec3& x) const {
-        return barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0;
+    /// Whether a node must not be at `x`: behind the barrier, or so far along a bent line that the line would lose its shape.
+    bool is_barred(int node, const Vec3& x) const {
+        return (barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0) ||
+               (x - band.nodes[node].start).norm() > constraints.leash(node);
     }
 };
 
