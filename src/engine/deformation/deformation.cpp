@@ -2,6 +2,7 @@
 #include "deformation/deformation.h"
 
 #include "deformation/bar_network.h"
+#include "deformation/curved_shape.h"
 
 namespace femscalpel {
 
@@ -18,7 +19,7 @@ void deform(Deformable& d, const std::vector<int>& interface, const std::vector<
         // Node by node the displacement is only right once all have moved, so a loss is tolerated while
         // elements stay sound.
         const double before = quality_around(d, v, d.band.nodes[v].at);
-        if (before < 0.5 && quality_around(d, v, x) > before) d.band.nodes[v].at = x;
+        if (before < 0.5 && quality_around(d, v, x) > before && keeps_curved_shape(d, v, x)) d.band.nodes[v].at = x;
     }
     std::vector<int> movable = interface;
     movable.insert(movable.end(), transition.begin(), transition.end());

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "deformation/curved_shape.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
@@ -43,9 +44,10 @@ public:
                     }
                 }
             // An earlier split of this round may have taken the edge.
-            if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
+            if (a < 0 || d_.pinned[a] == Pin::stays || d_.pinned[b] == Pin::stays || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
             const Contact tools = d_.edge_contact(a, b);
-            const Vec3 at = d_.fitted_split(a, b, (band_.nodes[a].at + band_.nodes[b].at) / 2, tools);
+            const auto [at, fits, worst] = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
+            if (!fits || curved_children(d_, a, b, at, tools) < curved_limit) continue;
             d_.split_edge(a, b, at, tools);
             f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
             any = true;
@@ -151,9 +153,9 @@ private:
         double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;
         int target = -1;
         for (const int t : candidates_) {
-            if (!may_merge(p, t)) continue;
+            if (!may_merge(p, t) || d_.pinned[t] == Pin::stays) continue;
             const double q = quality_merged(p, t);
-            if (q > best && link_is_sound(p, t)) {
+            if (q > best && link_is_sound(p, t) && curved_merged(d_, p, t) >= curved_limit) {
                 best = q;
                 target = t;
             }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <sstream>
 
+#include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "mesh/quality.h"
 #include "operators/improve.h"
 #include "operators/interface.h"
+#include "operators/mend_curved.h"
 #include "operators/stopwatch.h"
 
 namespace femscalpel {
@@ -19,6 +22,13 @@ constexpr double improvement_goal = 0.45;
 /// A node on a corner or a crease may be off the tool by this many edge lengths and still be put on it:
 /// far below what a measure of a group would notice.
 constexpr double forced_reach = 1e-7;
+
+/// A new node may be this many edge lengths off the curved surface or curve it was born on.
+constexpr double largest_misfit = 5e-4;
+/// Second-order elements with a smaller curved_ratio() are as good as folded.
+constexpr double least_curved = 0.02;
+/// How often cutting a curved mesh is tried, each time with more nodes left alone.
+constexpr int attempts = 8;
 
 class Snapper {
 public:
@@ -85,7 +95,21 @@ private:
         return opposite(band_.tetras) || opposite(band_.triangles);
     }
 
+    /// Whether, with v on the tool, a face of a curved skin (a segment of a curved line) would lie on it with all its
+    /// nodes: the tool nearly touches the skin there, and curved elements have no room between the two.
+    bool would_lie_flat(int v) const {
+        if (!d_.mids.any()) return false;
+        const auto rest_lies = [&](const auto& nodes) {
+            return std::ranges::all_of(nodes, [&](int w) { return w == v || d_.contact[w]; });
+        };
+        return std::ranges::any_of(band_.skin.around(v), [&](int s) { return !d_.constraints.is_flat(band_.skin.tag(s)) && rest_lies(band_.skin[s]); }) ||
+               std::ranges::any_of(band_.creases.around(v), [&](int s) {
+                   return !d_.constraints.is_straight(d_.constraints.on_edge(band_, band_.creases[s][0], band_.creases[s][1])) && rest_lies(band_.creases[s]);
+               });
+    }
+
     void snap(int v, double length, double ratio) {
+        if (d_.pinned[v] != Pin::none || would_lie_flat(v)) return;
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
         if (!d_.constraints.project(v, &tool_, target)) {
@@ -95,21 +119,21 @@ private:
         if ((target - node.at).norm() > std::min(snap_slide * length, d_.constraints.leash(v))) return;
         const double before = quality_around(d_, v, node.at);
         const double after = quality_around(d_, v, target);
-        if (!(after >= std::min(0.1, before / 4)) || !(after > 0)) return;
+        if (!(after >= std::min(0.1, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return;
         node.at = target;
         d_.contact[v] = &tool_;
         f_.distance[v] = 0;
     }
 
-    /// The point of the edge a-b on the tool, moved along the tool onto the surface or curve the edge is on.
+    /// The point of the edge a-b on the tool, and on the surface or curve the edge is on.
     Vec3 crossing(int a, int b) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
         double ta = 0, tb = 1, da = f_.distance[a], db = f_.distance[b];
         Vec3 at = pa;
-        // Regula falsi, Illinois variant; exact in one step for a plane.
+        // Regula falsi, Illinois variant; exact in one step for a plane and a straight edge.
         for (int i = 0; i < 60; ++i) {
             const double t = ta + (tb - ta) * da / (da - db);
-            at = pa + t * (pb - pa);
+            at = d_.along_edge(a, b, t);
             const double dt = tool_.distance(at);
             if (std::abs(dt) <= 1e-3 * f_.tolerance) break;
             if ((dt < 0) == (da < 0)) {
@@ -122,7 +146,11 @@ private:
                 da /= 2;
             }
         }
-        return d_.fitted_split(a, b, at, &tool_);
+        const Deformable::SplitPoint bent = d_.fitted_split(a, b, at, &tool_);
+        if (bent.fits && bent.worst > 0) return bent.at;
+        // On the chord elements stay sound; the surface has to wait.
+        const double t = f_.distance[a] / (f_.distance[a] - f_.distance[b]);
+        return tool_.project(pa + t * (pb - pa));
     }
 
     Interface& f_;
@@ -148,23 +176,34 @@ bool fit_to_shapes(Deformable& d) {
     return any;
 }
 
-void warn_of_misfits(Interface& f) {
-    int count = 0;
-    double worst = 0;
-    for (int v = f.d.band.original_nodes(); v < f.d.band.size(); ++v) {
-        if (!f.d.band.in_use(v)) continue;
-        const double off = f.d.constraints.distance(f.d.constraints[v], f.d.band.nodes[v].at) / f.d.band.mean_edge_length(v);
-        count += off > 1e-3;
-        worst = std::max(worst, off);
-    }
-    if (count > 0)
-        f.warnings.push_back(std::to_string(count) + " new node(s) lie off the curved skin by up to " + std::to_string(worst) +
-                             " edge lengths: on it, elements would be flat");
+/// Nodes that have to be left alone for all new nodes to lie on the curved skin they were born on, and for all second-order
+/// elements to be sound: corners of elements that are not, and the ends of the edges these were born on.
+std::vector<int> misfits(const Interface& f) {
+    const BandMesh& band = f.d.band;
+    std::vector<int> found;
+    for (int v = band.original_nodes(); v < band.size(); ++v)
+        if (band.in_use(v) && f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) > largest_misfit * band.mean_edge_length(v))
+            found.push_back(v);
+    for (const int t : folded_elements(f, least_curved)) found.insert(found.end(), band.tetras[t].begin(), band.tetras[t].end());
+    for (std::size_t k = 0; k < found.size(); ++k)
+        if (band.is_new(found[k])) {
+            const BandMesh::Birth birth = band.births[found[k] - band.original_nodes()];
+            found.insert(found.end(), {birth.a, birth.b});
+        }
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::erase_if(found, [&](int v) { return band.is_new(v); });
+    return found;
 }
 
-}  // namespace
+std::string describe_misfits(const Interface& f, const std::vector<int>& nodes, const Tool& tool) {
+    std::ostringstream text;
+    text << "no sound elements were found on the curved skin near (" << f.d.band.nodes[nodes[0]].start.transpose() << "): the mesh is too coarse for the way the "
+         << tool.kind() << " meets the skin there. Move the " << tool.kind() << " a little, or refine the mesh";
+    return text.str();
+}
 
-void snap_to_tool(Interface& f, const Tool& tool) {
+void snap_once(Interface& f, const Tool& tool) {
     Stopwatch watch(f.seconds);
     Snapper snapper(f, tool);
     snapper.snap_nodes();
@@ -184,8 +223,35 @@ void snap_to_tool(Interface& f, const Tool& tool) {
         movable.insert(movable.end(), f.transition.begin(), f.transition.end());
         relax(f.d, movable);
     }
-    warn_of_misfits(f);
+    mend_curved(f, tool);
     watch.lap("improve");
+}
+
+}  // namespace
+
+void snap_to_tool(Interface& f, const Tool& tool) {
+    if (!f.d.mids.any() && !f.d.constraints.any_curved()) return snap_once(f, tool);
+    Interface start = f;
+    for (int attempt = 1;; ++attempt) {
+        snap_once(f, tool);
+        std::vector<int> bad = misfits(f);
+        if (bad.empty()) return;
+        if (attempt == attempts) throw QualityError(describe_misfits(f, bad, tool));
+        // First they may slide but not be put on the tool, then they stay, then those around them stay, too.
+        const auto stays = [&](int v) { return start.d.pinned[v] == Pin::stays; };
+        if (std::ranges::all_of(bad, stays)) {
+            std::vector<int> ring, neighbours;
+            for (const int v : bad) {
+                start.d.band.neighbours(v, neighbours);
+                ring.insert(ring.end(), neighbours.begin(), neighbours.end());
+            }
+            for (const int v : ring) start.d.pinned[v] = Pin::stays;
+        }
+        for (const int v : bad) start.d.pinned[v] = start.d.pinned[v] == Pin::none ? Pin::off_tool : Pin::stays;
+        const auto seconds = f.seconds;
+        f = start;
+        f.seconds = seconds;
+    }
 }
 
 }  // namespace femscalpel
