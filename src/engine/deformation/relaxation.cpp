@@ -135,7 +135,7 @@ private:
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
     : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh), contact(static_cast<std::size_t>(band.size())),
-      side(static_cast<std::size_t>(band.size()), 0), pinned(static_cast<std::size_t>(band.size()), Pin::none) {
+      side(static_cast<std::size_t>(band.size()), 0), off_tool(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -150,7 +150,7 @@ int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
     contact.push_back(tools);
     const double distance = barrier && !tools.has(barrier) ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
-    pinned.push_back(Pin::none);
+    off_tool.push_back(0);
     constraints.add_node(band, node);
     return node;
 }

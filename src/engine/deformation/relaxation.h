@@ -10,13 +10,6 @@
 
 namespace femscalpel {
 
-/// What keeps a node from being used, beside its constraints.
-enum class Pin : std::uint8_t {
-    none,
-    off_tool,  ///< it may slide, but is not put on a tool
-    stays,     ///< it does not move
-};
-
 /// The state an operator deforms: a band, what its nodes have to stay on, and which tools each node lies on.
 struct Deformable {
     BandMesh band;
@@ -26,7 +19,7 @@ struct Deformable {
     std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
     const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0
     std::vector<signed char> side;     ///< by node: sign of its distance to `barrier`
-    std::vector<Pin> pinned;           ///< by node
+    std::vector<char> off_tool;        ///< by node: it may slide, but is not to be put on a tool
 
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
 
@@ -52,9 +45,9 @@ struct Deformable {
     /// of the faces that stand for that tool.
     Contact edge_contact(int a, int b) const;
 
-    /// Whether a node must not move to `x`: it is pinned, or `x` is behind the barrier, or so far along a bent line that the line would lose its shape.
+    /// Whether a node must not be at `x`: behind the barrier, or so far along a bent line that the line would lose its shape.
     bool is_barred(int node, const Vec3& x) const {
-        return pinned[node] == Pin::stays || (barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0) ||
+        return (barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0) ||
                (x - band.nodes[node].start).norm() > constraints.leash(node);
     }
 };

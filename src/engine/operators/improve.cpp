@@ -44,7 +44,7 @@ public:
                     }
                 }
             // An earlier split of this round may have taken the edge.
-            if (a < 0 || d_.pinned[a] == Pin::stays || d_.pinned[b] == Pin::stays || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
+            if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
             const Contact tools = d_.edge_contact(a, b);
             const auto [at, fits, worst] = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
             if (!fits || curved_children(d_, a, b, at, tools) < curved_limit) continue;
@@ -153,7 +153,7 @@ private:
         double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;
         int target = -1;
         for (const int t : candidates_) {
-            if (!may_merge(p, t) || d_.pinned[t] == Pin::stays) continue;
+            if (!may_merge(p, t)) continue;
             const double q = quality_merged(p, t);
             if (q > best && link_is_sound(p, t) && curved_merged(d_, p, t) >= curved_limit) {
                 best = q;

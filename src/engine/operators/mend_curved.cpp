@@ -68,7 +68,7 @@ private:
     void move_nodes(int t) {
         const auto nodes = band_.tetras[t];
         for (const int v : nodes) {
-            if (!band_.nodes[v].movable() || d_.pinned[v] == Pin::stays) continue;
+            if (!band_.nodes[v].movable()) continue;
             double best = merit(v, band_.nodes[v].at);
             if (best >= 1) continue;
             const double length = band_.mean_edge_length(v);

@@ -109,7 +109,7 @@ private:
     }
 
     void snap(int v, double length, double ratio) {
-        if (d_.pinned[v] != Pin::none || would_lie_flat(v)) return;
+        if (d_.off_tool[v] || would_lie_flat(v)) return;
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
         if (!d_.constraints.project(v, &tool_, target)) {
@@ -176,31 +176,50 @@ bool fit_to_shapes(Deformable& d) {
     return any;
 }
 
-/// Nodes that have to be left alone for all new nodes to lie on the curved skin they were born on, and for all second-order
-/// elements to be sound: corners of elements that are not, and the ends of the edges these were born on.
+/// Elements of the input (slots) in which new nodes are off the curved skin they were born on, or parts came out as folded
+/// second-order elements.
 std::vector<int> misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     std::vector<int> found;
+    const auto note = [&](int t) { found.push_back(band.tetras.origin(t)); };
+    std::ranges::for_each(folded_elements(f, least_curved), note);
     for (int v = band.original_nodes(); v < band.size(); ++v)
         if (band.in_use(v) && f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) > largest_misfit * band.mean_edge_length(v))
-            found.push_back(v);
-    for (const int t : folded_elements(f, least_curved)) found.insert(found.end(), band.tetras[t].begin(), band.tetras[t].end());
-    for (std::size_t k = 0; k < found.size(); ++k)
-        if (band.is_new(found[k])) {
-            const BandMesh::Birth birth = band.births[found[k] - band.original_nodes()];
-            found.insert(found.end(), {birth.a, birth.b});
-        }
+            std::ranges::for_each(band.tetras.around(v), note);
     std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    std::erase_if(found, [&](int v) { return band.is_new(v); });
     return found;
 }
 
-std::string describe_misfits(const Interface& f, const std::vector<int>& nodes, const Tool& tool) {
+/// Bisects the edges of some elements (slots of the input), longest first. Halves bulge a quarter as far, so that a tool
+/// finds room between a curved skin and its chords where it found none.
+void refine(Interface& f, const std::vector<int>& origins, const Tool& tool) {
+    BandMesh& band = f.d.band;
+    std::vector<std::tuple<double, int, int>> edges;
+    for (int t = 0; t < band.tetras.size(); ++t) {
+        if (!band.tetras.alive(t) || !std::ranges::binary_search(origins, band.tetras.origin(t))) continue;
+        for (const int a : band.tetras[t])
+            for (const int b : band.tetras[t])
+                if (a < b && (band.nodes[a].movable() || band.nodes[b].movable())) edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
+    }
+    std::ranges::sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const auto& [length, a, b] : edges) {
+        // With both ends on the tool the halves would have to be, too.
+        if (f.d.contact[a].common(f.d.contact[b])) continue;
+        const Vec3 at = f.d.along_edge(a, b, 0.5);
+        f.d.split_edge(a, b, at, {});
+        f.distance.push_back(tool.distance(at));
+    }
+}
+
+[[noreturn]] void fail_at(const Interface& f, int slot, const Tool& tool) {
+    Vec3 middle = Vec3::Zero();
+    for (const int v : f.d.band.tetras[slot]) middle += f.d.band.nodes[v].start / 4;
     std::ostringstream text;
-    text << "no sound elements were found on the curved skin near (" << f.d.band.nodes[nodes[0]].start.transpose() << "): the mesh is too coarse for the way the "
-         << tool.kind() << " meets the skin there. Move the " << tool.kind() << " a little, or refine the mesh";
-    return text.str();
+    text << "no sound elements were found on the curved skin near (" << middle.transpose() << "): the mesh is too coarse for the way the " << tool.kind()
+         << " meets the skin there. Move the " << tool.kind() << " a little, or refine the mesh";
+    throw QualityError(text.str());
 }
 
 void snap_once(Interface& f, const Tool& tool) {
@@ -234,20 +253,19 @@ void snap_to_tool(Interface& f, const Tool& tool) {
     Interface start = f;
     for (int attempt = 1;; ++attempt) {
         snap_once(f, tool);
-        std::vector<int> bad = misfits(f);
+        const std::vector<int> bad = misfits(f);
         if (bad.empty()) return;
-        if (attempt == attempts) throw QualityError(describe_misfits(f, bad, tool));
-        // First they may slide but not be put on the tool, then they stay, then those around them stay, too.
-        const auto stays = [&](int v) { return start.d.pinned[v] == Pin::stays; };
-        if (std::ranges::all_of(bad, stays)) {
-            std::vector<int> ring, neighbours;
-            for (const int v : bad) {
-                start.d.band.neighbours(v, neighbours);
-                ring.insert(ring.end(), neighbours.begin(), neighbours.end());
-            }
-            for (const int v : ring) start.d.pinned[v] = Pin::stays;
+        if (attempt == attempts) fail_at(f, bad[0], tool);
+        // First these elements' nodes are not put on the tool, then the elements are refined.
+        std::vector<char>& off_tool = start.d.off_tool;
+        if (attempt % 2 == 1) {
+            for (int t = 0; t < start.d.band.tetras.size(); ++t)
+                if (start.d.band.tetras.alive(t) && std::ranges::binary_search(bad, start.d.band.tetras.origin(t)))
+                    for (const int v : start.d.band.tetras[t]) off_tool[v] = 1;
+        } else {
+            refine(start, bad, tool);
+            std::ranges::fill(off_tool, 0);
         }
-        for (const int v : bad) start.d.pinned[v] = start.d.pinned[v] == Pin::none ? Pin::off_tool : Pin::stays;
         const auto seconds = f.seconds;
         f = start;
         f.seconds = seconds;
