@@ -73,12 +73,13 @@ double BandMesh::mean_edge_length(int node) const {
     return count > 0 ? sum / count : 0;
 }
 
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level) {
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, bool simplices_only) {
     BandMesh band;
     std::array<std::vector<Index>, cell_type_count> chosen;
     std::vector<int> local(mesh.points.size(), -1);
     for (const CellBlock& block : mesh.blocks()) {
         const CellTraits& t = traits(block.type);
+        if (simplices_only && !t.simplex) continue;
         std::vector<Index>& cells = chosen[static_cast<int>(block.type)];
         const Index count = block.size();
         const Index* n = block.connectivity.data();

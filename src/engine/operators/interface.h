@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct Interface {
     int bandwidth = 2;               ///< i of the paper's i-th neighbourhood
     std::vector<std::string> warnings;
     std::vector<std::pair<std::string, double>> seconds;
+    /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
+    std::function<Vec3(int, int)> mid_side;
 };
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges

@@ -52,4 +52,7 @@ struct Lips {
 /// copy. Nodes with one part (a front) stay single.
 Lips open_lips(const Interface& interface);
 
+/// The band as it is, nothing opened.
+Lips closed_lips(const BandMesh& band);
+
 }  // namespace femscalpel

@@ -64,20 +64,24 @@ Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency*
         throw ToolError(message.str());
     }
 
+    spread_levels(mesh, out.level, levels, adjacency);
+    return out;
+}
+
+void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency) {
     std::vector<Index> front, next;
     if (adjacency)
-        for (std::size_t n = 0; n < out.level.size(); ++n)
-            if (out.level[n] == 0) front.push_back(static_cast<Index>(n));
-    for (int level = 1; level <= levels; ++level) {
-        const auto reach = [&](CellType type, Index cell, const Index* n) {
-            static_cast<void>(cell);
+        for (std::size_t n = 0; n < levels.size(); ++n)
+            if (levels[n] == 0) front.push_back(static_cast<Index>(n));
+    for (int level = 1; level <= count; ++level) {
+        const auto reach = [&](CellType type, const Index* n) {
             const int corners = traits(type).corners;
             bool near = false;
-            for (int k = 0; k < corners; ++k) near = near || out.level[n[k]] == level - 1;
+            for (int k = 0; k < corners; ++k) near = near || levels[n[k]] == level - 1;
             if (!near) return;
             for (int k = 0; k < corners; ++k)
-                if (out.level[n[k]] < 0) {
-                    out.level[n[k]] = static_cast<std::int8_t>(level);
+                if (levels[n[k]] < 0) {
+                    levels[n[k]] = static_cast<std::int8_t>(level);
                     if (adjacency) next.push_back(n[k]);
                 }
         };
@@ -85,7 +89,7 @@ Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency*
             next.clear();
             for (Index n : front)
                 adjacency->around(n, [&](CellType type, Index cell) {
-                    if (traits(type).dimension >= 2) reach(type, cell, mesh.block(type).nodes(cell).data());
+                    if (traits(type).dimension >= 2) reach(type, mesh.block(type).nodes(cell).data());
                 });
             front.swap(next);
         } else {
@@ -93,11 +97,10 @@ Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency*
                 const CellTraits& t = traits(b.type);
                 if (t.dimension < 2) continue;
                 const Index* n = b.connectivity.data();
-                for (Index c = 0; c < b.size(); ++c, n += t.nodes) reach(b.type, c, n);
+                for (Index c = 0; c < b.size(); ++c, n += t.nodes) reach(b.type, n);
             }
         }
     }
-    return out;
 }
 
 }  // namespace femscalpel

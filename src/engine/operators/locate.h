@@ -25,6 +25,9 @@ struct Location {
 class Adjacency;
 Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency* adjacency = nullptr);
 
+/// Gives nodes without a level (-1) that are k <= `count` edges away from those of level 0 the level k.
+void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency = nullptr);
+
 /// Elements around each node, triangles and tetrahedra and whatever else shares a node. Linear time and memory.
 class Adjacency {
 public:

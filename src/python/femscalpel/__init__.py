@@ -17,7 +17,7 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
-from .operators import Result, Scalpel, crack
+from .operators import Result, Scalpel, crack, refine
 from .quality import mean_ratio, measure
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Plane, Tool
@@ -51,6 +51,7 @@ __all__ = [
     "mean_ratio",
     "measure",
     "read",
+    "refine",
     "to_meshio",
     "virtual_boundaries",
     "virtual_boundary",
