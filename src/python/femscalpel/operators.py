@@ -2,7 +2,7 @@
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
 from dataclasses import dataclass
-from typing import Optional
+from typing import Optional, Sequence, Union
 
 import numpy as np
 
@@ -100,8 +100,8 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
                                       *_crack_options(name, method, transition, feature_angle, strict)))
 
 
-def refine(mesh: Mesh, near, size: float, gradation: float = 0.5, reach: float = 0.0, relax: bool = True,
-           max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False) -> Result:
+def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
+           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False) -> Result:
     """Bisects elements near a tool until their edges are short enough.
 
     For a tool that is finer than the mesh, or for sharp stresses around it. No edge is longer afterwards than
@@ -145,19 +145,20 @@ def refine(mesh: Mesh, near, size: float, gradation: float = 0.5, reach: float =
     QualityError
         The mesh has flat or inverted elements near the tool.
     """
-    check_mesh(mesh)
+    engine_mesh = check_mesh(mesh)
     tools, points = _near(near)
     for name, value in (("relax", relax), ("strict", strict)):
         if not isinstance(value, bool):
             raise TypeError(f"{name} must be True or False, not {_arguments.describe(value)}")
     return Result._wrap(_engine.refine(
-        mesh, tools, points, _arguments.real(size, "size"), _arguments.real(gradation, "gradation"), _arguments.real(reach, "reach"),
+        engine_mesh, tools, points, _arguments.real(size, "size"), _arguments.real(gradation, "gradation"), _arguments.real(reach, "reach"),
         relax, _arguments.whole(max_elements, "max_elements", 1), _arguments.real(feature_angle, "feature_angle"), strict))
 
 
 def _near(near) -> tuple:
     """(tools, points) of refine()'s parameter."""
     none = np.empty((0, 3))
+    message = f"near must be a tool, a sequence of tools or an array of points of shape (n, 3), not {_arguments.describe(near)}"
     if isinstance(near, Tool):
         return [near], none
     if isinstance(near, (list, tuple)) and any(isinstance(t, Tool) for t in near):
@@ -165,11 +166,11 @@ def _near(near) -> tuple:
     try:
         points = np.array(near, dtype=np.float64)
     except (TypeError, ValueError):
-        points = none[0]
+        raise TypeError(message) from None
     if points.shape == (3,):
         points = points.reshape(1, 3)
     if points.ndim != 2 or points.shape[1] != 3:
-        raise TypeError(f"near must be a tool, a sequence of tools or an array of points of shape (n, 3), not {_arguments.describe(near)}")
+        raise TypeError(message)
     return [], points
 
 
