@@ -290,7 +290,7 @@ private:
         Vec3 at = moved(a) || moved(b) ? Vec3((band_.nodes[a].at + band_.nodes[b].at) / 2) : geometry_.middle(a, b);
         if (const auto mid = band_.mid_nodes.find(edge_key(a, b)); mid != band_.mid_nodes.end()) at = mesh_.points[mid->second];
         geometry_.add_node(a, b);
-        d_.split_edge(a, b, at, nullptr);
+        d_.split_edge(a, b, at, {});
         distance_.push_back(target_.distance(at));
         if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_) return;
         std::ostringstream message;
