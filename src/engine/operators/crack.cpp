@@ -228,14 +228,17 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
     }
 }
 
-/// Merging nodes can leave one that moved earlier outside the neighbourhood of the final interface; it still
-/// belongs to the transition.
+/// Splitting and merging can leave a node that moved, or an end of a split edge, outside the neighbourhood of the final
+/// interface; it still belongs to the transition.
 void add_moved_nodes(Interface& f) {
-    for (int v = 0; v < f.d.band.size(); ++v) {
-        const BandNode& n = f.d.band.nodes[v];
-        const bool counts = f.d.band.in_use(v) && (f.d.band.is_new(v) || n.at != n.start) && !f.d.contact[v];
-        if (counts && !std::ranges::binary_search(f.transition, v)) f.transition.insert(std::ranges::upper_bound(f.transition, v), v);
-    }
+    const BandMesh& band = f.d.band;
+    std::vector<char> changed(static_cast<std::size_t>(band.size()), 0);
+    for (int v = 0; v < band.size(); ++v) changed[v] = band.is_new(v) || band.nodes[v].at != band.nodes[v].start;
+    for (const BandMesh::Birth& b : band.births) changed[b.a] = changed[b.b] = 1;
+    for (const int v : f.transition) changed[v] = 1;
+    f.transition.clear();
+    for (int v = 0; v < band.size(); ++v)
+        if (changed[v] && band.in_use(v) && band.nodes[v].movable() && !f.d.contact[v]) f.transition.push_back(v);
 }
 
 std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Index>& index, const Mesh& mesh, auto keep) {
