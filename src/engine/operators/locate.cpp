@@ -5,7 +5,6 @@
 #include <sstream>
 
 namespace femscalpel {
-
 namespace {
 
 /// On which side of the tool a node is, as bits, so that those of an element can be joined.
@@ -19,51 +18,78 @@ void for_each_element(const Mesh& mesh, Visit visit) {
         if (t.dimension < 2) continue;
         const Index* n = b.connectivity.data();
         const Index count = b.size();
-        const auto pass = [&](int corners) {
+        const auto pass = [&](auto corners) {
             for (Index c = 0; c < count; ++c, n += t.nodes) visit(n, corners);
         };
         // A constant lets the compiler unroll what is inside, for the elements that matter.
-        if (t.corners == 4) pass(4);
+        if (t.corners == 4) pass(std::integral_constant<int, 4>());
         else pass(t.corners);
     }
 }
 
-}  // namespace
+/// Longest edge of an element, by its corners.
+double longest_edge(const Mesh& mesh, int corners, const Index* n) {
+    double longest = 0;
+    for (int a = 0; a < corners; ++a)
+        for (int b = 0; b < a; ++b) longest = std::max(longest, (mesh.points[n[a]] - mesh.points[n[b]]).squaredNorm());
+    return std::sqrt(longest);
+}
 
-Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency* adjacency) {
-    Location out;
-    out.distance.resize(mesh.points.size());
-    out.level.assign(mesh.points.size(), -1);
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+/// Marks the nodes of elements that one blade touches with level 0.
+void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& distance, Location& out) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < mesh.points.size(); ++n) {
-        out.distance[n] = tool.distance(mesh.points[n]);
-        low = low.cwiseMin(mesh.points[n]);
-        high = high.cwiseMax(mesh.points[n]);
-        if (std::abs(out.distance[n]) < std::abs(nearest)) nearest = out.distance[n];
-    }
-    if (mesh.points.empty()) throw ToolError("the mesh is empty: there is nothing to cut");
-    out.tolerance = 1e-10 * (high - low).norm();
-
-    std::vector<std::uint8_t> side(mesh.points.size());
+    for (const double d : distance)
+        if (std::abs(d) < std::abs(nearest)) nearest = d;
+    std::vector<std::uint8_t> side(distance.size());
     for (std::size_t n = 0; n < side.size(); ++n)
-        side[n] = out.distance[n] < -out.tolerance ? behind : out.distance[n] > out.tolerance ? before : on;
-    bool touched = false;
+        side[n] = distance[n] < -out.tolerance ? behind : distance[n] > out.tolerance ? before : on;
+    bool touched = false, beyond = false;
     for_each_element(mesh, [&](const Index* n, int corners) {
         std::uint8_t sides = 0;
         for (int k = 0; k < corners; ++k) sides |= side[n[k]];
         if (sides == behind || sides == before) return;
+        if (blade.bound) {
+            double bound = std::numeric_limits<double>::infinity();
+            for (int k = 0; k < corners; ++k) bound = std::min(bound, blade.bound(mesh.points[n[k]]));
+            if (bound > blade_margin * longest_edge(mesh, corners, n)) {
+                beyond = true;
+                return;
+            }
+        }
         const bool crossed = (sides & behind) && (sides & before);
         if (crossed) ++out.crossed;
         for (int k = 0; k < corners; ++k)
             if (crossed || side[n[k]] == on) out.level[n[k]] = 0;
         touched = true;
     });
-    if (!touched) {
-        std::ostringstream message;
-        message << "the " << tool.kind() << " misses the mesh: the whole mesh lies on its " << (nearest > 0 ? "positive" : "negative")
-                << " side, the nearest node at distance " << std::abs(nearest) << ". Move the " << tool.kind() << " or turn it";
-        throw ToolError(message.str());
+    if (touched) return;
+    std::ostringstream message;
+    if (beyond) {
+        message << "the " << blade.tool->kind() << " meets the mesh only outside the part of it that is to cut. Move that part into the material";
+    } else {
+        message << "the " << blade.tool->kind() << " misses the mesh: the whole mesh lies on its " << (nearest > 0 ? "positive" : "negative")
+                << " side, the nearest node at distance " << std::abs(nearest) << ". Move the " << blade.tool->kind() << " or turn it";
+    }
+    throw ToolError(message.str());
+}
+
+}  // namespace
+
+Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency) {
+    Location out;
+    out.level.assign(mesh.points.size(), -1);
+    if (mesh.points.empty()) throw ToolError("the mesh is empty: there is nothing to cut");
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Vec3& x : mesh.points) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    out.tolerance = 1e-10 * (high - low).norm();
+    for (const Blade& blade : blades) {
+        std::vector<double> distance(mesh.points.size());
+        for (std::size_t n = 0; n < mesh.points.size(); ++n) distance[n] = blade.tool->distance(mesh.points[n]);
+        touch(mesh, blade, distance, out);
+        if (&blade == blades.data()) out.distance = std::move(distance);
     }
 
     std::vector<Index> front, next;
