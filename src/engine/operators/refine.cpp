@@ -425,7 +425,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
         spread_levels(mesh, level, levels);
         bisector.reset();
         f.reset();
-        f.emplace(Interface{Deformable(extract_band(mesh, level, true), mesh, constraint_options), nullptr, {}, 0, {}, {}, 0, {}, {}, {}, {}});
+        f.emplace(Interface{Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options), nullptr, {}, 0, {}, {}, 0, {}, {}, {}, {}});
         check_input_shape(*f, mesh);
         std::vector<double> known(static_cast<std::size_t>(f->d.band.size()));
         for (int v = 0; v < f->d.band.size(); ++v) known[v] = distances[f->d.band.nodes[v].global];

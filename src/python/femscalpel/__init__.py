@@ -20,12 +20,13 @@ from .meshfile import read, write
 from .operators import Result, Scalpel, crack, refine
 from .quality import mean_ratio, measure
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
-from .tools import Cylinder, Plane, Tool
+from .tools import Cone, Cylinder, Plane, Sphere, Tool, Torus
 
 __version__ = "0.1.0"
 
 __all__ = [
     "BoundaryPart",
+    "Cone",
     "Cylinder",
     "ElementaryGroup",
     "ElementQuality",
@@ -42,8 +43,10 @@ __all__ = [
     "Report",
     "Result",
     "Scalpel",
+    "Sphere",
     "Tool",
     "ToolError",
+    "Torus",
     "UnsupportedElementError",
     "VirtualBoundary",
     "WriteError",
