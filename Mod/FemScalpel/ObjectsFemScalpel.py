@@ -13,6 +13,9 @@ import FreeCAD
 
 from femscalpelobjects.crack import Crack
 
+if FreeCAD.GuiUp:
+    from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
+
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
               group_name="CRACK", feature_angle=30.0):
@@ -72,7 +75,7 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         doc.removeObject(obj.Name)
         raise
     if FreeCAD.GuiUp:
-        obj.ViewObject.Proxy = 0  # shows the object with FreeCAD's own view provider
+        ViewProviderMeshOperation(obj.ViewObject)
     return obj
 
 
