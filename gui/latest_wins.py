@@ -2,6 +2,7 @@
 """One worker thread with one slot: work that was overtaken by newer work is never started."""
 
 import threading
+from collections import deque
 
 from PySide import QtCore
 
@@ -9,17 +10,18 @@ from PySide import QtCore
 class LatestWins(QtCore.QObject):
     """Runs functions off the GUI thread, one at a time; of those that wait, only the newest.
 
-    `finished(ticket, value)` and `failed(ticket, error)` arrive on the GUI thread. `ticket` is what request() returned.
+    Calls finished(ticket, value) or failed(ticket, error) on the GUI thread. `ticket` is what request() returned.
     """
 
-    finished = QtCore.Signal(object, object)
-    failed = QtCore.Signal(object, object)
+    _ready = QtCore.Signal()
 
-    def __init__(self, parent=None):
-        super().__init__(parent)
+    def __init__(self, finished, failed):
+        super().__init__()
+        self._finished, self._failed = finished, failed
+        self._done = deque()
+        self._ready.connect(self._deliver, QtCore.Qt.QueuedConnection)
         self._wake = threading.Condition()
         self._waiting = None
-        self._running = None
         self._closed = False
         self._last = 0
         self._thread = threading.Thread(target=self._work, name="FemScalpel preview", daemon=True)
@@ -33,17 +35,17 @@ class LatestWins(QtCore.QObject):
             self._wake.notify()
             return self._last
 
-    def is_idle(self):
-        """True when nothing runs and nothing waits. The last signals may still be on their way."""
-        with self._wake:
-            return self._waiting is None and self._running is None
-
     def close(self):
         """Drops what waits; what runs ends unheard. Does not block."""
         with self._wake:
             self._closed = True
             self._waiting = None
             self._wake.notify()
+
+    def _deliver(self):
+        while self._done and not self._closed:
+            receiver, ticket, value = self._done.popleft()
+            receiver(ticket, value)
 
     def _work(self):
         while True:
@@ -52,18 +54,15 @@ class LatestWins(QtCore.QObject):
                     self._wake.wait()
                 if self._closed:
                     return
-                ticket, function = self._running = self._waiting
+                ticket, function = self._waiting
                 self._waiting = None
             try:
-                signal, value = self.finished, function()
+                outcome = self._finished, ticket, function()
             except Exception as error:  # reported by the receiver, in the panel
-                signal, value = self.failed, error
-            with self._wake:
-                self._running = None
-                if self._closed:
-                    return
+                outcome = self._failed, ticket, error
+            self._done.append(outcome)
+            del function, outcome
             try:
-                signal.emit(ticket, value)
+                self._ready.emit()
             except RuntimeError:  # Qt's side is gone: FreeCAD is closing
                 return
-            del function, value

@@ -39,34 +39,34 @@ class GroupInspectorPanel(ViewPanel):
 
     def __init__(self, source_object):
         super().__init__(source_object)
-        self.ui = FreeCADGui.PySideUic.loadUi(form("group_inspector.ui"))
-        self.form = [self.ui]
-        self.ui.setWindowTitle(translate("FemScalpel", "Group inspector"))
-        self.ui.setWindowIcon(QtGui.QIcon(icon("FemScalpel_GroupInspector")))
+        self.panel = FreeCADGui.PySideUic.loadUi(form("group_inspector.ui"))
+        self.form = [self.panel]
+        self.panel.setWindowTitle(translate("FemScalpel", "Group inspector"))
+        self.panel.setWindowIcon(QtGui.QIcon(icon("FemScalpel_GroupInspector")))
         for text, data in zip((translate("FemScalpel", "Groups"), translate("FemScalpel", "Elementary groups")), WHAT):
-            self.ui.what.addItem(text, data)
+            self.panel.what.addItem(text, data)
         parts = (translate("FemScalpel", "Members"), translate("FemScalpel", "Bounding (BE)"), translate("FemScalpel", "Linking (LE)"),
                  translate("FemScalpel", "Isolated (IE)"))
         for text, data in zip(parts, PARTS):
-            self.ui.part.addItem(text, data)
+            self.panel.part.addItem(text, data)
         headers = [translate("FemScalpel", "Group"), "", translate("FemScalpel", "Kind"), translate("FemScalpel", "Size"),
                    translate("FemScalpel", "Measure"), translate("FemScalpel", "Used by")]
-        table = self.ui.groups
+        table = self.panel.groups
         table.setColumnCount(len(headers))
         table.setHorizontalHeaderLabels(headers)
         table.verticalHeader().hide()
         table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 6)
         table.setSortingEnabled(False)
         self.entries, self._shapes = [], {}
-        self.ui.what.currentIndexChanged.connect(lambda *_: self._list())
-        self.ui.part.currentIndexChanged.connect(lambda *_: self._draw())
-        self.ui.all.clicked.connect(lambda: self._tick(lambda row: True))
-        self.ui.none.clicked.connect(lambda: self._tick(lambda row: False))
-        self.ui.only.clicked.connect(self._only_selected)
+        self.panel.what.currentIndexChanged.connect(lambda *_: self._list())
+        self.panel.part.currentIndexChanged.connect(lambda *_: self._draw())
+        self.panel.all.clicked.connect(lambda: self._tick(lambda row: True))
+        self.panel.none.clicked.connect(lambda: self._tick(lambda row: False))
+        self.panel.only.clicked.connect(self._only_selected)
         table.itemChanged.connect(self._changed)
         self.scene = GroupScene(self.view)
-        self.ui.status.setText(translate("FemScalpel", "Reading the mesh…"))
-        self.open()
+        self.panel.status.setText(translate("FemScalpel", "Reading the mesh…"))
+        self.start()
 
     def getStandardButtons(self):
         return int(QtGui.QDialogButtonBox.Close)
@@ -78,10 +78,10 @@ class GroupInspectorPanel(ViewPanel):
         self._list()
 
     def not_loaded(self, error):
-        fields.show_error(self.ui.error, str(error))
+        fields.show_error(self.panel.error, str(error))
 
     def _elementary(self):
-        return self.ui.what.currentData() == WHAT[1]
+        return self.panel.what.currentData() == WHAT[1]
 
     def _list(self):
         if self.source is None:
@@ -92,9 +92,9 @@ class GroupInspectorPanel(ViewPanel):
         else:
             self.entries = [_Entry(g.name, g.kind, None, g.ids, (g.name,)) for g in mesh.groups.all()]
         self._shapes = {}
-        self.ui.part.setEnabled(not self._elementary())
+        self.panel.part.setEnabled(not self._elementary())
         users = users_of_groups(self.source_object)
-        table = self.ui.groups
+        table = self.panel.groups
         blocked = table.blockSignals(True)
         table.setRowCount(len(self.entries))
         for row, entry in enumerate(self.entries):
@@ -118,7 +118,7 @@ class GroupInspectorPanel(ViewPanel):
         table.resizeColumnsToContents()
         table.setColumnWidth(_COLOUR, 18)
         table.blockSignals(blocked)
-        self.ui.status.setText(translate("FemScalpel", "%1 groups, %2 nodes, %3 elements.").replace("%1", str(len(self.entries)))
+        self.panel.status.setText(translate("FemScalpel", "%1 groups, %2 nodes, %3 elements.").replace("%1", str(len(self.entries)))
                                .replace("%2", str(mesh.node_count)).replace("%3", str(mesh.cell_count)))
         self._draw()
 
@@ -141,7 +141,7 @@ class GroupInspectorPanel(ViewPanel):
         return dimension, f"{total[dimension]:.6g} {('', 'mm', 'mm²', 'mm³')[dimension]}" if dimension else ""
 
     def _tick(self, wanted):
-        table = self.ui.groups
+        table = self.panel.groups
         blocked = table.blockSignals(True)
         for row in range(table.rowCount()):
             table.item(row, _NAME).setCheckState(QtCore.Qt.Checked if wanted(row) else QtCore.Qt.Unchecked)
@@ -149,12 +149,12 @@ class GroupInspectorPanel(ViewPanel):
         self._draw()
 
     def _only_selected(self):
-        rows = {index.row() for index in self.ui.groups.selectionModel().selectedRows()}
+        rows = {index.row() for index in self.panel.groups.selectionModel().selectedRows()}
         self._tick(lambda row: row in rows)
 
     def ticked(self):
         """Rows whose box is ticked."""
-        return [row for row in range(self.ui.groups.rowCount()) if self.ui.groups.item(row, _NAME).checkState() == QtCore.Qt.Checked]
+        return [row for row in range(self.panel.groups.rowCount()) if self.panel.groups.item(row, _NAME).checkState() == QtCore.Qt.Checked]
 
     def _changed(self, item):
         if item.column() != _NAME:
@@ -169,7 +169,7 @@ class GroupInspectorPanel(ViewPanel):
     def _draw(self):
         if self.source is None:
             return
-        part = PARTS[0] if self._elementary() else self.ui.part.currentData()
+        part = PARTS[0] if self._elementary() else self.panel.part.currentData()
         shapes = []
         for row in self.ticked():
             key = row, part
@@ -194,20 +194,17 @@ class GroupInspectorPanel(ViewPanel):
     def _rename(self, entry, name):
         if self._closed:
             return
-        fields.show_error(self.ui.error, "")
+        fields.show_error(self.panel.error, "")
         try:
-            self.document.openTransaction(translate("FemScalpel", "Rename group"))
             FreeCADGui.addModule("FreeCAD")
             FreeCADGui.addModule("ObjectsFemScalpel")
             document = "FreeCAD.ActiveDocument" if FreeCAD.ActiveDocument == self.document \
                 else f"FreeCAD.getDocument({self.document.Name!r})"
             FreeCADGui.doCommand(f"ObjectsFemScalpel.renameGroup({document}.getObject({self.source_object.Name!r}), "
                                  f"{entry.name!r}, {name!r}, kind={entry.kind!r})")
-            self.document.commitTransaction()
             self.source.mesh.rename_group(entry.name, name, entry.kind)
         except Exception as error:
-            self.document.abortTransaction()
-            fields.show_error(self.ui.error, str(error))
+            fields.show_error(self.panel.error, str(error))
         shown = {self.entries[row].name for row in self.ticked()}
         self._list()
         self._tick(lambda row: self.entries[row].name in shown or self.entries[row].name == name and entry.name in shown)
@@ -216,7 +213,7 @@ class GroupInspectorPanel(ViewPanel):
         self.scene.close()
 
     def forget_widgets(self):
-        self.ui = None
+        self.panel = None
 
 
 def _kind(kind, dimension):

@@ -28,31 +28,31 @@ class MeshQualityPanel(ViewPanel):
 
     def __init__(self, source_object):
         super().__init__(source_object)
-        self.ui = FreeCADGui.PySideUic.loadUi(form("mesh_quality.ui"))
-        self.form = [self.ui]
-        self.ui.setWindowTitle(translate("FemScalpel", "Mesh quality"))
-        self.ui.setWindowIcon(QtGui.QIcon(icon("FemScalpel_MeshQuality")))
+        self.panel = FreeCADGui.PySideUic.loadUi(form("mesh_quality.ui"))
+        self.form = [self.panel]
+        self.panel.setWindowTitle(translate("FemScalpel", "Mesh quality"))
+        self.panel.setWindowIcon(QtGui.QIcon(icon("FemScalpel_MeshQuality")))
         titles = (translate("FemScalpel", "Mean ratio"), translate("FemScalpel", "Smallest angle (dihedral in solids)"),
                   translate("FemScalpel", "Scaled Jacobian"))
         for title, (name, *_) in zip(titles, MEASURES):
-            self.ui.measure.addItem(title, name)
+            self.panel.measure.addItem(title, name)
         self.histogram = Histogram()
-        self.ui.histogramLayout.addWidget(self.histogram)
-        self.ui.limit.setValue(preferences.quality_threshold())
-        self.ui.worst.setColumnCount(3)
-        self.ui.worst.setHorizontalHeaderLabels(
+        self.panel.histogramLayout.addWidget(self.histogram)
+        self.panel.limit.setValue(preferences.quality_threshold())
+        self.panel.worst.setColumnCount(3)
+        self.panel.worst.setHorizontalHeaderLabels(
             [translate("FemScalpel", "Element"), translate("FemScalpel", "Type"), translate("FemScalpel", "Value")])
-        self.ui.worst.verticalHeader().hide()
-        self.ui.worst.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
-        self.ui.worst.horizontalHeader().setStretchLastSection(True)
-        self.ui.measure.currentIndexChanged.connect(lambda *_: self._measure())
-        self.ui.onlyBad.toggled.connect(lambda *_: self._draw())
-        self.ui.limit.valueChanged.connect(lambda *_: self._draw())
-        self.ui.worst.itemSelectionChanged.connect(self._zoom)
+        self.panel.worst.verticalHeader().hide()
+        self.panel.worst.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
+        self.panel.worst.horizontalHeader().setStretchLastSection(True)
+        self.panel.measure.currentIndexChanged.connect(lambda *_: self._measure())
+        self.panel.onlyBad.toggled.connect(lambda *_: self._draw())
+        self.panel.limit.valueChanged.connect(lambda *_: self._draw())
+        self.panel.worst.itemSelectionChanged.connect(self._zoom)
         self.values = self._ids = self._types = np.empty(0)
         self.scene = GroupScene(self.view)
-        self.ui.status.setText(translate("FemScalpel", "Reading the mesh…"))
-        self.open()
+        self.panel.status.setText(translate("FemScalpel", "Reading the mesh…"))
+        self.start()
 
     def getStandardButtons(self):
         return int(QtGui.QDialogButtonBox.Close)
@@ -61,10 +61,10 @@ class MeshQualityPanel(ViewPanel):
         self._measure()
 
     def not_loaded(self, error):
-        fields.show_error(self.ui.error, str(error))
+        fields.show_error(self.panel.error, str(error))
 
     def _chosen(self):
-        return MEASURES[max(self.ui.measure.currentIndex(), 0)]
+        return MEASURES[max(self.panel.measure.currentIndex(), 0)]
 
     def _measure(self):
         if self.source is None:
@@ -80,22 +80,22 @@ class MeshQualityPanel(ViewPanel):
         self.histogram.show_counts(counts, low=0.0, high=regular, rgb=lambda middle: quality_rgb(middle / regular))
         judged = np.flatnonzero(judged)
         if not len(judged):
-            self.ui.status.setText(translate("FemScalpel", "The mesh has neither faces nor volumes."))
+            self.panel.status.setText(translate("FemScalpel", "The mesh has neither faces nor volumes."))
             return
         values = self.values[judged]
         text = translate("FemScalpel", "%1 elements; smallest %2, mean %3.")
         for k, number in enumerate((len(values), f"{values.min():.3f}{unit}", f"{values.mean():.3f}{unit}"), 1):
             text = text.replace(f"%{k}", str(number))
-        self.ui.status.setText(text)
+        self.panel.status.setText(text)
         worst = judged[np.argsort(values, kind="stable")[:_SHOWN]]
-        blocked = self.ui.worst.blockSignals(True)
-        self.ui.worst.clearSelection()
-        self.ui.worst.setRowCount(len(worst))
+        blocked = self.panel.worst.blockSignals(True)
+        self.panel.worst.clearSelection()
+        self.panel.worst.setRowCount(len(worst))
         for row, at in enumerate(worst):
             for column, entry in enumerate((str(cells.ids[at]), str(self._types[at]), f"{self.values[at]:.4f}{unit}")):
-                self.ui.worst.setItem(row, column, QtGui.QTableWidgetItem(entry))
-        self.ui.worst.resizeColumnsToContents()
-        self.ui.worst.blockSignals(blocked)
+                self.panel.worst.setItem(row, column, QtGui.QTableWidgetItem(entry))
+        self.panel.worst.resizeColumnsToContents()
+        self.panel.worst.blockSignals(blocked)
         self._draw()
 
     def _draw(self, extra=()):
@@ -103,8 +103,8 @@ class MeshQualityPanel(ViewPanel):
             return
         source, regular = self.source, self._chosen()[2]
         whole = source.whole()
-        if self.ui.onlyBad.isChecked():
-            bad = self.values < self.ui.limit.value()
+        if self.panel.onlyBad.isChecked():
+            bad = self.values < self.panel.limit.value()
             blocks, first, owners = [], 0, np.flatnonzero(bad)
             for name, nodes in source.cells.blocks:
                 blocks.append((name, nodes[bad[first:first + len(nodes)]]))
@@ -120,28 +120,28 @@ class MeshQualityPanel(ViewPanel):
         self.scene.show([(GroupShape(points, rows, *nothing), quality_rgb(values / regular)), *extra])
 
     def _zoom(self):
-        rows = self.ui.worst.selectionModel().selectedRows()
+        rows = self.panel.worst.selectionModel().selectedRows()
         if not rows:
             self.scene.label.hide()
             self._draw()
             return
-        number = int(self.ui.worst.item(rows[0].row(), 0).text())
+        number = int(self.panel.worst.item(rows[0].row(), 0).text())
         shape = elements_shape(self.source.mesh, [number])
         low, high = shape.points.min(axis=0), shape.points.max(axis=0)
-        around = 4 * (high - low).max()
+        around = 1.5 * (high - low).max()
         zoom_to(self.view, low - around, high + around)
         edges, _ = mesh_faces.face_edges(shape.faces)
         lines = shape.points[mesh_faces.unique_edges(edges, len(shape.points))]
         outline = GroupShape(shape.points, shape.faces[:0], lines, np.empty((0, 3), np.float32))
-        self.scene.label.show((low + high) / 2, f"  {number}: {self.ui.worst.item(rows[0].row(), 2).text()}")
-        if not self.ui.onlyBad.isChecked():
+        self.scene.label.show((low + high) / 2, f"  {number}: {self.panel.worst.item(rows[0].row(), 2).text()}")
+        if not self.panel.onlyBad.isChecked():
             # It may lie inside the part.
-            self.ui.limit.setValue(self.values[self.source.cells.find(np.array([number]))][0] + 1e-3)
-            self.ui.onlyBad.setChecked(True)
+            self.panel.limit.setValue(self.values[self.source.cells.find(np.array([number]))][0] + 1e-3)
+            self.panel.onlyBad.setChecked(True)
         self._draw([(outline, np.array((0.0, 0.0, 0.0)))])
 
     def clear_view(self):
         self.scene.close()
 
     def forget_widgets(self):
-        self.ui = self.histogram = None
+        self.panel = self.histogram = None

@@ -14,7 +14,7 @@ from ..view.group_shape import group_shape
 from ..view.preview_data import make_preview
 from . import fields, group_table
 from .histogram import Histogram
-from .view_panel import ViewPanel
+from .view_panel import ViewPanel, abort_transaction
 
 
 class ToolPanel(ViewPanel):
@@ -51,7 +51,7 @@ class ToolPanel(ViewPanel):
         self.geometry.changed.connect(self.update)
         self.geometry.picking_changed.connect(self._picking)
         self._status(translate("FemScalpel", "Reading the mesh…"))
-        self.open()
+        self.start()
 
     # What subclasses say.
 
@@ -276,7 +276,7 @@ class ToolPanel(ViewPanel):
             if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
                 raise femscalpel.Error(translate("FemScalpel", "The object could not be computed; see the report view."))
         except Exception as error:
-            self.document.abortTransaction()
+            abort_transaction(self.document)
             fields.show_error(self.result.resultError, _sentence(str(error)))
             return False
         self.document.commitTransaction()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What all task panels share: a mesh read on another thread, the 3-D view to themselves, and leaving without a trace."""
 
+import FreeCAD
 import FreeCADGui
 from PySide import QtCore
 from pivy import coin
@@ -17,7 +18,7 @@ _lost = []
 
 
 class ViewPanel(QtCore.QObject):
-    """A task panel about the mesh of one object. Subclasses make `form` first, then call open()."""
+    """A task panel about the mesh of one object. Subclasses make `form` first, then call start()."""
 
     def __init__(self, source_object):
         super().__init__()
@@ -29,13 +30,11 @@ class ViewPanel(QtCore.QObject):
         self._closed = False
         self._reading = None
 
-    def open(self):
+    def start(self):
         """Takes the view and starts reading the mesh; loaded() or failed() follow."""
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
-        self.worker = LatestWins()
-        self.worker.finished.connect(self._arrived)
-        self.worker.failed.connect(self._broke)
+        self.worker = LatestWins(self._arrived, self._broke)
         # FreeCAD can take the panel away without asking, as when the document is closed.
         self._forms = list(self.form)
         self._forms[0].destroyed.connect(lambda *_: self._died())
@@ -136,6 +135,13 @@ class ViewPanel(QtCore.QObject):
     def forget_widgets(self):
         """Drops references to widgets."""
         raise NotImplementedError
+
+
+def abort_transaction(document):
+    """Takes back what was done since the transaction was opened."""
+    document.abortTransaction()
+    # FreeCAD would still put the next change, such as one while undoing, into a new transaction of that name.
+    FreeCAD.closeActiveTransaction(True)
 
 
 def _view(document):

@@ -72,7 +72,16 @@ def lights():
 def zoom_to(view, low, high):
     """Turns the camera's attention to a box without turning it."""
     camera = view.getCameraNode()
-    centre, half = (np.asarray(low) + high) / 2, max(float(np.linalg.norm(np.asarray(high) - low)) / 2, 1e-9)
-    box = coin.SbBox3f(*[float(x) for x in centre - half], *[float(x) for x in centre + half])
-    region = coin.SbViewportRegion(*view.getSize())
-    camera.viewBoundingBox(box, camera.aspectRatio.getValue(), 1.0) if hasattr(camera, "viewBoundingBox") else camera.viewAll(box, region)
+    box = coin.SbBox3f(*[float(x) for x in low], *[float(x) for x in high])
+    camera.viewAll(_box_node(box), coin.SbViewportRegion(*view.getSize()))
+
+
+def _box_node(box):
+    corners = coin.SoSeparator()
+    place = coin.SoTranslation()
+    place.translation.setValue(box.getCenter())
+    corners.addChild(place)
+    cube = coin.SoCube()
+    cube.width, cube.height, cube.depth = (max(x, 1e-9) for x in box.getSize())
+    corners.addChild(cube)
+    return corners

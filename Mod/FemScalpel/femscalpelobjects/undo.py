@@ -9,7 +9,7 @@ recomputed.
 import FreeCAD
 
 # Not inputs.
-_ASIDE = {"FemMesh", "Label", "Label2", "Visibility", "ExpressionEngine", "Placement", "Proxy"}
+_ASIDE = {"FemMesh", "Label", "Label2", "Visibility", "ExpressionEngine", "Placement", "Proxy", "Replaced"}
 
 
 def is_ours(obj):
@@ -46,6 +46,8 @@ class _Watch:
         self._made_from = {key: value for key, value in self._made_from.items() if key[0] != document.Name}
 
     def _mend(self, document):
+        from .group_names import follow_all
+        follow_all(document)
         outdated = [o for o in document.Objects
                     if is_ours(o) and self._made_from.get(self._key(o), None) not in (None, _inputs(o))]
         for obj in outdated:
