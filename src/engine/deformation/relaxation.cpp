@@ -133,7 +133,7 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size()), nullptr),
+    : band(std::move(b)), constraints(band, mesh, options), membership(band, mesh), contact(static_cast<std::size_t>(band.size()), nullptr),
       side(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -149,6 +149,7 @@ int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
     const double distance = barrier && !tool ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     constraints.add_node(band, node);
+    membership.add_node(band, node);
     return node;
 }
 
