@@ -6,6 +6,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "error.h"
+#include "tools/cylinder.h"
 #include "tools/plane.h"
 
 namespace py = pybind11;
@@ -38,6 +39,12 @@ void bind_tools(py::module_& module) {
              py::arg("origin"), py::arg("normal"))
         .def_property_readonly("origin", [](const Plane& plane) { return triple(plane.origin()); })
         .def_property_readonly("unit_normal", [](const Plane& plane) { return triple(plane.unit_normal()); });
+    py::class_<Cylinder, Tool>(module, "Cylinder")
+        .def(py::init([](const Triple& origin, const Triple& axis, double radius) { return Cylinder(vector(origin), vector(axis), radius); }),
+             py::arg("origin"), py::arg("axis"), py::arg("radius"))
+        .def_property_readonly("origin", [](const Cylinder& cylinder) { return triple(cylinder.origin()); })
+        .def_property_readonly("unit_axis", [](const Cylinder& cylinder) { return triple(cylinder.unit_axis()); })
+        .def_property_readonly("radius", &Cylinder::radius);
 }
 
 }  // namespace femscalpel::bindings

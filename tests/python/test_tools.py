@@ -26,6 +26,27 @@ def test_bad_plane(origin, normal, error, message):
         fs.Plane(origin, normal)
 
 
+def test_cylinder():
+    cylinder = fs.Cylinder(origin=(1, 2, 3), axis=(0, 0, 5), radius=2)
+    assert cylinder.origin == (1.0, 2.0, 3.0) and cylinder.axis == (0.0, 0.0, 1.0) and cylinder.radius == 2.0
+    np.testing.assert_allclose(cylinder.distance([[1, 2, 9], [4, 2, -7], [1, 1, 0]]), [-2, 1, -1])
+    assert isinstance(cylinder, fs.Tool) and cylinder.kind == "cylinder" and cylinder.feature_size == 2.0
+    assert "radius=2.0" in repr(cylinder)
+
+
+@pytest.mark.parametrize("arguments, error, message", [
+    (((0, 0, 0), (0, 0, 0), 1), fs.ToolError, "cylinder: axis is the zero vector"),
+    (((0, 0, 0), (0, 0, 1), 0), fs.ToolError, "cylinder: radius is 0; it must be positive"),
+    (((0, 0, 0), (0, 0, 1), -2), fs.ToolError, "cylinder: radius is -2"),
+    (((0, 0, 0), (0, 0, 1), float("nan")), ValueError, "radius must be a finite number"),
+    (((0, 0, 0), (0, 0, 1), "1"), TypeError, "radius must be a number"),
+    (((0, 0), (0, 0, 1), 1), ValueError, "origin must be three numbers"),
+])
+def test_bad_cylinder(arguments, error, message):
+    with pytest.raises(error, match=message):
+        fs.Cylinder(*arguments)
+
+
 def test_errors_have_one_base():
     for error in (fs.ReadError, fs.WriteError, fs.ToolError, fs.QualityError, fs.UnsupportedElementError):
         assert issubclass(error, fs.Error) and error.__module__ == "femscalpel" and error.__doc__

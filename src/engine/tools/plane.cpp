@@ -3,17 +3,12 @@
 
 #include <limits>
 
-#include "error.h"
+#include "tools/checks.h"
 
 namespace femscalpel {
 
-Plane::Plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal) : origin_(origin), normal_(normal) {
-    if (!origin.allFinite()) throw ToolError("plane: origin has a value that is not a finite number");
-    if (!normal.allFinite()) throw ToolError("plane: normal has a value that is not a finite number");
-    const double length = normal.stableNorm();
-    if (!(length > 0)) throw ToolError("plane: normal is the zero vector; give a direction");
-    normal_ = normal / length;
-}
+Plane::Plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal)
+    : origin_(checked_point(origin, "plane: origin")), normal_(checked_direction(normal, "plane: normal")) {}
 
 double Plane::feature_size() const { return std::numeric_limits<double>::infinity(); }
 

@@ -20,12 +20,13 @@ from .meshfile import read, write
 from .operators import Result, Scalpel, crack
 from .quality import mean_ratio, measure
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
-from .tools import Plane, Tool
+from .tools import Cylinder, Plane, Tool
 
 __version__ = "0.1.0"
 
 __all__ = [
     "BoundaryPart",
+    "Cylinder",
     "ElementaryGroup",
     "ElementQuality",
     "Error",

@@ -52,6 +52,40 @@ class Plane(_engine.Plane):
         return f"Plane(origin={self.origin}, normal={self.normal})"
 
 
+class Cylinder(_engine.Cylinder):
+    """An infinite circular cylinder; its positive side is outside.
+
+    Parameters
+    ----------
+    origin : three numbers
+        A point of the axis, in the mesh's unit.
+    axis : three numbers
+        Direction of the axis; any length.
+    radius : number
+        In the mesh's unit.
+
+    Raises :class:`femscalpel.ToolError` when the axis is zero or the radius not positive.
+    """
+
+    def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float):
+        super().__init__(_arguments.vector(origin, "origin"), _arguments.vector(axis, "axis"), _arguments.real(radius, "radius"))
+
+    @property
+    def origin(self) -> Tuple[float, float, float]:
+        """The point of the axis it was made with."""
+        return tuple(super().origin)
+
+    @property
+    def axis(self) -> Tuple[float, float, float]:
+        """Unit vector along the axis."""
+        return tuple(self.unit_axis)
+
+    distance = _distance
+
+    def __repr__(self) -> str:
+        return f"Cylinder(origin={self.origin}, axis={self.axis}, radius={self.radius})"
+
+
 def check_tool(tool, name: str = "tool"):
     """`tool`; TypeError that names the parameter when it is something else."""
     if not isinstance(tool, Tool):
