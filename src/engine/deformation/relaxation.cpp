@@ -144,11 +144,13 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 }
 
 int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
+    const bool fixed = constraints.has_fixed_middle(a, b);
     const int node = band.split_edge(a, b, at);
     contact.push_back(tool);
     const double distance = barrier && !tool ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     constraints.add_node(band, node);
+    if (fixed) constraints.fix_node(node);
     membership.add_node(band, node);
     return node;
 }

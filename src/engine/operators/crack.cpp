@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "groups/preserve.h"
 #include "mesh/quality.h"
 #include "operators/lips.h"
 #include "operators/locate.h"
@@ -168,6 +169,34 @@ void count_constraints(const Interface& f, const Tool& tool, Report& report) {
         }
 }
 
+/// Calls visit(index, record) for each group of the input that is not hidden: their records come first, in order.
+void for_each_record(const Mesh& before, Report& report, auto visit) {
+    std::size_t record = 0;
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+        if (!before.groups[g].hidden) visit(g, report.groups[record++]);
+}
+
+void count_group_constraints(const Interface& f, const Mesh& before, Report& report) {
+    std::vector<int> nodes = f.nodes;
+    nodes.insert(nodes.end(), f.transition.begin(), f.transition.end());
+    const auto counts = f.d.constraints.count_by_group(f.d.band, nodes, before.groups.size());
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        r.nodes_on_surface = counts[g].surface;
+        r.nodes_on_line = counts[g].line;
+        r.nodes_fixed = counts[g].fixed;
+    });
+}
+
+/// Of groups whose boundary was not kept: how far it went.
+void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& before, const std::vector<bool>& drifting, Report& report) {
+    const std::vector<double> drift = gauge.drift(f.d.band, before);
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        if (!drifting[g]) return;
+        r.boundary_kept = false;
+        r.boundary_drift = drift[g];
+    });
+}
+
 /// Moved nodes and boundary drift of each group, by group index.
 void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebuilt, Report& report) {
     const BandMesh& band = f.d.band;
@@ -285,6 +314,7 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
     watch.lap("locate");
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options.feature_angle;
+    constraint_options.drifting_groups = drifting_groups(mesh, options.preserve);
     constraint_options.kept_hidden = marks.kept;
     constraint_options.pinned = marks.pinned;
     Interface f{Deformable(extract_band(mesh, location.level), mesh, constraint_options), {}, location.tolerance, {}, {}, width, {}, {}};
@@ -296,8 +326,11 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
         f.d.contact[v] = &tool;
     }
     check_input_shape(f, mesh);
+    std::optional<DriftGauge> gauge;
+    if (options.preserve) gauge.emplace(f.d.band, mesh, constraint_options.drifting_groups);
     watch.lap("constraints");
     if (location.crossed > 0) {
+        split_at_fixed_middles(f, tool, mesh);
         if (options.method == Method::snap) snap_to_tool(f, tool);
         else deform_to_tool(f, tool, mesh);
         report.seconds.insert(report.seconds.end(), f.seconds.begin(), f.seconds.end());
@@ -354,6 +387,8 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
     report.warnings.insert(report.warnings.end(), rebuilt.warnings.begin(), rebuilt.warnings.end());
     report.warnings.insert(report.warnings.end(), deck_warnings.begin(), deck_warnings.end());
     describe_motion(f, mesh, rebuilt, report);
+    count_group_constraints(f, mesh, report);
+    if (gauge) describe_drift(*gauge, f, mesh, constraint_options.drifting_groups, report);
     watch.lap("report");
     remove_marks(rebuilt.mesh);
     result.mesh = std::move(rebuilt.mesh);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 #include "operators/interface.h"
@@ -16,6 +17,8 @@ struct CrackOptions {
     Method method = Method::snap;
     std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
     double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
+    /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
+    std::optional<std::vector<std::string>> preserve;
     bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
 };
 
@@ -28,9 +31,8 @@ struct CrackOptions {
 ///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
-/// Throws ToolError (bad name, tool misses the mesh), UnsupportedElementError (the band reaches
+/// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches
 /// elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
 Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {});
-
 
 }  // namespace femscalpel

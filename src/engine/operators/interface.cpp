@@ -44,6 +44,22 @@ void find_node_sets(Interface& f) {
     std::ranges::sort(f.transition);
 }
 
+void split_at_fixed_middles(Interface& f, const Tool& tool, const Mesh& mesh) {
+    BandMesh& band = f.d.band;
+    std::vector<std::pair<std::uint64_t, Index>> crossed;
+    for (const auto& [key, middle] : band.mid_nodes) {
+        const int a = static_cast<int>(key >> 32), b = static_cast<int>(key & 0xffffffffu);
+        if (f.d.constraints.has_fixed_middle(a, b) && f.distance[a] * f.distance[b] < 0) crossed.push_back({key, middle});
+    }
+    std::ranges::sort(crossed);
+    for (const auto& [key, middle] : crossed) {
+        const double distance = tool.distance(mesh.points[middle]);
+        const bool on_tool = std::abs(distance) <= f.tolerance;
+        f.d.split_edge(static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu), mesh.points[middle], on_tool ? &tool : nullptr);
+        f.distance.push_back(on_tool ? 0 : distance);
+    }
+}
+
 namespace {
 
 struct Bad {
