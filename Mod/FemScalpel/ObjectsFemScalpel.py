@@ -11,6 +11,7 @@
 
 import FreeCAD
 
+from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 
 
@@ -76,40 +77,27 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     return obj
 
 
-def putIntoAnalysis(obj):
+def putIntoAnalysis(obj, strict=True):
     """Puts `obj` into the FEM analysis its source mesh is in, in the source's place, and returns the analysis.
 
-    A FreeCAD analysis solves the one mesh it contains. Loads, supports and materials need no change. For a crack of a
-    crack, the first mesh of the chain that is in an analysis is replaced. Raises ValueError when there is none.
+    A FreeCAD analysis solves the one mesh it contains. Loads, supports and materials need no change: FreeCAD finds their
+    nodes by mesh group, or by geometry, on which FemScalpel keeps the nodes. For a crack of a crack, the last mesh of the
+    chain that is in an analysis is replaced. Results of the old mesh are removed, or, if FreeCAD's preference is to keep
+    results, renamed. All this is one step to undo.
+
+    Raises ValueError, and changes nothing, when there is no such analysis, when `obj` has an error, and, with `strict`,
+    when FreeCAD would not find all nodes a load, support or material is meant for; the message says where. With
+    strict=False that is a warning in the report view.
     """
-    mesh = obj.Source
-    while mesh is not None:
-        for analysis in _analyses(obj.Document):
-            if mesh in analysis.Group:
-                analysis.removeObject(mesh)
-                if obj not in analysis.Group:
-                    analysis.addObject(obj)
-                return analysis
-        mesh = getattr(mesh, "Source", None)
-    raise ValueError(f"the mesh that '{obj.Label}' is made from is in no analysis")
+    return put_into_analysis(obj, strict)
 
 
 def takeOutOfAnalysis(obj):
-    """Undoes putIntoAnalysis(): the source mesh takes its place back. Returns the analysis.
+    """Undoes putIntoAnalysis(): the mesh that was replaced takes its place back. Returns the analysis. One step to undo.
 
     Raises ValueError when `obj` is in no analysis.
     """
-    for analysis in _analyses(obj.Document):
-        if obj in analysis.Group:
-            analysis.removeObject(obj)
-            if obj.Source is not None and obj.Source not in analysis.Group:
-                analysis.addObject(obj.Source)
-            return analysis
-    raise ValueError(f"'{obj.Label}' is in no analysis")
-
-
-def _analyses(doc):
-    return doc.findObjects("Fem::FemAnalysis")
+    return take_out_of_analysis(obj)
 
 
 def _plane_placement(source, placement, origin, normal):

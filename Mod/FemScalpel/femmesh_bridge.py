@@ -69,11 +69,12 @@ def from_femmesh(femmesh):
     return femscalpel.Mesh(points, cells, node_ids, cell_ids, _read_groups(femmesh, known))
 
 
-def to_femmesh(mesh, as_node_groups=()):
+def to_femmesh(mesh, as_node_groups=(), points=None):
     """A Fem.FemMesh with the nodes, elements, numbers and groups of a femscalpel.Mesh.
 
     `as_node_groups` names element groups whose elements are not added; their nodes form a node group of that name.
-    See the module's text for what a FemMesh cannot hold. Raises femscalpel.WriteError.
+    `points`, (n, 3), are used in place of the mesh's own coordinates. See the module's text for what a FemMesh cannot
+    hold. Raises femscalpel.WriteError.
     """
     cells, cell_ids = mesh.cells, mesh.cell_ids
     _check_addable(mesh)
@@ -81,7 +82,7 @@ def to_femmesh(mesh, as_node_groups=()):
     left_out = np.unique(np.concatenate(left_out)) if left_out else np.empty(0, np.int64)
 
     femmesh = Fem.FemMesh()
-    x, y, z = mesh.points.T.tolist()
+    x, y, z = (mesh.points if points is None else points).T.tolist()
     numbers = mesh.node_ids.astype(object)  # one Python integer per node, however many elements name it
     _for_each(femmesh.addNode, x, y, z, numbers)
     add = {1: femmesh.addEdge, 2: femmesh.addFace, 3: femmesh.addVolume}

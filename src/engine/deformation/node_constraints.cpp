@@ -5,6 +5,7 @@
 #include "mesh/closest_point.h"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -453,75 +454,100 @@ NodeConstraints::Foot NodeConstraints::curve_foot(const NodeConstraint& c, const
     return best;
 }
 
-bool NodeConstraints::project(const NodeConstraint& c, const Tool* tool, Vec3& x) const {
+bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec3& x) const {
     const double tight = 1e-14 * size_;
-    if (c.freedom == NodeFreedom::fixed) return !tool || std::abs(tool->distance(x)) <= 1e-10 * size_;
-    if (c.freedom == NodeFreedom::free) {
-        if (!tool) return true;
-        for (int i = 0; i < 30; ++i) {
-            const double d = tool->distance(x);
-            if (std::abs(d) <= tight) return true;
-            x -= d * tool->normal(x);
-        }
-        return std::abs(tool->distance(x)) <= 1e-12 * size_;
-    }
+    const auto off_tools = [&](const Vec3& at) {
+        double off = 0;
+        for (const Tool* t : tools.tools()) off = std::max(off, std::abs(t->distance(at)));
+        return off;
+    };
+    if (c.freedom == NodeFreedom::fixed) return off_tools(x) <= 1e-10 * size_;
+    const bool free = c.freedom == NodeFreedom::free, surface = c.freedom == NodeFreedom::surface;
+    if (free && !tools) return true;
     NodeConstraint at = c;
-    const bool surface = c.freedom == NodeFreedom::surface;
-    const bool exact = surface ? surfaces_[c.shape].flat : curves_[c.shape].straight;
+    const auto foot_of = [&](const Vec3& p) {
+        if (!free) return surface ? surface_foot(at, p) : curve_foot(at, p);
+        Foot foot;
+        foot.at = p;
+        return foot;
+    };
+    const bool exact = free || (surface ? surfaces_[c.shape].flat : curves_[c.shape].straight);
     const double accept = exact ? 1e-12 * size_ : 1e-9 * size_;
-    if (!tool) {
-        x = (surface ? surface_foot(at, x) : curve_foot(at, x)).at;
+    if (!tools) {
+        x = foot_of(x).at;
         return true;
     }
     for (int i = 0; i < 60; ++i) {
-        const Foot foot = surface ? surface_foot(at, x) : curve_foot(at, x);
+        const Foot foot = foot_of(x);
         at.hint = foot.facet;
-        const double off_shape = std::sqrt(foot.distance2);
-        const double d = tool->distance(x);
-        if (off_shape <= (exact ? tight : accept) && std::abs(d) <= tight) return true;
-        // From the foot, along the shape, onto the tool's tangent plane.
-        const Vec3 n = tool->normal(foot.at);
-        const double from_foot = tool->distance(foot.at);
-        Vec3 along;
-        if (surface) along = n - n.dot(foot.normal) * foot.normal;
-        else along = n.dot(foot.normal) * foot.normal;
-        const double slope = along.squaredNorm();
-        if (slope < 1e-6) return false;  // parallel within 0.06 degrees
-        x = foot.at - (from_foot / slope) * along;
+        if (std::sqrt(foot.distance2) <= (exact ? tight : accept) && off_tools(x) <= tight) return true;
+        // From the foot, along the shape, onto the tangent planes of the tools.
+        const auto along_shape = [&](const Vec3& n) {
+            if (free) return n;
+            const Vec3 across = n.dot(foot.normal) * foot.normal;
+            return surface ? Vec3(n - across) : across;
+        };
+        if (tools.count() == 1) {
+            const Vec3 along = along_shape(tools.tools()[0]->normal(foot.at));
+            const double slope = along.squaredNorm();
+            if (slope < 1e-6) return false;  // parallel within 0.06 degrees
+            x = foot.at - (tools.tools()[0]->distance(foot.at) / slope) * along;
+        } else {
+            // The shortest such step: along = A^T m with A A^T m = -distances.
+            const int count = tools.count();
+            Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> a(count, 3);
+            Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> d(count);
+            for (int k = 0; k < count; ++k) {
+                a.row(k) = along_shape(tools.tools()[k]->normal(foot.at)).transpose();
+                d[k] = tools.tools()[k]->distance(foot.at);
+            }
+            const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+            if (svd.singularValues()[count - 1] < 1e-3) {
+                // More tools than directions: only right where they happen to meet.
+                if (off_tools(foot.at) > 1e-12 * size_) return false;
+                x = foot.at;
+                return true;
+            }
+            x = foot.at - Vec3(svd.solve(d));
+        }
     }
     // At a kink of a faceted surface the steps may alternate between two facets: close enough counts.
-    const Foot foot = surface ? surface_foot(at, x) : curve_foot(at, x);
+    const Foot foot = foot_of(x);
     if (std::sqrt(foot.distance2) > (exact ? accept : 1e-6 * size_)) return false;
-    return std::abs(tool->distance(x)) <= 1e-12 * size_;
+    return off_tools(x) <= 1e-12 * size_;
 }
 
-int NodeConstraints::tangents(int node, const Tool* tool, const Vec3& x, Eigen::Matrix3d& basis) const {
+int NodeConstraints::tangents(int node, const Contact& tools, const Vec3& x, Eigen::Matrix3d& basis) const {
     const NodeConstraint& c = nodes_[node];
-    std::array<Vec3, 2> normal;
+    // Orthonormal directions the node may not move in.
+    Eigen::Matrix3d held;
     int count = 0;
     switch (c.freedom) {
         case NodeFreedom::fixed: return 0;
         case NodeFreedom::curve:
-            if (tool) return 0;
+            if (tools) return 0;
             basis.col(0) = curve_foot(c, x).normal;
             return 1;
-        case NodeFreedom::surface: normal[count++] = surface_foot(c, x).normal; break;
+        case NodeFreedom::surface: held.col(count++) = surface_foot(c, x).normal; break;
         case NodeFreedom::free: break;
     }
-    if (tool) normal[count++] = tool->normal(x);
-    if (count == 0) {
-        basis.setIdentity();
-        return 3;
+    for (const Tool* t : tools.tools()) {
+        if (count == 3) return 0;
+        Vec3 n = t->normal(x);
+        for (int k = 0; k < count; ++k) n -= held.col(k).dot(n) * held.col(k);
+        const double length = n.norm();
+        if (length < 1e-3) return 0;
+        held.col(count++) = n / length;
     }
-    if (count == 1) {
-        basis.col(0) = normal[0].unitOrthogonal();
-        basis.col(1) = normal[0].cross(basis.col(0));
-        return 2;
+    switch (count) {
+        case 0: basis.setIdentity(); return 3;
+        case 1:
+            basis.col(0) = held.col(0).unitOrthogonal();
+            basis.col(1) = held.col(0).cross(basis.col(0));
+            return 2;
+        case 2: basis.col(0) = held.col(0).cross(held.col(1)).normalized(); return 1;
+        default: return 0;
     }
-    const Vec3 t = normal[0].cross(normal[1]);
-    if (t.norm() < 1e-3) return 0;
-    basis.col(0) = t.normalized();
-    return 1;
 }
 
 double NodeConstraints::distance(const NodeConstraint& c, const Vec3& x) const {

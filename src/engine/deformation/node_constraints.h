@@ -8,7 +8,7 @@
 
 #include "mesh/band_mesh.h"
 #include "mesh/family_table.h"
-#include "tools/tool.h"
+#include "tools/contact.h"
 
 namespace femscalpel {
 
@@ -59,13 +59,13 @@ public:
     /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
     NodeConstraint on_edge(const BandMesh& band, int a, int b) const;
 
-    /// Moves `x` to a near point that satisfies the node's constraints and, if `tool` is given, lies on it.
+    /// Moves `x` to a near point that satisfies the node's constraints and lies on all of `tools`.
     /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined.
-    bool project(int node, const Tool* tool, Vec3& x) const { return project(nodes_[node], tool, x); }
-    bool project(const NodeConstraint& constraint, const Tool* tool, Vec3& x) const;
+    bool project(int node, const Contact& tools, Vec3& x) const { return project(nodes_[node], tools, x); }
+    bool project(const NodeConstraint& constraint, const Contact& tools, Vec3& x) const;
 
     /// Orthonormal columns spanning the directions the node may move in at `x`; 0 to 3 columns.
-    int tangents(int node, const Tool* tool, const Vec3& x, Eigen::Matrix3d& basis) const;
+    int tangents(int node, const Contact& tools, const Vec3& x, Eigen::Matrix3d& basis) const;
 
     /// Distance of `x` to the node's surface or curve in the input; 0 for free nodes.
     double distance(const NodeConstraint& constraint, const Vec3& x) const;
@@ -74,6 +74,7 @@ public:
     std::optional<Vec3> surface_normal(const NodeConstraint& constraint, const Vec3& x) const;
 
     bool is_flat(int surface) const { return surfaces_[surface].flat; }
+    bool is_internal(int surface) const { return surfaces_[surface].internal; }
 
     /// Whether a node is on the outside in the paper's sense (3.1.2): on a face of only one tetrahedron,
     /// or, where there are only shells, on an edge of only one triangle.

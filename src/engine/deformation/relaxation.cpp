@@ -133,7 +133,7 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), membership(band, mesh), contact(static_cast<std::size_t>(band.size()), nullptr),
+    : band(std::move(b)), constraints(band, mesh, options), membership(band, mesh), contact(static_cast<std::size_t>(band.size())),
       side(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -143,11 +143,11 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
     }
 }
 
-int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
+int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
     const bool fixed = constraints.has_fixed_middle(a, b);
     const int node = band.split_edge(a, b, at);
-    contact.push_back(tool);
-    const double distance = barrier && !tool ? barrier->distance(at) : 0;
+    contact.push_back(tools);
+    const double distance = barrier && !tools.has(barrier) ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     constraints.add_node(band, node);
     if (fixed) constraints.fix_node(node);
@@ -155,11 +155,11 @@ int Deformable::split_edge(int a, int b, const Vec3& at, const Tool* tool) {
     return node;
 }
 
-Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Tool* tool) const {
+Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools) const {
     const NodeConstraint constraint = constraints.on_edge(band, a, b);
     if (constraint.freedom == NodeFreedom::free) return at;
     Vec3 fitted = at;
-    if (!constraints.project(constraint, tool, fitted) || fitted == at) return at;
+    if (!constraints.project(constraint, tools, fitted) || fitted == at) return at;
     const auto worst_child = [&](const Vec3& p) {
         double worst = 1;
         const auto look = [&](const auto& list, auto quality) {
@@ -181,6 +181,17 @@ Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Tool* tool) co
         return worst;
     };
     return worst_child(fitted) > 0.2 * worst_child(at) ? fitted : at;
+}
+
+Contact Deformable::edge_contact(int a, int b) const {
+    const Contact both = contact[a].common(contact[b]);
+    Contact out;
+    for (const Tool* t : both.tools()) {
+        const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
+        const double length = (band.nodes[a].at - band.nodes[b].at).norm();
+        if (std::abs(t->distance(middle)) <= 1e-9 * length || band.is_cut_edge(a, b)) out = out.with(t);
+    }
+    return out;
 }
 
 double tetra_quality(const Deformable& d, int tetra) {
@@ -231,9 +242,9 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
         for (const int v : active) {
             if (worst_around(v) >= options.target) continue;
             BandNode& node = band.nodes[v];
-            const Tool* tool = d.contact[v];
+            const Contact& tools = d.contact[v];
             Eigen::Matrix3d basis;
-            const int freedom = d.constraints.tangents(v, tool, node.at, basis);
+            const int freedom = d.constraints.tangents(v, tools, node.at, basis);
             if (freedom == 0) continue;
             star.gather(d, v);
             const auto tangent = basis.leftCols(freedom);
@@ -255,7 +266,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
                 bool accepted = false;
                 for (int halving = 0; halving < 7; ++halving, length *= 0.5) {
                     Vec3 x = node.at + length * step;
-                    if (!d.constraints.project(v, tool, x) || d.passes_barrier(v, x)) continue;
+                    if (!d.constraints.project(v, tools, x) || d.passes_barrier(v, x)) continue;
                     const double tried = star.value(x, doublings);
                     if (tried < value) {
                         accepted = true;

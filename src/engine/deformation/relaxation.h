@@ -6,16 +6,16 @@
 #include "deformation/node_constraints.h"
 #include "groups/node_membership.h"
 #include "mesh/band_mesh.h"
-#include "tools/tool.h"
+#include "tools/contact.h"
 
 namespace femscalpel {
 
-/// The state an operator deforms: a band, what its nodes have to stay on, and which tool each node lies on.
+/// The state an operator deforms: a band, what its nodes have to stay on, and which tools each node lies on.
 struct Deformable {
     BandMesh band;
     NodeConstraints constraints;
     NodeMembership membership;         ///< node groups of each node
-    std::vector<const Tool*> contact;  ///< by node: the tool it must stay on, or null
+    std::vector<Contact> contact;      ///< by node: the tools it must stay on
     std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
     const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0
     std::vector<signed char> side;     ///< by node: sign of its distance to `barrier`
@@ -23,11 +23,15 @@ struct Deformable {
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
 
     /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
-    int split_edge(int a, int b, const Vec3& at, const Tool* tool);
+    int split_edge(int a, int b, const Vec3& at, const Contact& tools);
 
-    /// The point near `at` on the surface or curve the edge a-b is on (and on `tool`), if elements split
+    /// The point near `at` on the surface or curve the edge a-b is on (and on `tools`), if elements split
     /// there are nearly as good as those split at `at`; else `at` itself.
-    Vec3 fitted_split(int a, int b, const Vec3& at, const Tool* tool) const;
+    Vec3 fitted_split(int a, int b, const Vec3& at, const Contact& tools) const;
+
+    /// The tools the edge a-b lies on: both its ends do, and it is not the chord of a curved tool, unless it is an edge
+    /// of the faces that stand for that tool.
+    Contact edge_contact(int a, int b) const;
 
     /// Whether a node may be at `x` as far as the barrier goes.
     bool passes_barrier(int node, const Vec3& x) const {

@@ -15,6 +15,8 @@ void for_each_list(BandMesh& band, Visit visit) {
     visit(band.vertices);
     visit(band.skin);
     visit(band.creases);
+    visit(band.cut_faces);
+    visit(band.cut_edges);
     visit(band.facet_faces);
     visit(band.facet_edges);
 }
@@ -39,6 +41,11 @@ int BandMesh::split_edge(int a, int b, const Vec3& at) {
 
 void BandMesh::merge_node(int p, int t) {
     for_each_list(*this, [&](auto& list) { list.merge(p, t); });
+}
+
+bool BandMesh::is_cut_edge(int a, int b) const {
+    return cut_edges.find({a, b}) >= 0 ||
+           std::ranges::any_of(cut_faces.around(a), [&](int s) { return std::ranges::find(cut_faces[s], b) != cut_faces[s].end(); });
 }
 
 void BandMesh::neighbours(int node, std::vector<int>& out) const {

@@ -121,6 +121,8 @@ public:
     SimplexList<1> vertices;
     SimplexList<3> skin;
     SimplexList<2> creases;
+    SimplexList<3> cut_faces;    ///< faces made to lie on a tool (tag: which surface of the operator)
+    SimplexList<2> cut_edges;    ///< edges of shells likewise
     SimplexList<3> facet_faces;  ///< facets of tetrahedra, normal out of their element (tag: index in Mesh::facets)
     SimplexList<2> facet_edges;  ///< facets on edges of triangles, in their direction (tag likewise)
     std::vector<std::pair<int, int>> facet_sides;  ///< facets that are a whole side of a triangle: (slot, index)
@@ -147,6 +149,9 @@ public:
     }
     int original_nodes() const { return size() - static_cast<int>(births.size()); }
     bool is_new(int node) const { return node >= original_nodes(); }
+
+    /// Whether a-b is an edge of `cut_faces` or `cut_edges`.
+    bool is_cut_edge(int a, int b) const;
 
     /// Splits the edge a-b in every list at a new node and returns it.
     int split_edge(int a, int b, const Vec3& at);

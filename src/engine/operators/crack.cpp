@@ -345,7 +345,7 @@ Result crack_with(const Mesh& input, const Tool& tool, const CrackOptions& optio
     }
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
     for (int v = 0; v < f.d.band.size(); ++v)
-        if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = nullptr;
+        if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = {};
     find_node_sets(f);
     add_moved_nodes(f);
     warn_of_grazing(f, tool);

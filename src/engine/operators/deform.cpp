@@ -308,7 +308,7 @@ public:
     double move() {
         for (int v = 0; v < band_.size(); ++v) {
             f_.distance[v] = side_[v];
-            d_.contact[v] = side_[v] == 0 ? &tool_ : nullptr;
+            d_.contact[v] = side_[v] == 0 ? Contact(&tool_) : Contact();
         }
         find_node_sets(f_);
         std::vector<Vec3> given;

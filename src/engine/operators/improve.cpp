@@ -45,10 +45,10 @@ public:
                 }
             // An earlier split of this round may have taken the edge.
             if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
-            const Tool* tool = d_.contact[a] && d_.contact[a] == d_.contact[b] ? d_.contact[a] : nullptr;
-            const Vec3 at = d_.fitted_split(a, b, (band_.nodes[a].at + band_.nodes[b].at) / 2, tool);
-            d_.split_edge(a, b, at, tool);
-            f_.distance.push_back(tool ? 0 : tool_.distance(at));
+            const Contact tools = d_.edge_contact(a, b);
+            const Vec3 at = d_.fitted_split(a, b, (band_.nodes[a].at + band_.nodes[b].at) / 2, tools);
+            d_.split_edge(a, b, at, tools);
+            f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
             any = true;
         }
         return any;
@@ -86,7 +86,10 @@ private:
 
     /// Whether moving p onto t keeps everything p stands for.
     bool may_merge(int p, int t) {
-        if (d_.contact[p] != nullptr && d_.contact[t] != d_.contact[p]) return false;
+        // Where tools cross, nodes stay; on one tool the edge p-t must run in it.
+        if (d_.contact[p].count() > 1 || !d_.contact[t].includes(d_.contact[p])) return false;
+        if (!band_.cut_faces.around(p).empty() && !joined(band_.cut_faces, p, t)) return false;
+        if (!band_.cut_edges.around(p).empty() && !joined(band_.cut_edges, p, t)) return false;
         const NodeConstraint& c = d_.constraints[p];
         // On a surface or crease the edge p-t itself must run in it.
         if (!band_.creases.around(p).empty()) {
@@ -117,6 +120,9 @@ private:
             const bool skin_p = joined(band_.skin, p, w), skin_t = joined(band_.skin, t, w);
             if (skin_p && skin_t && joined(band_.skin, p, t) && band_.skin.find({p, t, w}) < 0) return false;
             if (joined(band_.creases, p, w) && joined(band_.creases, t, w)) return false;
+            if (joined(band_.cut_faces, p, w) && joined(band_.cut_faces, t, w) && joined(band_.cut_faces, p, t) && band_.cut_faces.find({p, t, w}) < 0)
+                return false;
+            if (joined(band_.cut_edges, p, w) && joined(band_.cut_edges, t, w)) return false;
         }
         return true;
     }
@@ -155,7 +161,7 @@ private:
         }
         if (target < 0) return false;
         band_.merge_node(p, target);
-        d_.contact[p] = nullptr;
+        d_.contact[p] = {};
         return true;
     }
 

@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    bool on_tool(int v) const { return f_.d.contact[v] != nullptr; }
+    bool on_tool(int v) const { return static_cast<bool>(f_.d.contact[v]); }
 
     template <std::size_t N>
     int side(const std::array<int, N>& nodes) const {

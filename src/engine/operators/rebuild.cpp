@@ -146,11 +146,10 @@ private:
     }
 
     Vec3 half_way(int a, int b) const {
-        const Tool* tool = f_.d.contact[a] && f_.d.contact[a] == f_.d.contact[b] ? f_.d.contact[a] : nullptr;
         const Vec3 chord = (band_.nodes[a].at + band_.nodes[b].at) / 2;
         Vec3 at = chord;
         const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
-        if (f_.d.constraints.project(f_.d.constraints.on_edge(band_, a, b), tool, at) && (at - chord).norm() < 0.25 * length) return at;
+        if (f_.d.constraints.project(f_.d.constraints.on_edge(band_, a, b), f_.d.edge_contact(a, b), at) && (at - chord).norm() < 0.25 * length) return at;
         return chord;
     }
 

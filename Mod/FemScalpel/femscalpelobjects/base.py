@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the document objects of FemScalpel have in common: a FEM mesh made from another one by an operator."""
+
+import dataclasses
+
+import FreeCAD
+import Fem
+
+import femmesh_bridge
+import femscalpel
+
+from .on_shape import OnShape, nodes_around, shapes_of
+
+# Attribute bits of addProperty.
+OUTPUT = 8  # setting it does not ask for a recompute
+
+_RESULTS = (
+    ("App::PropertyInteger", "NodesAdded", "Nodes made by splitting and by doubling"),
+    ("App::PropertyInteger", "NodesDoubled", "Nodes of the crack that each side has its own copy of"),
+    ("App::PropertyInteger", "NodesMoved", "Nodes moved onto the tool or to improve elements"),
+    ("App::PropertyFloat", "MinimumQuality", "Least mean ratio of the elements near the tool; 1 is equilateral"),
+    ("App::PropertyFloat", "MinimumQualityBefore", "The same before"),
+    ("App::PropertyLength", "MaxDisplacement", "Largest distance a node was moved"),
+    ("App::PropertyStringList", "Warnings", "What to look at before trusting the mesh"),
+    ("App::PropertyStringList", "OffShape", "Faces and edges of the geometry that mesh nodes could not be put back on; "
+     "FreeCAD finds loads and supports by geometry and would miss these nodes"),
+    ("App::PropertyStringList", "GroupReport", "Summary and table of groups, line by line"),
+    ("App::PropertyMap", "NodeSetCounts", "Number of nodes in the sets ICN, ECN (interface), ITN, ETN (transition)"),
+    ("App::PropertyMap", "ConstraintCounts", "Number of constraints on moving nodes by kind"),
+)
+# The link to the geometry that FreeCAD's solver writers look for on a mesh object: Part up to 0.21, Shape from 1.0.
+_GEOMETRY_LINKS = ("Part", "Shape")
+
+
+class MeshOperation:
+    """Proxy of a Fem::FemMeshObjectPython that holds its Source's mesh after an operator.
+
+    After a recompute, `report` is the femscalpel.Report of it; it is not saved with the document.
+
+    Coordinates are those the user sees: Source's placement is applied to its nodes, and the result has none of its own.
+    Nodes that come to lie elsewhere on the geometry Source was made from are put onto it exactly, because FreeCAD finds
+    the nodes of loads, supports and materials by their distance from it; see OnShape.
+
+    When the mesh cannot be made the object is left without one, with FreeCAD's error mark and the reason, so that no
+    outdated mesh can be mistaken for the result.
+
+    FreeCAD drops empty groups whenever a mesh is given to a document object, and renumbers nodes and elements from 1 when
+    a document is saved. So a loaded object and a loaded Source may number the same element differently; a recompute
+    (obj.touch(), then doc.recompute()) makes the mesh anew and brings the numbers together again.
+
+    A subclass says what its operator is by `Type`, INPUTS, and the methods tools(), where_nodes_may_move() and operate().
+    """
+
+    #: Properties (type, name, text) of the operator, in addition to Source; shown under the class's name.
+    INPUTS = ()
+    #: Values of input properties that differ from FreeCAD's own.
+    DEFAULTS = {}
+
+    def __init__(self, obj):
+        self.report = None
+        obj.Proxy = self
+        self.add_properties(obj)
+
+    # --- what a subclass says
+
+    def tools(self, obj):
+        """The femscalpel tools of the operator, in a list."""
+        raise NotImplementedError
+
+    def where_nodes_may_move(self, obj, mesh, tools):
+        """Boolean array: the nodes of `mesh` the operator may move, or take as a parent of a new node, and some more."""
+        return nodes_around(mesh, tools, rings=max(obj.Transition, 3) + 3)
+
+    def operate(self, obj, mesh, tools):
+        """The femscalpel.Result of the operator on `mesh`."""
+        raise NotImplementedError
+
+    # --- properties
+
+    def add_properties(self, obj):
+        """Adds the properties an object of an older version may lack."""
+        present = set(obj.PropertiesList)
+        section = type(self).__name__
+        for kind, name, text in (("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"), *self.INPUTS):
+            if name in present:
+                continue
+            obj.addProperty(kind, name, section, text)
+            for value in self.DEFAULTS.get(name, ()):
+                setattr(obj, name, value)
+        for kind, name, text in _RESULTS:
+            if name not in present:
+                obj.addProperty(kind, name, "Result", text, OUTPUT)
+            obj.setEditorMode(name, 1)
+        if "Replaced" not in present:
+            obj.addProperty("App::PropertyLinkHidden", "Replaced", section, "Mesh whose place in an analysis this one has taken",
+                            OUTPUT)
+        obj.setEditorMode("Replaced", 2)
+        obj.setEditorMode("Placement", 2)
+
+    def onDocumentRestored(self, obj):
+        self.add_properties(obj)
+
+    def onChanged(self, obj, prop):
+        # While a document loads, a link may be set before what it points to is complete.
+        if prop == "Source" and "Restore" not in obj.State:
+            self._link_geometry(obj)
+
+    def _link_geometry(self, obj):
+        source = obj.Source
+        for name in _GEOMETRY_LINKS:
+            linked = source is not None and name in source.PropertiesList and \
+                source.getTypeIdOfProperty(name) == "App::PropertyLink"
+            if linked and name not in obj.PropertiesList:
+                obj.addProperty("App::PropertyLink", name, "FEM Mesh", "Geometry the source mesh is made from", OUTPUT)
+                obj.setEditorMode(name, 1)
+            if name in obj.PropertiesList:
+                value = getattr(source, name) if linked else None
+                if getattr(obj, name) != value:
+                    setattr(obj, name, value)
+
+    # --- making the mesh
+
+    def execute(self, obj):
+        """Makes the mesh anew from Source. Raises RuntimeError with the reason when it cannot."""
+        self._link_geometry(obj)
+        try:
+            source = self._source_mesh(obj)
+            mesh = femmesh_bridge.from_femmesh(source)
+            tools = self.tools(obj)
+            on_shape = OnShape(mesh, shapes_of(obj), self.where_nodes_may_move(obj, mesh, tools))
+            result = self.operate(obj, mesh, tools)
+            points = on_shape.put_back(result.mesh, tools)
+            report = self._completed(result.report, on_shape)
+            self._check_names(obj, report)
+            femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
+        except Exception as error:
+            self._clear(obj)
+            if isinstance(error, (femscalpel.Error, ValueError, TypeError)):
+                raise RuntimeError(f"{obj.Label}: {error}") from error
+            raise
+        if not obj.Placement.isIdentity():
+            obj.Placement = FreeCAD.Placement()
+        obj.FemMesh = femmesh
+        self._show(obj, report, on_shape.lost)
+
+    @staticmethod
+    def _source_mesh(obj):
+        source = obj.Source
+        if source is None:
+            raise ValueError("Source is not set; choose the FEM mesh to work on")
+        if not source.isDerivedFrom("Fem::FemMeshObject"):
+            raise ValueError(f"Source '{source.Label}' is not a FEM mesh")
+        if "Invalid" in source.State:
+            raise ValueError(f"Source '{source.Label}' has an error; mend it first")
+        if source.FemMesh.NodeCount == 0:
+            raise ValueError(f"Source '{source.Label}' has no mesh; make it first")
+        return source.FemMesh
+
+    @staticmethod
+    def _completed(report, on_shape):
+        """The operator's report without the bookkeeping groups of `on_shape`, with its warnings."""
+        lost = [f"{line}: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete"
+                for line in on_shape.lost]
+        return dataclasses.replace(report, groups=[g for g in report.groups if g.name not in on_shape.group_names],
+                                   warnings=report.warnings + lost)
+
+    @staticmethod
+    def _check_names(obj, report):
+        """FreeCAD's solver writers take any group whose name begins with a constraint's name and "_" for that constraint's."""
+        for group in report.groups:
+            if group.status != "new":
+                continue
+            for other in obj.Document.Objects:
+                if group.name.startswith(other.Name + "_") and hasattr(other, "References"):
+                    raise ValueError(f"the new group '{group.name}' would be taken for the nodes of '{other.Label}'; "
+                                     "choose another GroupName")
+
+    @staticmethod
+    def _node_groups(source, report):
+        """Names of the new groups that must be node groups.
+
+        Once a solid mesh has any face elements, FreeCAD's solver writers look for loaded faces among them only, and
+        find none on a mesh that has but the crack's lips: the load would be lost without a message.
+        """
+        if source.VolumeCount == 0 or source.FaceCount > 0:
+            return ()
+        return tuple(g.name for g in report.groups if g.status == "new" and g.kind == "element")
+
+    def _show(self, obj, report, lost):
+        self.report = report
+        for warning in report.warnings:
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
+        before, after = report.quality
+        obj.NodesAdded = report.nodes_added
+        obj.NodesDoubled = report.nodes_doubled
+        obj.NodesMoved = report.nodes_moved
+        obj.MinimumQuality = after.minimum
+        obj.MinimumQualityBefore = before.minimum
+        obj.MaxDisplacement = report.max_displacement
+        obj.Warnings = report.warnings
+        obj.OffShape = lost
+        obj.GroupReport = report.to_text().splitlines()
+        obj.NodeSetCounts = {name: str(len(ids)) for name, ids in report.node_sets.items()}
+        obj.ConstraintCounts = {kind: str(count) for kind, count in report.constraints.items()}
+
+    def _clear(self, obj):
+        # FreeCAD does not recompute what depends on a failed object, so it would keep showing its outdated mesh.
+        for dependent in obj.InList:
+            if isinstance(getattr(dependent, "Proxy", None), MeshOperation) and dependent.Source == obj:
+                dependent.Proxy._clear(dependent)
+        self.report = None
+        obj.FemMesh = Fem.FemMesh()
+        for name in ("NodesAdded", "NodesDoubled", "NodesMoved", "MinimumQuality", "MinimumQualityBefore", "MaxDisplacement"):
+            setattr(obj, name, 0)
+        obj.Warnings = []
+        obj.OffShape = []
+        obj.GroupReport = []
+        obj.NodeSetCounts = {}
+        obj.ConstraintCounts = {}
+
+    def dumps(self):
+        """State FreeCAD saves with the document: none, the properties say everything."""
+        return None
+
+    def loads(self, state):
+        """Called by FreeCAD in place of __init__ when a document is loaded."""
+        self.report = None
+
+    # FreeCAD before 0.21.2 asks for these.
+    __getstate__ = dumps
+    __setstate__ = loads
+
+
+#: Input properties of the operators that bring element faces onto a tool.
+SURFACE_INPUTS = (
+    ("App::PropertyEnumeration", "Method", "snap: move and split, always succeeds; deform: only move nodes"),
+    ("App::PropertyIntegerConstraint", "Transition", "Rings of elements around the tool that may move; 0: automatic"),
+    ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
+)
+SURFACE_DEFAULTS = {
+    "Method": (list(femscalpel.operators.METHODS), "snap"),
+    "Transition": ((0, 0, 1000, 1),),
+    "FeatureAngle": (30,),
+}
+
+
+def surface_options(obj):
+    """The properties SURFACE_INPUTS and GroupName as keyword arguments of femscalpel's operators."""
+    return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value)
