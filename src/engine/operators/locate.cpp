@@ -23,45 +23,76 @@ Adjacency::Adjacency(const Mesh& mesh) : start_(mesh.points.size() + 1, 0) {
     }
 }
 
-Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency* adjacency) {
-    Location out;
-    out.distance.resize(mesh.points.size());
-    out.level.assign(mesh.points.size(), -1);
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < mesh.points.size(); ++n) {
-        out.distance[n] = tool.distance(mesh.points[n]);
-        low = low.cwiseMin(mesh.points[n]);
-        high = high.cwiseMax(mesh.points[n]);
-        if (std::abs(out.distance[n]) < std::abs(nearest)) nearest = out.distance[n];
-    }
-    if (mesh.points.empty()) throw ToolError("the mesh is empty: there is nothing to cut");
-    out.tolerance = 1e-10 * (high - low).norm();
+namespace {
 
-    bool touched = false;
+/// Longest edge of an element, by its corners.
+double longest_edge(const Mesh& mesh, const CellTraits& t, const Index* n) {
+    double longest = 0;
+    for (int a = 0; a < t.corners; ++a)
+        for (int b = 0; b < a; ++b) longest = std::max(longest, (mesh.points[n[a]] - mesh.points[n[b]]).squaredNorm());
+    return std::sqrt(longest);
+}
+
+/// Marks the nodes of elements that one blade touches with level 0.
+void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& distance, Location& out) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const double d : distance)
+        if (std::abs(d) < std::abs(nearest)) nearest = d;
+    bool touched = false, beyond = false;
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
         if (t.dimension < 2) continue;
         const Index* n = b.connectivity.data();
         for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
-            double smallest = out.distance[n[0]], largest = smallest;
+            double smallest = distance[n[0]], largest = smallest;
             for (int k = 1; k < t.corners; ++k) {
-                smallest = std::min(smallest, out.distance[n[k]]);
-                largest = std::max(largest, out.distance[n[k]]);
+                smallest = std::min(smallest, distance[n[k]]);
+                largest = std::max(largest, distance[n[k]]);
             }
             if (smallest > out.tolerance || largest < -out.tolerance) continue;
+            if (blade.bound) {
+                double bound = std::numeric_limits<double>::infinity();
+                for (int k = 0; k < t.corners; ++k) bound = std::min(bound, blade.bound(mesh.points[n[k]]));
+                if (bound > blade_margin * longest_edge(mesh, t, n)) {
+                    beyond = true;
+                    continue;
+                }
+            }
             const bool crossed = smallest < -out.tolerance && largest > out.tolerance;
             if (crossed) ++out.crossed;
             for (int k = 0; k < t.corners; ++k)
-                if (crossed || std::abs(out.distance[n[k]]) <= out.tolerance) out.level[n[k]] = 0;
+                if (crossed || std::abs(distance[n[k]]) <= out.tolerance) out.level[n[k]] = 0;
             touched = true;
         }
     }
-    if (!touched) {
-        std::ostringstream message;
-        message << "the " << tool.kind() << " misses the mesh: the whole mesh lies on its " << (nearest > 0 ? "positive" : "negative")
-                << " side, the nearest node at distance " << std::abs(nearest) << ". Move the " << tool.kind() << " or turn it";
-        throw ToolError(message.str());
+    if (touched) return;
+    std::ostringstream message;
+    if (beyond) {
+        message << "the " << blade.tool->kind() << " meets the mesh only outside the part of it that is to cut. Move that part into the material";
+    } else {
+        message << "the " << blade.tool->kind() << " misses the mesh: the whole mesh lies on its " << (nearest > 0 ? "positive" : "negative")
+                << " side, the nearest node at distance " << std::abs(nearest) << ". Move the " << blade.tool->kind() << " or turn it";
+    }
+    throw ToolError(message.str());
+}
+
+}  // namespace
+
+Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency) {
+    Location out;
+    out.level.assign(mesh.points.size(), -1);
+    if (mesh.points.empty()) throw ToolError("the mesh is empty: there is nothing to cut");
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Vec3& x : mesh.points) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    out.tolerance = 1e-10 * (high - low).norm();
+    for (const Blade& blade : blades) {
+        std::vector<double> distance(mesh.points.size());
+        for (std::size_t n = 0; n < mesh.points.size(); ++n) distance[n] = blade.tool->distance(mesh.points[n]);
+        touch(mesh, blade, distance, out);
+        if (&blade == blades.data()) out.distance = std::move(distance);
     }
 
     std::vector<Index> front, next;
