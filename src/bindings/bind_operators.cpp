@@ -60,6 +60,7 @@ py::dict to_dict(const Report& report) {
     out["nodes_split"] = report.nodes_split;
     out["nodes_doubled"] = report.nodes_doubled;
     out["nodes_moved"] = report.nodes_moved;
+    out["nodes_removed"] = report.nodes_removed;
     out["elements_added"] = report.elements_added;
     out["elements_removed"] = report.elements_removed;
     out["max_displacement"] = report.max_displacement;

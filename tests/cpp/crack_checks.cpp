@@ -419,6 +419,8 @@ private:
     double tolerance() const { return rounding * model_.size; }
     bool on_plane(Index n) const { return std::abs(distance_[n]) <= tolerance(); }
     Index id(Index n) const { return out_.node_ids[n]; }
+    using Place = std::array<double, 3>;
+    Place place(Index n) const { return {out_.points[n].x(), out_.points[n].y(), out_.points[n].z()}; }
     bool is_input_node(Index n) const { return id(n) <= model_.largest_node; }
     bool same_place(Index n) const {
         return is_input_node(n) && std::memcmp(out_.points[n].data(), in_.points[model_.node_index.at(id(n))].data(), sizeof(Vec3)) == 0;
@@ -434,6 +436,10 @@ private:
                 if (!index_.contains(i)) bad_.add("node sets", set, " names node ", i, ", which the mesh does not have");
                 if (!in_sets_.insert(i).second) bad_.add("node sets", "node ", i, " is named twice");
             }
+        for (const char* set : {"ICN", "ECN"})
+            if (report_.node_sets.contains(set))
+                for (const Index i : report_.node_sets.at(set))
+                    if (const auto n = index_.find(i); n != index_.end()) interface_places_.insert(place(n->second));
     }
 
     bool numbers_and_nodes() {
@@ -536,7 +542,7 @@ private:
             if (is_tetra(type) == model_.solid || is_shell(n)) {
                 if (!(q > 0)) bad_.add("inverted", "element ", number, ", mean ratio ", q);
                 else if (q < degenerate) bad_.add("degenerate", "element ", number, ", mean ratio ", q);
-                if (std::any_of(n.begin(), n.begin() + corners, [&](Index k) { return in_sets_.contains(id(k)) || on_plane(k); })) {
+                if (std::any_of(n.begin(), n.begin() + corners, [&](Index k) { return in_sets_.contains(id(k)) || interface_places_.contains(place(k)); })) {
                     ++band_count_;
                     band_minimum_ = std::min(band_minimum_, q);
                 }
@@ -810,8 +816,6 @@ private:
             bad_.add("lips", "there are none");
             return;
         }
-        using Place = std::array<double, 3>;
-        const auto place = [&](Index n) { return Place{out_.points[n].x(), out_.points[n].y(), out_.points[n].z()}; };
         std::map<std::vector<Place>, int> faces;
         std::map<Place, std::set<Index>> nodes[2];
         for (int side = 0; side < 2; ++side)
@@ -1027,6 +1031,7 @@ private:
     std::unordered_map<Index, Index> index_;  // node number -> index in out_
     std::vector<double> distance_;
     std::set<Index> in_sets_;
+    std::set<Place> interface_places_;  ///< of the named interface nodes, and so of their doubles
     std::set<Index> mid_nodes_;
     bool mids_known_ = false;
     std::vector<TetraFace> faces_;
@@ -1376,6 +1381,7 @@ Grazing grazing(const Model& model, const CutPlane& plane) {
 
 double section_measure(const Model& model, const CutPlane& plane) {
     double sum = 0;
+    std::map<std::vector<Index>, int> met;  // faces (edges) in the plane, bit 1: from above, bit 2: from below
     const auto crossing = [&](const Mesh& mesh, Index a, Index b) {
         const double da = plane.distance(mesh.points[a]), db = plane.distance(mesh.points[b]);
         return Vec3(mesh.points[a] + da / (da - db) * (mesh.points[b] - mesh.points[a]));
@@ -1390,6 +1396,15 @@ double section_measure(const Model& model, const CutPlane& plane) {
         std::vector<Vec3> polygon;
         for (const Index a : above)
             for (const Index b : below) polygon.push_back(crossing(model.mesh, a, b));
+        // A face in the plane opens where it is met from both sides, and counts once.
+        if (above.empty() || below.empty()) {
+            if (on.size() != (model.solid ? 3 : 2)) return;
+            std::ranges::sort(on);
+            int& sides = met[on];
+            const int before = sides;
+            sides |= above.empty() ? 2 : 1;
+            if (before == sides || sides != 3) return;
+        }
         // Two above, two below: 0-0, 0-1, 1-0, 1-1; around the quadrangle the last two change places.
         if (polygon.size() == 4) std::swap(polygon[2], polygon[3]);
         for (const Index k : on) polygon.push_back(model.mesh.points[k]);
@@ -1397,10 +1412,9 @@ double section_measure(const Model& model, const CutPlane& plane) {
             if (polygon.size() < 3) return;
             Vec3 area = Vec3::Zero();
             for (std::size_t k = 1; k + 1 < polygon.size(); ++k) area += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]) / 2;
-            // A face in the plane is met from both sides.
-            sum += area.norm() / (on.size() == 3 ? 2 : 1);
+            sum += area.norm();
         } else if (polygon.size() == 2) {
-            sum += (polygon[1] - polygon[0]).norm() / (on.size() == 2 ? 2 : 1);
+            sum += (polygon[1] - polygon[0]).norm();
         }
     });
     return sum;

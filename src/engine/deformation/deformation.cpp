@@ -14,7 +14,7 @@ void deform(Deformable& d, const std::vector<int>& interface, const std::vector<
         const int v = transition[k];
         if (spread[k].isZero()) continue;
         Vec3 x = d.band.nodes[v].at + spread[k];
-        if (!d.constraints.project(v, d.contact[v], x) || d.passes_barrier(v, x)) continue;
+        if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         // Node by node the displacement is only right once all have moved, so a loss is tolerated while
         // elements stay sound.
         const double before = quality_around(d, v, d.band.nodes[v].at);

@@ -17,6 +17,9 @@ namespace {
 /// through a text file with nine digits still count as plane.
 constexpr double flat_tolerance = 1e-9;
 
+/// A node that moves along a bent line may dent it by this many edge lengths.
+constexpr double deepest_dent = 0.05;
+
 class UnionFind {
 public:
     explicit UnionFind(int count) : parent_(static_cast<std::size_t>(count)) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -72,6 +75,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     const int node_count = band.size();
     nodes_.resize(static_cast<std::size_t>(node_count));
     exterior_.assign(static_cast<std::size_t>(node_count), 0);
+    leash_.assign(static_cast<std::size_t>(node_count), std::numeric_limits<double>::infinity());
     facets_around_.resize(static_cast<std::size_t>(node_count));
     segments_around_.resize(static_cast<std::size_t>(node_count));
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -303,6 +307,16 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             if (passes[v]) {
                 c.hint = creases_at[v][0];
                 c.shape = segments_[c.hint].curve;
+                // Moved by s, the node leaves a dent of about s sin(bend).
+                std::array<Vec3, 2> away;
+                double length = std::numeric_limits<double>::infinity();
+                for (int k = 0; k < 2; ++k) {
+                    const Segment& s = segments_[creases_at[v][k]];
+                    away[k] = (4 * s.mid - 3 * band.nodes[v].at - s.end[s.node[0] == v ? 1 : 0]).normalized();
+                    length = std::min(length, (s.end[1] - s.end[0]).norm());
+                }
+                const double bend = away[0].cross(away[1]).norm();
+                if (bend > 0) leash_[v] = deepest_dent / bend * length;
             }
         } else if (!around.empty()) {
             // One closed fan of one surface; two sheets that touch in this node alone pin it.
@@ -341,6 +355,7 @@ NodeConstraint NodeConstraints::on_edge(const BandMesh& band, int a, int b) cons
 void NodeConstraints::add_node(const BandMesh& band, int node) {
     nodes_.resize(static_cast<std::size_t>(band.size()));
     exterior_.resize(static_cast<std::size_t>(band.size()), 0);
+    leash_.resize(static_cast<std::size_t>(band.size()), std::numeric_limits<double>::infinity());
     nodes_[node] = on_edge(band, band.births[node - band.original_nodes()].a, node);
     for (const int s : band.skin.around(node)) {
         const Surface& surface = surfaces_[band.skin.tag(s)];

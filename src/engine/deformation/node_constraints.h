@@ -59,6 +59,10 @@ public:
     /// Orthonormal columns spanning the directions the node may move in at `x`; 0 to 3 columns.
     int tangents(int node, const Contact& tools, const Vec3& x, Eigen::Matrix3d& basis) const;
 
+    /// How far a node may move from where it was: where a line of straight segments bends (the rim of a hole), moving
+    /// its node cuts the corner, and the line and what it bounds would lose their shape. Infinite elsewhere.
+    double leash(int node) const { return leash_[node]; }
+
     /// Distance of `x` to the node's surface or curve in the input; 0 for free nodes.
     double distance(const NodeConstraint& constraint, const Vec3& x) const;
 
@@ -131,6 +135,7 @@ private:
     std::vector<Curve> curves_;
     std::vector<std::vector<int>> facets_around_;    // by input node
     std::vector<std::vector<int>> segments_around_;  // by input node
+    std::vector<double> leash_;
     std::vector<char> exterior_;
     std::vector<char> shell_;
     std::vector<char> loose_;

@@ -263,7 +263,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
                 bool accepted = false;
                 for (int halving = 0; halving < 7; ++halving, length *= 0.5) {
                     Vec3 x = node.at + length * step;
-                    if (!d.constraints.project(v, tools, x) || d.passes_barrier(v, x)) continue;
+                    if (!d.constraints.project(v, tools, x) || d.is_barred(v, x)) continue;
                     const double tried = star.value(x, doublings);
                     if (tried < value) {
                         accepted = true;

@@ -31,9 +31,10 @@ struct Deformable {
     /// of the faces that stand for that tool.
     Contact edge_contact(int a, int b) const;
 
-    /// Whether a node may be at `x` as far as the barrier goes.
-    bool passes_barrier(int node, const Vec3& x) const {
-        return barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0;
+    /// Whether a node must not be at `x`: behind the barrier, or so far along a bent line that the line would lose its shape.
+    bool is_barred(int node, const Vec3& x) const {
+        return (barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0) ||
+               (x - band.nodes[node].start).norm() > constraints.leash(node);
     }
 };
 

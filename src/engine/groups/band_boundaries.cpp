@@ -169,27 +169,33 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     }
 
     // 2. Groups of volume elements have their boundary where they differ; node groups where a face belongs and
-    // is not between two elements of the area. The node groups of a node's skin faces tell shortcuts.
-    const auto skin_or_shell = [](const Face& f) { return f.tetra[1] < 0; };
-    std::vector<int> on_skin(in.size(), 0);
-    for (const auto* list : {&faces, &faces_})
-        for (const Face& f : *list)
-            if (skin_or_shell(f))
-                if (const int set = in_all(f.nodes))
-                    for (const int v : f.nodes) on_skin[v] = sets.either(on_skin[v], set);
+    // is not between two elements of the area. The node groups of a node's faces that are kept anyway tell shortcuts.
+    std::vector<char> kept_anyway(faces.size());
+    std::vector<int> on_kept(in.size(), 0);
+    const auto note_kept = [&](const Face& f) {
+        if (const int set = in_all(f.nodes))
+            for (const int v : f.nodes) on_kept[v] = sets.either(on_kept[v], set);
+    };
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+        Face& f = faces[k];
+        const auto volume = [&](int t) { return t < 0 ? 0 : of_cell(band.tetra_cells[band.tetras.origin(t)]); };
+        f.kind = sets.either(f.kind, sets.differ(volume(f.tetra[0]), volume(f.tetra[1])));
+        kept_anyway[k] = f.is_skin() || f.element || f.kind != 0;
+        if (kept_anyway[k]) note_kept(f);
+    }
+    for (const Face& shell : faces_) note_kept(shell);
     const auto opposite = [&](int tetra, const std::array<int, 3>& face) {
         for (const int v : band.tetras[tetra])
             if (!holds(face, v)) return in[v];
         return 0;
     };
-    for (Face& f : faces) {
-        const auto volume = [&](int t) { return t < 0 ? 0 : of_cell(band.tetra_cells[band.tetras.origin(t)]); };
-        f.kind = sets.either(f.kind, sets.differ(volume(f.tetra[0]), volume(f.tetra[1])));
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+        Face& f = faces[k];
         if (int belongs = in_all(f.nodes)) {
             if (f.is_internal()) {
                 const auto& [a, b, c] = f.nodes;
                 belongs = sets.minus(belongs, sets.both(opposite(f.tetra[0], f.nodes), opposite(f.tetra[1], f.nodes)));
-                if (belongs) belongs = sets.minus(belongs, sets.both(sets.both(on_skin[a], on_skin[b]), on_skin[c]));
+                if (belongs && !kept_anyway[k]) belongs = sets.minus(belongs, sets.both(sets.both(on_kept[a], on_kept[b]), on_kept[c]));
             }
             f.kind = sets.either(f.kind, belongs);
         }
@@ -227,7 +233,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
                 // The face with the fourth node left out holds the edge.
                 for (const auto& f : outward_faces) {
                     const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
-                    if (!holds(nodes, v[k]) && faces[index.find(nodes)].is_skin()) through = false;
+                    if (!holds(nodes, v[k]) && kept_anyway[index.find(nodes)]) through = false;
                 }
             }
         }
@@ -237,7 +243,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
             for (const int v : band.triangles[t])
                 if (v != a && v != b) groups = sets.minus(groups, in[v]);
         }
-        if (through) groups = sets.minus(groups, sets.both(on_skin[a], on_skin[b]));
+        if (through) groups = sets.minus(groups, sets.both(on_kept[a], on_kept[b]));
         if (groups != 0) put_line(edge, groups, false);
     };
     const auto link_edges = [&](const auto& list) {

@@ -17,10 +17,10 @@ namespace femscalpel {
 ///
 /// Differences from virtual_boundary(), for the purpose:
 /// - Faces and segments that are *members* are kept even inside an area they enclose, as the elements they are.
-/// - Node groups: a face through the material all of whose nodes lie on skin faces of the same group is
-///   not kept, nor is such an edge. (A support on two sides of a corner has such shortcuts in every
-///   corner element. Its nodes keep to the skin; pinning them to the shortcut too would freeze the corner.)
-///   At the rim of the band, where not all skin faces are known, shortcuts are kept.
+/// - Node groups: a face through the material is not kept if all its nodes lie on faces of the same group that are kept
+///   anyway (skin, borders between volume groups, members), nor is such an edge. (A support on two sides of a corner
+///   has such shortcuts in every corner element. Its nodes keep to the faces; pinning them to the shortcut too would
+///   freeze the corner.) At the rim of the band, where not all faces are known, shortcuts are kept.
 /// - Entities of outer nodes only, which never move, are left out.
 ///
 /// The cost is that of the band, whatever the number of groups: groups are handled as families.

@@ -34,7 +34,7 @@ struct Lips {
     template <std::size_t N>
     struct Face {
         std::array<int, N> nodes;
-        bool positive;
+        int group;  ///< which of the operator's groups of faces; of a crack: 0 the negative lip, 1 the positive
         int element;
         bool second_order;
     };

@@ -17,7 +17,7 @@ public:
         out_.mesh = std::move(copy);
     }
 
-    Rebuilt run(const std::string& positive, const std::string& negative) {
+    Rebuilt run(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
         next_node_ = input_.largest_node_id() + 1;
         next_cell_ = input_.largest_cell_id() + 1;
@@ -29,11 +29,13 @@ public:
         write_cells(band_.lines, lips_.lines, band_.line_cells, line_cell_);
         write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
         write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
-        write_lips(positive, negative);
+        write_lips(groups);
         straighten_bad_tetrahedra();
         write_facets();
+        for (const CellRef& c : f_.deep_inside) note_removed(c);
         remove_cells();
         out_.elements_removed = static_cast<Index>(removed_.size());
+        remove_nodes();
         out_.elements_added = mesh.cell_count() - input_.cell_count() + out_.elements_removed;
         return std::move(out_);
     }
@@ -193,10 +195,12 @@ private:
             }
         }
         for (std::size_t o = 0; o < cells.size(); ++o)
-            if (!seated[o]) {
-                removed_.push_back(cells[o]);
-                out_.before.push_back(cells[o]);
-            }
+            if (!seated[o]) note_removed(cells[o]);
+    }
+
+    void note_removed(const CellRef& cell) {
+        removed_.push_back(cell);
+        out_.before.push_back(cell);
     }
 
     template <std::size_t N>
@@ -212,9 +216,22 @@ private:
         }
     }
 
-    void write_lips(const std::string& positive, const std::string& negative) {
+    void write_lips(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
-        const GroupIndex group[2] = {mesh.add_group(negative, GroupKind::element), mesh.add_group(positive, GroupKind::element)};
+        const GroupIndex first = static_cast<GroupIndex>(mesh.groups.size());
+        std::vector<std::vector<GroupIndex>> members;
+        for (const auto& names : groups) {
+            members.emplace_back();
+            for (const std::string& name : names) {
+                GroupIndex g = first;
+                while (g < static_cast<GroupIndex>(mesh.groups.size()) && mesh.groups[g].name != name) ++g;
+                members.back().push_back(g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, GroupKind::element));
+            }
+        }
+        const auto with_groups = [&](FamilyIndex family, int face_group) {
+            for (const GroupIndex g : members[face_group]) family = mesh.families.with(family, g);
+            return family;
+        };
         // An element of the input that joins a lip is a changed element, though its nodes may be the same.
         const auto list_as_changed = [&](const CellRef& cell) {
             if (std::ranges::find(out_.before, cell) != out_.before.end()) return;
@@ -222,9 +239,9 @@ private:
             out_.before.push_back(cell);
             out_.after.push_back(cell);
         };
-        const auto join = [&](CellType type, Index cell, bool side) {
+        const auto join = [&](CellType type, Index cell, int face_group) {
             FamilyIndex& family = mesh.block(type).families[cell];
-            family = mesh.families.with(family, group[side]);
+            family = with_groups(family, face_group);
         };
         const auto write = [&](const auto& lips, const auto& cells, const auto& written, const auto& twins, CellType linear, CellType quadratic) {
             for (const auto& lip : lips) {
@@ -233,14 +250,14 @@ private:
                     for (int& v : corners)
                         if (v >= band_.size()) v = lips_.copy_of[v - band_.size()];
                     const CellType type = lip.second_order ? quadratic : linear;
-                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, mesh.families.with(0, group[lip.positive]));
+                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, with_groups(0, lip.group));
                     out_.after.push_back({type, made});
                 } else if (lip.element >= 0) {
                     list_as_changed({cells(lip.element).type, written[lip.element]});
-                    join(cells(lip.element).type, written[lip.element], lip.positive);
+                    join(cells(lip.element).type, written[lip.element], lip.group);
                 } else {
                     const CellRef& twin = twins[-1 - lip.element];
-                    join(twin.type, twin.cell, lip.positive);
+                    join(twin.type, twin.cell, lip.group);
                 }
             }
         };
@@ -326,7 +343,7 @@ private:
         std::ranges::stable_sort(mesh.facets, {}, [](const Facet& f) { return std::tuple(f.type, f.cell, f.face); });
     }
 
-    /// Drops elements all of whose parts were merged away.
+    /// Drops elements no part of which is left.
     void remove_cells() {
         if (removed_.empty()) return;
         for (CellBlock& block : out_.mesh.blocks()) {
@@ -352,11 +369,45 @@ private:
             block.connectivity.resize(static_cast<std::size_t>(kept * n));
             block.ids.resize(static_cast<std::size_t>(kept));
             block.families.resize(static_cast<std::size_t>(kept));
+            std::erase_if(out_.mesh.facets, [&](const Facet& f) { return f.type == block.type && gone[f.cell]; });
             for (Facet& f : out_.mesh.facets)
                 if (f.type == block.type) f.cell = shift[f.cell];
             for (CellRef& c : out_.after)
                 if (c.type == block.type) c.cell = shift[c.cell];
         }
+    }
+
+    /// Drops the nodes that only removed elements had.
+    void remove_nodes() {
+        if (removed_.empty()) return;
+        Mesh& mesh = out_.mesh;
+        std::vector<char> orphan(mesh.points.size(), 0);
+        bool any = false;
+        for (const CellRef& c : out_.before)
+            for (const Index n : input_.block(c.type).nodes(c.cell)) orphan[n] = 1;
+        for (const CellBlock& b : mesh.blocks())
+            for (const Index n : b.connectivity) orphan[n] = 0;
+        for (const char o : orphan) any = any || o;
+        if (!any) return;
+        std::vector<Index> shift(orphan.size(), -1);
+        Index kept = 0;
+        for (std::size_t n = 0; n < orphan.size(); ++n) {
+            if (orphan[n]) continue;
+            mesh.points[kept] = mesh.points[n];
+            mesh.node_ids[kept] = mesh.node_ids[n];
+            mesh.node_families[kept] = mesh.node_families[n];
+            shift[n] = kept++;
+        }
+        out_.nodes_removed = static_cast<Index>(orphan.size()) - kept;
+        mesh.points.resize(static_cast<std::size_t>(kept));
+        mesh.node_ids.resize(static_cast<std::size_t>(kept));
+        mesh.node_families.resize(static_cast<std::size_t>(kept));
+        for (CellBlock& b : mesh.blocks())
+            for (Index& n : b.connectivity) n = shift[n];
+        for (Index& n : out_.node)
+            if (n >= 0) n = shift[n];
+        shift.resize(static_cast<std::size_t>(input_.node_count()));
+        out_.place = std::move(shift);
     }
 
     const Mesh& input_;
@@ -379,9 +430,9 @@ private:
 
 }  // namespace
 
-Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips, const std::string& positive,
-                const std::string& negative) {
-    return Rebuilder(input, std::move(copy), interface, lips).run(positive, negative);
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
+                const std::vector<std::vector<std::string>>& groups) {
+    return Rebuilder(input, std::move(copy), interface, lips).run(groups);
 }
 
 }  // namespace femscalpel

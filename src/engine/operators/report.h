@@ -49,6 +49,7 @@ struct Report {
     Index nodes_split = 0;       ///< of them, born on split edges
     Index nodes_doubled = 0;     ///< of them, copies of interface nodes
     Index nodes_moved = 0;
+    Index nodes_removed = 0;
     Index elements_added = 0;
     Index elements_removed = 0;
     double max_displacement = 0;

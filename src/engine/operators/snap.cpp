@@ -92,7 +92,7 @@ private:
             if (ratio > forced_reach) return;
             target = tool_.project(node.at);
         }
-        if ((target - node.at).norm() > snap_slide * length) return;
+        if ((target - node.at).norm() > std::min(snap_slide * length, d_.constraints.leash(v))) return;
         const double before = quality_around(d_, v, node.at);
         const double after = quality_around(d_, v, target);
         if (!(after >= std::min(0.1, before / 4)) || !(after > 0)) return;
@@ -140,7 +140,7 @@ bool fit_to_shapes(Deformable& d) {
         if (!d.band.in_use(v) || d.constraints[v].freedom == NodeFreedom::free) continue;
         Vec3 x = d.band.nodes[v].at;
         if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v)) continue;
-        if (!d.constraints.project(v, d.contact[v], x) || d.passes_barrier(v, x)) continue;
+        if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
         any = true;

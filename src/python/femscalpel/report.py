@@ -77,6 +77,7 @@ class Report:
     nodes_split: int  #: of them, born on split edges
     nodes_doubled: int  #: of them, copies of interface nodes
     nodes_moved: int
+    nodes_removed: int
     elements_added: int
     elements_removed: int
     max_displacement: float
@@ -95,7 +96,7 @@ class Report:
         before, after = self.quality
         facts = [
             ("nodes", f"{self.nodes_added} added ({self.nodes_split} on split edges, {self.nodes_doubled} doubled), "
-                      f"{self.nodes_moved} moved by at most {self.max_displacement:.4g}"),
+                      f"{self.nodes_removed} removed, {self.nodes_moved} moved by at most {self.max_displacement:.4g}"),
             ("elements", f"{self.elements_added} added, {self.elements_removed} removed"),
             ("node sets", _counts({name: len(ids) for name, ids in self.node_sets.items()})),
             ("constraints", _counts(self.constraints)),
