@@ -16,7 +16,7 @@ def put_into_analysis(obj, strict=True):
     """See ObjectsFemScalpel.putIntoAnalysis()."""
     analysis, replaced = _place_of_source(obj)
     if "Touched" in obj.State:
-        obj.recompute()
+        obj.recompute(True)
     if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
         raise ValueError(f"'{obj.Label}' has no mesh; mend what its error says first")
     problems = lost_references(obj, replaced, analysis)
