@@ -65,6 +65,18 @@ class Deck:
                     add(node, force)
         return total
 
+    def magnitude(self):
+        """Sum of the magnitudes of all loads: of every line of *CLOAD, and of every element's share of a *DLOAD."""
+        total = sum(abs(value) for _, _, value in self.concentrated)
+        for target, kind, values in self.distributed:
+            for element in [int(target)] if target.isdigit() else self.elsets[target]:
+                total += np.linalg.norm(sum(force for _, force in self._distributed(element, kind, values)))
+        return total
+
+    def places(self, nodes):
+        """Number of different places that nodes are at."""
+        return len({tuple(np.round(self.points[n], 7)) for n in nodes})
+
     def skin_in(self, nodes):
         """Area of the solids' skin, or of shells, all of whose nodes are in `nodes`; length of shells' edges if there is
         none. What coincides counts once."""

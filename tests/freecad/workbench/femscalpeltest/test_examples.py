@@ -102,7 +102,7 @@ class Solved:
         self.results = [m for m in doc.Analysis.Group if m.isDerivedFrom("Fem::FemResultObject")]
         self.forces = self.deck.forces()
         self.load = sum(self.forces.values(), np.zeros(3))
-        self.magnitude = sum(map(np.linalg.norm, self.forces.values()))
+        self.magnitude = self.deck.magnitude()
         self.reaction, self.held_magnitude = self._reaction(printed)
 
     def _with_print(self, text):
@@ -187,8 +187,7 @@ class ExamplesTest(unittest.TestCase):
         if before.reaction is not None and not example.frequency:
             reaction = np.linalg.norm(after.reaction - before.reaction) / one
             self.assertLessEqual(reaction, max(example.load, example.reaction), f"reaction {before.reaction} -> {after.reaction}")
-        held = self.changes(before.deck.nsets, lambda solved, name: solved.deck.skin_in(set(solved.deck.nsets[name])),
-                            before, after)
+        held = self.changes(before.deck.nsets, self.held_by, before, after)
         sets = self.changes(before.deck.elsets, lambda solved, name: solved.deck.measure(name), before, after)
         sets.update(self.changes(before.deck.surfaces, lambda solved, name: solved.deck.surface_area(name), before, after))
         for name, change in {**held, **sets}.items():
@@ -200,6 +199,14 @@ class ExamplesTest(unittest.TestCase):
             str(crack.NodesDoubled), f"{crack.MinimumQuality:.2f}", f"{np.linalg.norm(after.load):.6g}", f"{load:.0e}",
             f"{np.linalg.norm(after.reaction):.6g}" if after.reaction is not None and not example.frequency else "-", f"{reaction:.0e}",
             f"{max(held.values(), default=0):.0e}", f"{max(sets.values(), default=0):.0e}"))
+
+    def held_by(self, solved, name):
+        """How much of the mesh a constraint's nodes are: area, length, or number of places."""
+        nodes = set(solved.deck.nsets[name])
+        constraint = self.doc.getObject(name)
+        if constraint and constraint.References[0][1][0].startswith("Vertex"):
+            return solved.deck.places(nodes)
+        return solved.deck.skin_in(nodes)
 
     @staticmethod
     def changes(names, measure, before, after):

@@ -68,7 +68,7 @@ class OnShape(DocumentTest):
                 with self.subTest(shape=name, order=order):
                     shape, source = self.mesh_of(name, order, 4.5)
                     self.assertEqual(self.not_found(source.FemMesh, shape), 0)
-                    for _ in range(4):
+                    for _ in range(3):
                         normal = random.normal(size=3)
                         center = np.array(shape.BoundBox.Center) + random.uniform(-3, 3, 3)
                         crack = ObjectsFemScalpel.makeCrack(self.doc, source, origin=center, normal=normal)
