@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "operators/crack.h"
+#include "operators/refine.h"
 #include "operators/scalpel.h"
 
 namespace py = pybind11;
@@ -36,7 +37,11 @@ py::dict to_dict(const GroupRecord& record) {
     out["measure_before"] = record.measure_before;
     out["measure_after"] = record.measure_after;
     out["nodes_moved"] = record.nodes_moved;
+    out["boundary_kept"] = record.boundary_kept;
     out["boundary_drift"] = record.boundary_drift;
+    out["nodes_on_surface"] = record.nodes_on_surface;
+    out["nodes_on_line"] = record.nodes_on_line;
+    out["nodes_fixed"] = record.nodes_fixed;
     out["status"] = record.status;
     return out;
 }
@@ -60,6 +65,7 @@ py::dict to_dict(const Report& report) {
     out["nodes_split"] = report.nodes_split;
     out["nodes_doubled"] = report.nodes_doubled;
     out["nodes_moved"] = report.nodes_moved;
+    out["nodes_removed"] = report.nodes_removed;
     out["elements_added"] = report.elements_added;
     out["elements_removed"] = report.elements_removed;
     out["max_displacement"] = report.max_displacement;
@@ -70,12 +76,13 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, bool strict) {
+CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
     CrackOptions out;
     out.name = name;
     out.method = method_from_name(method);
     out.transition = transition;
     out.feature_angle = feature_angle;
+    out.preserve = std::move(preserve);
     out.strict = strict;
     return out;
 }
@@ -98,9 +105,24 @@ py::tuple run(Operation operation) {
 
 void bind_operators(py::module_& module) {
     module.def("crack", [](const Mesh& mesh, const Tool& tool, const std::string& name, const std::string& method,
-                           std::optional<int> transition, double feature_angle, bool strict) {
-        const CrackOptions o = options(name, method, transition, feature_angle, strict);
+                           std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
+        const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
         return run([&] { return crack(mesh, tool, o); });
+    });
+
+    module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
+                            double reach, bool relax, Index max_elements, double feature_angle, bool strict) {
+        RefineOptions o;
+        o.size = size;
+        o.gradation = gradation;
+        o.reach = reach;
+        o.relax = relax;
+        o.max_elements = max_elements;
+        o.feature_angle = feature_angle;
+        o.strict = strict;
+        std::vector<Vec3> at;
+        for (py::ssize_t i = 0; i < points.size() / 3; ++i) at.emplace_back(points.data() + 3 * i);
+        return run([&] { return refine(mesh, tools.empty() ? distance_to(std::move(at)) : distance_to(tools), o); });
     });
 
     py::class_<Scalpel>(module, "Scalpel")
@@ -109,8 +131,8 @@ void bind_operators(py::module_& module) {
              py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
         .def("crack", [](const Scalpel& scalpel, const Tool& tool, const std::string& name, const std::string& method,
-                         std::optional<int> transition, double feature_angle, bool strict) {
-            const CrackOptions o = options(name, method, transition, feature_angle, strict);
+                         std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
+            const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
             return run([&] { return scalpel.crack(tool, o); });
         });
 }

@@ -134,8 +134,9 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh), contact(static_cast<std::size_t>(band.size())),
-      side(static_cast<std::size_t>(band.size()), 0), off_tool(static_cast<std::size_t>(band.size()), 0) {
+    : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh), membership(band, mesh),
+      contact(static_cast<std::size_t>(band.size())), side(static_cast<std::size_t>(band.size()), 0),
+      off_tool(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -146,12 +147,15 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 
 int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
     mids.split(band, a, b, band.size(), fraction(band.nodes[a].at, band.nodes[b].at, at));
+    const bool fixed = constraints.has_fixed_middle(a, b);
     const int node = band.split_edge(a, b, at);
     contact.push_back(tools);
     const double distance = barrier && !tools.has(barrier) ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     off_tool.push_back(0);
     constraints.add_node(band, node);
+    if (fixed) constraints.fix_node(node);
+    membership.add_node(band, node);
     return node;
 }
 

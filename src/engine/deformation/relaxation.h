@@ -5,6 +5,7 @@
 
 #include "deformation/mid_sides.h"
 #include "deformation/node_constraints.h"
+#include "groups/node_membership.h"
 #include "mesh/band_mesh.h"
 #include "tools/contact.h"
 
@@ -15,6 +16,7 @@ struct Deformable {
     BandMesh band;
     NodeConstraints constraints;
     MidSides mids;
+    NodeMembership membership;         ///< node groups of each node
     std::vector<Contact> contact;      ///< by node: the tools it must stay on
     std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
     const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "mesh/mesh.h"
-#include "operators/interface.h"
-#include "operators/report.h"
-#include "tools/tool.h"
+#include "operators/operation.h"
 
 namespace femscalpel {
 
-struct CrackOptions {
-    std::string name = "CRACK";     ///< prefix of the new groups NAME_P, NAME_N, NAME_FRONT
-    Method method = Method::snap;
-    std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
-    double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
-    bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+struct CrackOptions : OperatorOptions {
+    CrackOptions() { name = "CRACK"; }  // new groups: NAME_P, NAME_N, NAME_FRONT
 };
 
 /// Cracks `mesh` along the whole of `tool` (paper, 3.1): makes element faces lie on the tool, then gives
@@ -28,9 +18,8 @@ struct CrackOptions {
 ///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
-/// Throws ToolError (bad name, tool misses the mesh), UnsupportedElementError (the band reaches
+/// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches
 /// elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
-Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {});
-
+Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {}, const Prepared& prepared = {});
 
 }  // namespace femscalpel

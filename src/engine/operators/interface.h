@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,16 +21,32 @@ enum class Method {
 Method method_from_name(const std::string& name);
 std::string_view to_string(Method method);
 
-/// A band in which element faces are being made to lie on a tool.
+/// A surface that element faces are to be made of.
+struct Blade {
+    const Tool* tool = nullptr;
+    /// It is wanted where this is not positive (a length, about that to the border); everywhere if empty.
+    std::function<double(const Vec3&)> bound;
+    /// Of tools that were cut along before: it is wanted on their negative side only.
+    std::vector<const Tool*> inside;
+};
+
+/// Elements farther than this from where a blade is wanted, in their longest edges, are not cut by it.
+inline constexpr double blade_margin = 1.5;
+
+/// A band in which element faces are being made to lie on tools.
 struct Interface {
     Deformable d;
+    const Tool* tool = nullptr;      ///< the first, to which `distance` belongs
     std::vector<double> distance;    ///< signed, by band node; exactly 0 for nodes on the tool
     double tolerance = 0;            ///< nodes nearer than this lie on the tool
     std::vector<int> nodes;          ///< nodes on the tool (ICN and ECN), ascending
     std::vector<int> transition;     ///< nodes within `bandwidth` edges of them (ITN and ETN), ascending
     int bandwidth = 2;               ///< i of the paper's i-th neighbourhood
+    std::vector<CellRef> deep_inside;  ///< elements to be removed that are not in the band
     std::vector<std::string> warnings;
     std::vector<std::pair<std::string, double>> seconds;
+    /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
+    std::function<Vec3(int, int)> mid_side;
 };
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
@@ -56,6 +73,10 @@ void find_node_sets(Interface& interface);
 /// No element comes out inverted or nearly flat, and no node on the wrong side of the tool. Throws
 /// QualityError naming the elements in the way when no surface tried can be moved there.
 void deform_to_tool(Interface& interface, const Tool& tool, const Mesh& mesh);
+
+/// Edges that are to be cut by the blade and whose mid-side node must not move (NodeConstraints::has_fixed_middle()) are
+/// split in that node, where it is; the blade then crosses one half. To be called first.
+void split_at_fixed_middles(Interface& interface, const Blade& blade, const Mesh& mesh);
 
 /// Throws QualityError that names the elements when the input itself has inverted ones in the band; counts
 /// poor ones (mean ratio below 0.1) as a warning.

@@ -2,46 +2,31 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "mesh/adjacency.h"
 #include "mesh/mesh.h"
-#include "tools/tool.h"
+#include "operators/interface.h"
 
 namespace femscalpel {
 
-/// Where a tool meets a mesh (DESIGN 3, step 1).
+/// Where tools meet a mesh (DESIGN 3, step 1).
 struct Location {
-    std::vector<double> distance;    ///< signed, by node
+    std::vector<double> distance;    ///< signed, to the first tool, by node
     std::vector<std::int8_t> level;  ///< 0: node of an element the tool touches; k: k edges away; -1: farther than `levels`
     double tolerance = 0;            ///< nodes nearer than this lie on the tool
-    Index crossed = 0;               ///< triangles and tetrahedra the tool passes through
+    Index crossed = 0;               ///< triangles and tetrahedra a tool passes through
 };
 
-/// Measures all nodes and finds those within `levels` edges of the elements the tool touches. One pass
+/// Measures all nodes and finds those within `levels` edges of the elements the blades touch. One pass
 /// over the nodes, one over the elements and one per level, unless `adjacency` (elements around nodes) is
 /// given, which makes the levels cost only the band.
 ///
-/// Throws ToolError when the tool misses the mesh: says how far away it is, and on which side.
-class Adjacency;
-Location locate(const Mesh& mesh, const Tool& tool, int levels, const Adjacency* adjacency = nullptr);
+/// Throws ToolError when a tool misses the mesh: says how far away it is, and on which side.
+Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr);
 
-/// Elements around each node, triangles and tetrahedra and whatever else shares a node. Linear time and memory.
-class Adjacency {
-public:
-    explicit Adjacency(const Mesh& mesh);
-
-    /// Calls visit(type, cell) for the elements around a node.
-    template <class Visit>
-    void around(Index node, Visit visit) const {
-        for (Index k = start_[node]; k < start_[node + 1]; ++k) {
-            const std::int64_t v = cells_[k];
-            visit(static_cast<CellType>(v % cell_type_count), static_cast<Index>(v / cell_type_count));
-        }
-    }
-
-private:
-    std::vector<Index> start_;
-    std::vector<std::int64_t> cells_;
-};
+/// Gives nodes without a level (-1) that are k <= `count` edges away from those of level 0 the level k.
+void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency = nullptr);
 
 }  // namespace femscalpel

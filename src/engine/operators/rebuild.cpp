@@ -16,7 +16,7 @@ public:
         out_.mesh = std::move(copy);
     }
 
-    Rebuilt run(const std::string& positive, const std::string& negative) {
+    Rebuilt run(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
         next_node_ = input_.largest_node_id() + 1;
         next_cell_ = input_.largest_cell_id() + 1;
@@ -26,12 +26,15 @@ public:
         write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
         write_cells(band_.triangles, lips_.triangles, band_.triangle_cells, triangle_cell_);
         write_cells(band_.lines, lips_.lines, band_.line_cells, line_cell_);
+        if (!lips_.vertices.empty()) write_cells(band_.vertices, lips_.vertices, band_.vertex_cells, vertex_cell_);
         write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
         write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
-        write_lips(positive, negative);
+        write_lips(groups);
         write_facets();
+        for (const CellRef& c : f_.deep_inside) note_removed(c);
         remove_cells();
         out_.elements_removed = static_cast<Index>(removed_.size());
+        remove_nodes();
         out_.elements_added = mesh.cell_count() - input_.cell_count() + out_.elements_removed;
         return std::move(out_);
     }
@@ -73,14 +76,23 @@ private:
         out_.changes.born.push_back(std::move(born));
     }
 
-    void gather_ancestors(int v, std::vector<Index>& out) const {
+    void gather_ancestors(int v, std::vector<Index>& out) {
         if (band_.nodes[v].global >= 0) {
             out.push_back(input_.node_ids[band_.nodes[v].global]);
             return;
         }
-        const auto& [a, b] = band_.births[v - band_.original_nodes()];
-        gather_ancestors(a, out);
-        gather_ancestors(b, out);
+        // Kept, because births of births of ... would be visited over and over.
+        if (!ancestors_.contains(v)) {
+            const auto& [a, b] = band_.births[v - band_.original_nodes()];
+            std::vector<Index> all;
+            gather_ancestors(a, all);
+            gather_ancestors(b, all);
+            std::ranges::sort(all);
+            all.erase(std::unique(all.begin(), all.end()), all.end());
+            ancestors_[v] = std::move(all);
+        }
+        const std::vector<Index>& all = ancestors_[v];
+        out.insert(out.end(), all.begin(), all.end());
     }
 
     /// Node family of a band node, also of one that was merged away after others were born on its edges.
@@ -116,10 +128,10 @@ private:
         if (original == band_.mid_nodes.end()) {
             ++out_.nodes_split;
             note_born(a, b);
-            return mesh.add_node(mid_side(f_.d, a, b).at, next_node_++, mesh.families.intersect(family(a), family(b)));
+            return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
         }
         if (moved(a) || moved(b) || f_.d.edge_contact(a, b)) {
-            const Vec3 at = mid_side(f_.d, a, b).at;
+            const Vec3 at = half_way(a, b);
             // Straight to within the digits of a text file stays as it is.
             if (moved(a) || moved(b) || (at - mesh.points[original->second]).norm() > 1e-8 * (band_.nodes[a].at - band_.nodes[b].at).norm())
                 mesh.points[original->second] = at;
@@ -144,6 +156,8 @@ private:
         mids.nodes.push_back({image, copy});
         return copy;
     }
+
+    Vec3 half_way(int a, int b) const { return f_.mid_side ? f_.mid_side(a, b) : mid_side(f_.d, a, b).at; }
 
     /// Full connectivity of an element from its corners.
     template <std::size_t N>
@@ -185,10 +199,12 @@ private:
             }
         }
         for (std::size_t o = 0; o < cells.size(); ++o)
-            if (!seated[o]) {
-                removed_.push_back(cells[o]);
-                out_.before.push_back(cells[o]);
-            }
+            if (!seated[o]) note_removed(cells[o]);
+    }
+
+    void note_removed(const CellRef& cell) {
+        removed_.push_back(cell);
+        out_.before.push_back(cell);
     }
 
     template <std::size_t N>
@@ -204,9 +220,22 @@ private:
         }
     }
 
-    void write_lips(const std::string& positive, const std::string& negative) {
+    void write_lips(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
-        const GroupIndex group[2] = {mesh.add_group(negative, GroupKind::element), mesh.add_group(positive, GroupKind::element)};
+        const GroupIndex first = static_cast<GroupIndex>(mesh.groups.size());
+        std::vector<std::vector<GroupIndex>> members;
+        for (const auto& names : groups) {
+            members.emplace_back();
+            for (const std::string& name : names) {
+                GroupIndex g = first;
+                while (g < static_cast<GroupIndex>(mesh.groups.size()) && mesh.groups[g].name != name) ++g;
+                members.back().push_back(g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, GroupKind::element));
+            }
+        }
+        const auto with_groups = [&](FamilyIndex family, int face_group) {
+            for (const GroupIndex g : members[face_group]) family = mesh.families.with(family, g);
+            return family;
+        };
         // An element of the input that joins a lip is a changed element, though its nodes may be the same.
         const auto list_as_changed = [&](const CellRef& cell) {
             if (std::ranges::find(out_.before, cell) != out_.before.end()) return;
@@ -214,9 +243,9 @@ private:
             out_.before.push_back(cell);
             out_.after.push_back(cell);
         };
-        const auto join = [&](CellType type, Index cell, bool side) {
+        const auto join = [&](CellType type, Index cell, int face_group) {
             FamilyIndex& family = mesh.block(type).families[cell];
-            family = mesh.families.with(family, group[side]);
+            family = with_groups(family, face_group);
         };
         const auto write = [&](const auto& lips, const auto& cells, const auto& written, const auto& twins, CellType linear, CellType quadratic) {
             for (const auto& lip : lips) {
@@ -225,14 +254,14 @@ private:
                     for (int& v : corners)
                         if (v >= band_.size()) v = lips_.copy_of[v - band_.size()];
                     const CellType type = lip.second_order ? quadratic : linear;
-                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, mesh.families.with(0, group[lip.positive]));
+                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, with_groups(0, lip.group));
                     out_.after.push_back({type, made});
                 } else if (lip.element >= 0) {
                     list_as_changed({cells(lip.element).type, written[lip.element]});
-                    join(cells(lip.element).type, written[lip.element], lip.positive);
+                    join(cells(lip.element).type, written[lip.element], lip.group);
                 } else {
                     const CellRef& twin = twins[-1 - lip.element];
-                    join(twin.type, twin.cell, lip.positive);
+                    join(twin.type, twin.cell, lip.group);
                 }
             }
         };
@@ -287,7 +316,7 @@ private:
         std::ranges::stable_sort(mesh.facets, {}, [](const Facet& f) { return std::tuple(f.type, f.cell, f.face); });
     }
 
-    /// Drops elements all of whose parts were merged away.
+    /// Drops elements no part of which is left.
     void remove_cells() {
         if (removed_.empty()) return;
         for (CellBlock& block : out_.mesh.blocks()) {
@@ -313,11 +342,45 @@ private:
             block.connectivity.resize(static_cast<std::size_t>(kept * n));
             block.ids.resize(static_cast<std::size_t>(kept));
             block.families.resize(static_cast<std::size_t>(kept));
+            std::erase_if(out_.mesh.facets, [&](const Facet& f) { return f.type == block.type && gone[f.cell]; });
             for (Facet& f : out_.mesh.facets)
                 if (f.type == block.type) f.cell = shift[f.cell];
             for (CellRef& c : out_.after)
                 if (c.type == block.type) c.cell = shift[c.cell];
         }
+    }
+
+    /// Drops the nodes that only removed elements had.
+    void remove_nodes() {
+        if (removed_.empty()) return;
+        Mesh& mesh = out_.mesh;
+        std::vector<char> orphan(mesh.points.size(), 0);
+        bool any = false;
+        for (const CellRef& c : out_.before)
+            for (const Index n : input_.block(c.type).nodes(c.cell)) orphan[n] = 1;
+        for (const CellBlock& b : mesh.blocks())
+            for (const Index n : b.connectivity) orphan[n] = 0;
+        for (const char o : orphan) any = any || o;
+        if (!any) return;
+        std::vector<Index> shift(orphan.size(), -1);
+        Index kept = 0;
+        for (std::size_t n = 0; n < orphan.size(); ++n) {
+            if (orphan[n]) continue;
+            mesh.points[kept] = mesh.points[n];
+            mesh.node_ids[kept] = mesh.node_ids[n];
+            mesh.node_families[kept] = mesh.node_families[n];
+            shift[n] = kept++;
+        }
+        out_.nodes_removed = static_cast<Index>(orphan.size()) - kept;
+        mesh.points.resize(static_cast<std::size_t>(kept));
+        mesh.node_ids.resize(static_cast<std::size_t>(kept));
+        mesh.node_families.resize(static_cast<std::size_t>(kept));
+        for (CellBlock& b : mesh.blocks())
+            for (Index& n : b.connectivity) n = shift[n];
+        for (Index& n : out_.node)
+            if (n >= 0) n = shift[n];
+        shift.resize(static_cast<std::size_t>(input_.node_count()));
+        out_.place = std::move(shift);
     }
 
     const Mesh& input_;
@@ -326,9 +389,10 @@ private:
     const Lips& lips_;
     Rebuilt out_;
     Index next_node_ = 1, next_cell_ = 1;
-    std::vector<Index> tetra_cell_, triangle_cell_, line_cell_;  // by slot: index in the new mesh
+    std::vector<Index> tetra_cell_, triangle_cell_, line_cell_, vertex_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
+    std::unordered_map<int, std::vector<Index>> ancestors_;  // by new band node
     struct MidNodes {
         std::vector<std::pair<std::uint64_t, Index>> nodes;  // (image edge, node), the owner first
     };
@@ -338,9 +402,9 @@ private:
 
 }  // namespace
 
-Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips, const std::string& positive,
-                const std::string& negative) {
-    return Rebuilder(input, std::move(copy), interface, lips).run(positive, negative);
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
+                const std::vector<std::vector<std::string>>& groups) {
+    return Rebuilder(input, std::move(copy), interface, lips).run(groups);
 }
 
 }  // namespace femscalpel

@@ -19,19 +19,22 @@ struct Rebuilt {
     Changes changes;                     ///< where new nodes and elements come from, by number
     Index nodes_split = 0;
     Index nodes_doubled = 0;
+    Index nodes_removed = 0;
     Index elements_added = 0;
     Index elements_removed = 0;
     std::vector<std::string> warnings;
+    std::vector<Index> place;            ///< index in `mesh` of each node of the input, -1 if gone; empty when none is
+
+    Index kept_node(Index input_node) const { return place.empty() ? input_node : place[input_node]; }
 };
 
 /// Puts the band's changes into `copy`, a copy of `input`: moved nodes, split elements, doubled nodes, lip elements in
-/// the groups `positive` and `negative` (appended to the mesh's groups). Everything else is the input's, bit
-/// for bit. Children inherit the groups of their parent; a node born on an edge is in the node groups of
+/// all groups of `groups[Lips::Face::group]` (appended to the mesh's groups, in that order), removed elements and the
+/// nodes that only they had. Everything else is the input's, bit for bit. Children inherit the groups of their parent; a node born on an edge is in the node groups of
 /// both ends; a copied node is in all groups of its original. New numbers start above the largest in use.
 ///
-/// Mid-side nodes follow their edges in the band: half way, on the surface or curve the edge is on; where
-/// that would spoil an element's Jacobian at its integration points, on the chord.
-Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips, const std::string& positive,
-                const std::string& negative);
+/// Mid-side nodes follow their edges in the band, see mid_side(); or lie where Interface::mid_side says.
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
+                const std::vector<std::vector<std::string>>& groups);
 
 }  // namespace femscalpel

@@ -30,6 +30,9 @@ struct QualitySummary {
     std::vector<ElementQuality> worst;  ///< at most ten, worst first
 };
 
+/// Summary of the given elements.
+QualitySummary summarise(std::vector<ElementQuality> qualities);
+
 /// What an operator did; the same for all operators.
 struct Report {
     std::string operation;  ///< "crack", "drill", ...
@@ -49,6 +52,7 @@ struct Report {
     Index nodes_split = 0;       ///< of them, born on split edges
     Index nodes_doubled = 0;     ///< of them, copies of interface nodes
     Index nodes_moved = 0;
+    Index nodes_removed = 0;
     Index elements_added = 0;
     Index elements_removed = 0;
     double max_displacement = 0;

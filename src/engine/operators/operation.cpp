@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/operation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "mesh/quality.h"
+
+namespace femscalpel {
+namespace {
+
+/// Code_Aster's limit for group names.
+constexpr std::size_t longest_name = 24;
+
+void check_name(const Mesh& mesh, const std::string& name, std::initializer_list<const char*> suffixes) {
+    if (name.empty()) throw ToolError("name is empty; the new groups need one");
+    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
+        throw ToolError("name '" + name + "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
+    for (const char* suffix : suffixes) {
+        const std::string group = name + suffix;
+        if (group.size() > longest_name)
+            throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " + std::to_string(group.size()) +
+                            " characters, at most " + std::to_string(longest_name) + " are allowed");
+        if (mesh.find_group(group)) throw ToolError("name '" + name + "' is taken: the mesh already has a group '" + group + "'; choose another");
+    }
+}
+
+/// The paper's bandwidth: largest distance between an interface node and the tool, in mean edge lengths; at least 2.
+int bandwidth(const Location& location, const Mesh& mesh) {
+    double largest = 0, length = 0;
+    long edges = 0;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (t.dimension < 2 || !t.simplex) continue;
+        const Index* n = b.connectivity.data();
+        for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
+            bool touched = false;
+            for (int k = 0; k < t.corners; ++k) touched = touched || location.level[n[k]] == 0;
+            if (!touched) continue;
+            for (const auto& e : t.edges) {
+                const Index a = n[e[0]], d = n[e[1]];
+                if (location.level[a] != 0 || location.level[d] != 0) continue;
+                length += (mesh.points[a] - mesh.points[d]).norm();
+                ++edges;
+                largest = std::max(largest, std::min(std::abs(location.distance[a]), std::abs(location.distance[d])));
+            }
+        }
+    }
+    if (edges == 0) return 2;
+    return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
+}
+
+/// Elements of the band's moving part before and after; `inverted` collects those that were bad on arrival.
+struct BandQuality {
+    std::vector<ElementQuality> before, after;
+    std::vector<Index> inverted;
+};
+
+BandQuality band_quality(const Interface& f, const Mesh& mesh) {
+    const BandMesh& band = f.d.band;
+    std::vector<char> in(static_cast<std::size_t>(band.size()), 0);
+    for (const int v : f.nodes) in[v] = 1;
+    for (const int v : f.transition) in[v] = 1;
+    BandQuality out;
+    const auto look = [&](const auto& list, const auto& cells, auto counts, auto quality_now) {
+        std::vector<char> counted(cells.size(), 0);
+        for (int s = 0; s < list.size(); ++s) {
+            if (!list.alive(s) || !counts(list.origin(s)) || std::ranges::none_of(list[s], [&](int v) { return in[v] != 0; })) continue;
+            const CellRef& cell = cells[list.origin(s)];
+            const Index id = mesh.block(cell.type).ids[cell.cell];
+            out.after.push_back({id, quality_now(s)});
+            if (counted[list.origin(s)]) continue;
+            counted[list.origin(s)] = 1;
+            out.before.push_back({id, mean_ratio(mesh, cell.type, cell.cell)});
+        }
+    };
+    look(band.tetras, band.tetra_cells, [](int) { return true; }, [&](int s) { return tetra_quality(f.d, s); });
+    look(band.triangles, band.triangle_cells, [&](int s) { return f.d.constraints.is_shell(s); }, [&](int s) { return shell_quality(f.d, s); });
+    return out;
+}
+
+/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool.
+void warn_of_grazing(Interface& f, const Tool& tool) {
+    const BandMesh& band = f.d.band;
+    double smallest = 90;
+    for (const int v : f.nodes) {
+        if (!f.d.contact[v].has(&tool)) continue;
+        const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
+        if (!normal) continue;
+        const double sine = normal->cross(tool.normal(band.nodes[v].at)).norm();
+        smallest = std::min(smallest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+    }
+    if (smallest < 5) {
+        std::ostringstream message;
+        message.precision(2);
+        message << "the " << tool.kind() << " meets a surface or group border at " << smallest
+                << " degrees: elements in the wedge between them cannot be better than the wedge";
+        f.warnings.push_back(message.str());
+    }
+    double flattest = 90;
+    for (const auto* set : {&f.nodes, &f.transition})
+        for (const int v : *set) {
+            if (f.d.constraints[v].freedom != NodeFreedom::curve) continue;
+            if (std::abs(tool.distance(band.nodes[v].at)) > 0.15 * band.mean_edge_length(v)) continue;
+            Eigen::Matrix3d along;
+            f.d.constraints.tangents(v, nullptr, band.nodes[v].at, along);
+            const double sine = std::abs(along.col(0).dot(tool.normal(band.nodes[v].at)));
+            flattest = std::min(flattest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+        }
+    if (flattest < 5) {
+        std::ostringstream message;
+        message.precision(2);
+        message << "the " << tool.kind() << " runs along a feature line or border line at " << flattest
+                << " degrees: elements between them cannot be better than that wedge";
+        f.warnings.push_back(message.str());
+    }
+    // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
+    int near = 0;
+    for (const int v : f.transition) {
+        const double gap = std::abs(tool.distance(band.nodes[v].at));
+        if (gap > 0.15 * band.mean_edge_length(v)) continue;
+        const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
+        if (normal && normal->cross(tool.normal(band.nodes[v].at)).norm() < 0.15) ++near;
+    }
+    if (near > 0)
+        f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
+                             std::to_string(near) + " node(s): the layer between them is that thin");
+}
+
+void count_constraints(const Interface& f, const std::vector<Blade>& blades, Report& report) {
+    const NodeConstraints& constraints = f.d.constraints;
+    auto& counts = report.constraints;
+    for (const char* kind : {"tangent plane", "line", "fixed", "group boundary", "free"}) counts[kind] = 0;
+    std::set<std::string> kinds;
+    for (const Blade& b : blades) kinds.insert(b.tool->kind());
+    for (const std::string& kind : kinds)
+        counts[kind] = std::ranges::count_if(f.nodes, [&](int v) {
+            return std::ranges::any_of(f.d.contact[v].tools(), [&](const Tool* t) { return t->kind() == kind; });
+        });
+    for (const auto* set : {&f.nodes, &f.transition})
+        for (const int v : *set) {
+            const bool skin = constraints.is_on_skin(f.d.band, v), internal = constraints.is_on_internal(f.d.band, v);
+            counts["tangent plane"] += skin;
+            counts["group boundary"] += internal;
+            counts["line"] += constraints[v].freedom == NodeFreedom::curve;
+            counts["fixed"] += constraints[v].freedom == NodeFreedom::fixed;
+            counts["free"] += set == &f.transition && constraints[v].freedom == NodeFreedom::free;
+        }
+}
+
+/// Calls visit(index, record) for each group of the input that is not hidden: their records come first, in order.
+void for_each_record(const Mesh& before, Report& report, auto visit) {
+    std::size_t record = 0;
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+        if (!before.groups[g].hidden) visit(g, report.groups[record++]);
+}
+
+void count_group_constraints(const Interface& f, const Mesh& before, Report& report) {
+    std::vector<int> nodes = f.nodes;
+    nodes.insert(nodes.end(), f.transition.begin(), f.transition.end());
+    const auto counts = f.d.constraints.count_by_group(f.d.band, nodes, before.groups.size());
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        r.nodes_on_surface = counts[g].surface;
+        r.nodes_on_line = counts[g].line;
+        r.nodes_fixed = counts[g].fixed;
+    });
+}
+
+/// Of groups whose boundary was not kept: how far it went.
+void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& before, const std::vector<bool>& drifting, Report& report) {
+    const std::vector<double> drift = gauge.drift(f.d.band, before);
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        if (!drifting[g]) return;
+        r.boundary_kept = false;
+        r.boundary_drift = drift[g];
+    });
+}
+
+/// Moved nodes and boundary drift of each group, by group index.
+void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebuilt, Report& report) {
+    const BandMesh& band = f.d.band;
+    struct Motion {
+        Index moved = 0;
+        double drift = 0;
+        int last = -1;
+    };
+    std::vector<Motion> motion(before.groups.size());
+    for (Index n = 0; n < before.node_count(); ++n) {
+        const Index now = rebuilt.kept_node(n);
+        if (now < 0 || rebuilt.mesh.points[now] == before.points[n]) continue;
+        ++report.nodes_moved;
+        report.max_displacement = std::max(report.max_displacement, (rebuilt.mesh.points[now] - before.points[n]).norm());
+    }
+    for (int v = 0; v < band.original_nodes(); ++v) {
+        const BandNode& n = band.nodes[v];
+        if (n.at == n.start || !band.in_use(v)) continue;
+        const double drift = f.d.constraints.distance(f.d.constraints[v], n.at);
+        const auto meet = [&](FamilyIndex family) {
+            for (GroupIndex g : before.families.groups(family)) {
+                motion[g].drift = std::max(motion[g].drift, drift);
+                if (motion[g].last == v) continue;
+                motion[g].last = v;
+                ++motion[g].moved;
+            }
+        };
+        meet(before.node_families[n.global]);
+        const auto around = [&](const auto& list, const auto& cells) {
+            for (const int s : list.around(v)) meet(before.block(cells[list.origin(s)].type).families[cells[list.origin(s)].cell]);
+        };
+        around(band.tetras, band.tetra_cells);
+        around(band.triangles, band.triangle_cells);
+        around(band.lines, band.line_cells);
+        for (const int s : band.facet_faces.around(v)) meet(before.facets[band.facet_faces.tag(s)].family);
+    }
+    std::vector<char> changed(before.groups.size(), 0);
+    const auto mark = [&](const Mesh& mesh, const std::vector<CellRef>& cells) {
+        std::vector<char> seen(static_cast<std::size_t>(mesh.families.size()), 0);
+        for (const CellRef& c : cells) {
+            const FamilyIndex family = mesh.block(c.type).families[c.cell];
+            if (seen[family]) continue;
+            seen[family] = 1;
+            for (GroupIndex g : mesh.families.groups(family))
+                if (static_cast<std::size_t>(g) < changed.size()) changed[g] = 1;
+        }
+    };
+    mark(before, rebuilt.before);
+    mark(rebuilt.mesh, rebuilt.after);
+    std::size_t record = 0;
+    for (std::size_t g = 0; g < rebuilt.mesh.groups.size(); ++g) {
+        if (rebuilt.mesh.groups[g].hidden) continue;
+        GroupRecord& r = report.groups[record++];
+        if (g >= before.groups.size()) continue;
+        r.nodes_moved = motion[g].moved;
+        r.boundary_drift = motion[g].drift;
+        if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after) r.status = "untouched";
+        if (r.status == "became empty") report.warnings.push_back("group '" + r.name + "' became empty");
+    }
+}
+
+/// Splitting and merging can leave a node that moved, or an end of a split edge, outside the neighbourhood of the final
+/// interface; it still belongs to the transition.
+void add_moved_nodes(Interface& f) {
+    const BandMesh& band = f.d.band;
+    std::vector<char> changed(static_cast<std::size_t>(band.size()), 0);
+    for (int v = 0; v < band.size(); ++v) changed[v] = band.is_new(v) || band.nodes[v].at != band.nodes[v].start;
+    for (const BandMesh::Birth& b : band.births) changed[b.a] = changed[b.b] = 1;
+    for (const int v : f.transition) changed[v] = 1;
+    f.transition.clear();
+    for (int v = 0; v < band.size(); ++v)
+        if (changed[v] && band.in_use(v) && band.nodes[v].movable() && !f.d.contact[v]) f.transition.push_back(v);
+}
+
+std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Index>& index, const Mesh& mesh, auto keep) {
+    std::vector<Index> out;
+    for (const int v : nodes)
+        if (keep(v) && index[v] >= 0) out.push_back(mesh.node_ids[index[v]]);
+    return out;
+}
+
+void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
+    if (lips.front_nodes.empty()) return;
+    Mesh& mesh = rebuilt.mesh;
+    const GroupIndex group = mesh.add_group(name, GroupKind::node);
+    for (const int v : lips.front_nodes) {
+        FamilyIndex& family = mesh.node_families[rebuilt.node[v]];
+        family = mesh.families.with(family, group);
+    }
+}
+
+}  // namespace
+
+Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
+                     std::initializer_list<const char*> suffixes)
+    : input_(input), options_(options), prepared_(prepared) {
+    report_.operation = kind;
+    report_.name = options.name;
+    report_.method = std::string(to_string(options.method));
+    check_name(input, options.name, suffixes);
+    if (options.transition && (*options.transition < 1 || *options.transition > 20))
+        throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20");
+    if (!(options.feature_angle > 0 && options.feature_angle < 180))
+        throw ToolError("feature_angle must lie between 0 and 180 degrees");
+    watch_.skip();
+    marks_ = mark_deck(input);
+    drifting_ = drifting_groups(mesh(), options.preserve);
+    if (marks_.mesh) prepared_.totals = nullptr;  // other families
+    if (input.solver_input) watch_.lap("mark deck");
+}
+
+Interface Operation::begin(std::span<const Blade> blades) {
+    blades_.assign(blades.begin(), blades.end());
+    // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
+    copy_ = std::async(std::launch::async, [this, measure = prepared_.totals == nullptr] {
+        return std::pair(std::make_unique<Mesh>(mesh()), measure ? family_totals(mesh()) : FamilyTotals());
+    });
+    int width = options_.transition.value_or(2);
+    location_ = locate(mesh(), blades, width, prepared_.adjacency);
+    if (!options_.transition && options_.method == Method::deform) {
+        width = bandwidth(location_, mesh());
+        if (width > 2) location_ = locate(mesh(), blades, width, prepared_.adjacency);
+    }
+    watch_.lap("locate");
+    ConstraintOptions constraint_options;
+    constraint_options.feature_angle = options_.feature_angle;
+    constraint_options.drifting_groups = drifting_;
+    constraint_options.kept_hidden = marks_.kept;
+    constraint_options.pinned = marks_.pinned;
+    const Tool& first = *blades.front().tool;
+    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}, {}};
+    f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
+    for (int v = 0; v < f.d.band.size(); ++v) {
+        f.distance[v] = location_.distance[f.d.band.nodes[v].global];
+        if (std::abs(f.distance[v]) > location_.tolerance) continue;
+        f.distance[v] = 0;
+        if (!blades.front().bound) f.d.contact[v] = &first;
+    }
+    check_input_shape(f, mesh());
+    if (options_.preserve) gauge_.emplace(f.d.band, mesh(), drifting_);
+    for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
+    watch_.lap("constraints");
+    return f;
+}
+
+void Operation::take_laps(const std::vector<std::pair<std::string, double>>& laps) {
+    report_.seconds.insert(report_.seconds.end(), laps.begin(), laps.end());
+    watch_.skip();
+}
+
+Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
+    // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
+    for (int v = 0; v < f.d.band.size(); ++v)
+        if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = {};
+    find_node_sets(f);
+    add_moved_nodes(f);
+    for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
+    watch_.lap("open");
+    auto [output, own_totals] = copy_.get();
+    const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
+    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups);
+    add_front(lips, naming.front, rebuilt);
+    watch_.lap("rebuild");
+    std::vector<std::string> deck_warnings;
+    if (input_.solver_input) {
+        carry_deck(mesh(), rebuilt.mesh, rebuilt.changes, options_.strict, deck_warnings);
+        watch_.lap("carry deck");
+    }
+
+    const auto exterior = [&](int v) { return f.d.constraints.is_exterior(v); };
+    const auto interior = [&](int v) { return !f.d.constraints.is_exterior(v); };
+    report_.transition = f.bandwidth;
+    report_.node_sets[naming.sets[0]] = numbers(f.nodes, rebuilt.node, rebuilt.mesh, interior);
+    report_.node_sets[naming.sets[1]] = numbers(f.nodes, rebuilt.node, rebuilt.mesh, exterior);
+    report_.node_sets[naming.sets[2]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, interior);
+    report_.node_sets[naming.sets[3]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, exterior);
+    count_constraints(f, blades_, report_);
+    BandQuality quality = band_quality(f, mesh());
+    report_.quality_before = summarise(std::move(quality.before));
+    report_.quality_after = summarise(std::move(quality.after));
+    report_.nodes_split = rebuilt.nodes_split;
+    report_.nodes_doubled = rebuilt.nodes_doubled;
+    report_.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;
+    report_.nodes_removed = rebuilt.nodes_removed;
+    report_.elements_added = rebuilt.elements_added;
+    report_.elements_removed = rebuilt.elements_removed;
+    FamilyTotals after = totals;
+    count_cells(after, mesh(), rebuilt.before, -1);
+    count_cells(after, rebuilt.mesh, rebuilt.after, +1);
+    recount_nodes_and_facets(after, rebuilt.mesh);
+    report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
+    for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
+        report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
+    describe_motion(f, mesh(), rebuilt, report_);
+    count_group_constraints(f, mesh(), report_);
+    if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
+    watch_.lap("report");
+    remove_marks(rebuilt.mesh);
+    return {std::move(rebuilt.mesh), std::move(report_)};
+}
+
+}  // namespace femscalpel

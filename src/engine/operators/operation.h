@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <future>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "groups/group_report.h"
+#include "groups/preserve.h"
+#include "operators/interface.h"
+#include "operators/lips.h"
+#include "operators/locate.h"
+#include "operators/rebuild.h"
+#include "operators/report.h"
+#include "operators/stopwatch.h"
+#include "semantics/carry_over.h"
+
+namespace femscalpel {
+
+/// What every operator lets the user choose.
+struct OperatorOptions {
+    std::string name;               ///< prefix of the new groups
+    Method method = Method::snap;
+    std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
+    double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
+    /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
+    std::optional<std::vector<std::string>> preserve;
+    bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+};
+
+/// What a session keeps of its mesh; all of it can be made anew at a cost linear in the mesh.
+struct Prepared {
+    const Adjacency* adjacency = nullptr;
+    const FamilyTotals* totals = nullptr;
+};
+
+/// How an operator calls what it made.
+struct Naming {
+    std::vector<std::vector<std::string>> groups;  ///< of faces, by Lips::Face::group: each face is in all of its list
+    std::string front;                             ///< of the front's nodes
+    /// Node sets of the report: interface nodes inside and on the outside, transition nodes inside and on the outside.
+    std::array<const char*, 4> sets{"ICN", "ECN", "ITN", "ETN"};
+};
+
+/// The steps that all operators share (DESIGN 3): locating, constraints, and, when the operator has done its own,
+/// putting the band back, carrying the solver's input over, and the report.
+class Operation {
+public:
+    /// Checks the options; `suffixes` are those of the groups the operator makes. Throws ToolError.
+    Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
+              std::initializer_list<const char*> suffixes);
+
+    /// The input, with the solver's input marked.
+    const Mesh& mesh() const { return marks_.mesh ? *marks_.mesh : input_; }
+
+    /// Finds the band of `blades` and what its nodes have to keep to. Nodes on the first blade, where it is
+    /// unbounded, are in contact with it. Throws as locate(), extract_band() and check_input_shape() do.
+    Interface begin(std::span<const Blade> blades);
+
+    /// Where the blades meet the mesh; known after begin().
+    const Location& location() const { return location_; }
+
+    /// The steps that an operator has timed itself since begin().
+    void take_laps(const std::vector<std::pair<std::string, double>>& laps);
+
+    Result finish(Interface& f, const Lips& lips, const Naming& naming);
+
+private:
+    const Mesh& input_;
+    const OperatorOptions& options_;
+    Prepared prepared_;
+    Report report_;
+    Stopwatch watch_{report_.seconds};
+    DeckMarks marks_;
+    std::vector<Blade> blades_;
+    Location location_;
+    std::vector<bool> drifting_;       // groups, by index; empty if none
+    std::optional<DriftGauge> gauge_;  // of them
+    std::future<std::pair<std::unique_ptr<Mesh>, FamilyTotals>> copy_;
+};
+
+}  // namespace femscalpel

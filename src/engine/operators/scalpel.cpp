@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/scalpel.h"
+
+#include "operators/locate.h"
+
+namespace femscalpel {
+
+struct Scalpel::State {
+    std::shared_ptr<const Mesh> mesh;
+    Adjacency adjacency;
+    FamilyTotals totals;
+
+    Prepared prepared() const { return {&adjacency, &totals}; }
+};
+
+Scalpel::Scalpel(std::shared_ptr<const Mesh> mesh) {
+    Adjacency adjacency(*mesh);
+    FamilyTotals totals = family_totals(*mesh);
+    state_ = std::make_unique<State>(State{std::move(mesh), std::move(adjacency), std::move(totals)});
+}
+
+Scalpel::~Scalpel() = default;
+Scalpel::Scalpel(Scalpel&&) noexcept = default;
+
+const Mesh& Scalpel::mesh() const { return *state_->mesh; }
+
+Result Scalpel::crack(const Tool& tool, const CrackOptions& options) const {
+    return femscalpel::crack(*state_->mesh, tool, options, state_->prepared());
+}
+
+}  // namespace femscalpel
