@@ -17,7 +17,7 @@ constexpr double far_bulge = 0.04;
 
 class Mender {
 public:
-    Mender(Interface& f, const Tool& tool) : f_(f), d_(f.d), band_(f.d.band), tool_(tool) {}
+    Mender(Interface& f, const Tool& tool, bool may_split) : f_(f), d_(f.d), band_(f.d.band), tool_(tool), may_split_(may_split) {}
 
     void run() {
         for (int round = 0; round < rounds; ++round) {
@@ -27,7 +27,7 @@ public:
                 if (!band_.tetras.alive(t) || curved_shape(d_, t) >= goal) continue;
                 flatten_edges(t);
                 if (curved_shape(d_, t) < goal) move_nodes(t);
-                if (curved_shape(d_, t) < goal && round % 2 == 1) split_edge(t);
+                if (may_split_ && curved_shape(d_, t) < goal && round % 2 == 1) split_edge(t);
             }
         }
     }
@@ -115,6 +115,7 @@ private:
     Deformable& d_;
     BandMesh& band_;
     const Tool& tool_;
+    bool may_split_;
 };
 
 }  // namespace
@@ -137,8 +138,8 @@ std::vector<int> folded_elements(const Interface& f, double limit) {
     return slots;
 }
 
-void mend_curved(Interface& f, const Tool& tool) {
-    if (f.d.mids.any()) Mender(f, tool).run();
+void mend_curved(Interface& f, const Tool& tool, bool may_split) {
+    if (f.d.mids.any()) Mender(f, tool, may_split).run();
 }
 
 }  // namespace femscalpel

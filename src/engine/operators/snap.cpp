@@ -25,8 +25,6 @@ constexpr double forced_reach = 1e-7;
 
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
-/// Second-order elements with a smaller curved_ratio() are as good as folded.
-constexpr double least_curved = 0.02;
 /// How often cutting a curved mesh is tried, each time with more nodes left alone.
 constexpr int attempts = 8;
 
