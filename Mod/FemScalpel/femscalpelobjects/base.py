@@ -5,6 +5,7 @@ import dataclasses
 
 import FreeCAD
 import Fem
+import numpy as np
 
 import femmesh_bridge
 import femscalpel
@@ -127,8 +128,7 @@ class MeshOperation:
             source = self._source_mesh(obj)
             mesh = femmesh_bridge.from_femmesh(source)
             tools = self.tools(obj)
-            on_shape = OnShape(mesh, shapes_of(obj), self.where_nodes_may_move(obj, mesh, tools))
-            result = self.operate(obj, mesh, tools)
+            result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
             points = on_shape.put_back(result.mesh, tools)
             report = self._completed(result.report, on_shape)
             self._check_names(obj, report)
@@ -142,6 +142,14 @@ class MeshOperation:
             obj.Placement = FreeCAD.Placement()
         obj.FemMesh = femmesh
         self._show(obj, report, on_shape.lost)
+
+    def _result(self, obj, mesh, tools, near):
+        marked = mesh.copy()
+        on_shape = OnShape(marked, shapes_of(obj), near)
+        result = self.operate(obj, marked, tools)
+        if not on_shape.covers(result.mesh):
+            return self._result(obj, mesh, tools, np.ones(mesh.node_count, bool))
+        return result, on_shape
 
     @staticmethod
     def _source_mesh(obj):
