@@ -45,6 +45,8 @@ struct Interface {
     std::vector<CellRef> deep_inside;  ///< elements to be removed that are not in the band
     std::vector<std::string> warnings;
     std::vector<std::pair<std::string, double>> seconds;
+    /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
+    std::function<Vec3(int, int)> mid_side;
 };
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges

@@ -57,4 +57,7 @@ struct Lips {
 /// elements there, the negative one if they are as many.
 Lips open_lips(const Interface& interface);
 
+/// The band as it is, nothing opened.
+Lips closed_lips(const BandMesh& band);
+
 }  // namespace femscalpel
