@@ -104,7 +104,7 @@ class OnShape:
         self.group_names = set()
         #: After put_back(): what FreeCAD will not find, as "Face4: 3 nodes are off it by up to 0.2".
         self.lost = []
-        self._mesh, self._near = mesh, near
+        self._mesh, self._near, self._shapes = mesh, near, shapes
         self._faces, self._edges, self._vertices = [], [], []
         if shapes and near.any():
             self._find_entities(mesh, shapes, near)
@@ -199,7 +199,7 @@ class OnShape:
 
     def covers(self, mesh):
         """Whether all nodes that the operator's result has moved, and all around its new nodes, were looked at."""
-        if not self.group_names:
+        if not self._shapes:
             return True
         known, moved, near = self._compared(mesh)
         if (moved & ~near).any():
