@@ -20,7 +20,7 @@ if FreeCAD.GuiUp:
 
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
-              group_name="CRACK", feature_angle=30.0):
+              group_name="CRACK", feature_angle=30.0, preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
@@ -46,6 +46,8 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         on a mesh with some face elements only).
     feature_angle : float
         Degrees; skin edges sharper than this keep their shape.
+    preserve : names of mesh groups, optional
+        The groups whose border keeps its shape; all when not given. Borders of others may drift.
 
     Returns
     -------
@@ -72,6 +74,7 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         obj.Transition = transition
         obj.GroupName = group_name
         obj.FeatureAngle = feature_angle
+        obj.PreservedGroups = ["*"] if preserve is None else list(preserve)
         obj.Source = source
     except Exception:
         doc.removeObject(obj.Name)
