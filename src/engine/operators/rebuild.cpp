@@ -48,7 +48,7 @@ private:
         out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
         for (int v = 0; v < band_.size(); ++v) {
             const BandNode& n = band_.nodes[v];
-            if (!band_.in_use(v)) continue;
+            if (n.global < 0 && !band_.in_use(v)) continue;
             if (n.global >= 0) {
                 out_.node[v] = n.global;
                 mesh.points[n.global] = n.at;

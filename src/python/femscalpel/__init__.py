@@ -17,7 +17,7 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
-from .operators import Result, Scalpel, crack
+from .operators import Result, Scalpel, crack, drill
 from .quality import mean_ratio, measure
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Cylinder, Plane, Tool
@@ -48,6 +48,7 @@ __all__ = [
     "VirtualBoundary",
     "WriteError",
     "crack",
+    "drill",
     "from_meshio",
     "mean_ratio",
     "measure",
