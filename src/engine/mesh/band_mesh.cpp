@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mesh/band_mesh.h"
 
-#include <map>
+#include <optional>
 #include <string>
 
 namespace femscalpel {
@@ -50,10 +50,17 @@ bool BandMesh::is_cut_edge(int a, int b) const {
 
 void BandMesh::neighbours(int node, std::vector<int>& out) const {
     out.clear();
+    // Most nodes are met several times: a small hash table on the stack finds them; the sort takes what it missed.
+    std::array<int, 256> met;
+    met.fill(-1);
     const auto gather = [&](const auto& list) {
         for (const int s : list.around(node))
-            for (const int v : list[s])
-                if (v != node) out.push_back(v);
+            for (const int v : list[s]) {
+                int& place = met[static_cast<unsigned>(v) * 2654435769u >> 24];
+                if (v == node || v == place) continue;
+                place = v;
+                out.push_back(v);
+            }
     };
     gather(tetras);
     gather(triangles);
@@ -80,22 +87,48 @@ double BandMesh::mean_edge_length(int node) const {
     return count > 0 ? sum / count : 0;
 }
 
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level) {
+namespace {
+
+/// The elements with a node of the band, ascending, by type.
+std::array<std::vector<Index>, cell_type_count> band_cells(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency) {
+    std::array<std::vector<Index>, cell_type_count> cells;
+    if (!adjacency) {
+        for (const CellBlock& block : mesh.blocks()) {
+            const CellTraits& t = traits(block.type);
+            std::vector<Index>& chosen = cells[static_cast<int>(block.type)];
+            const Index count = block.size();
+            const Index* n = block.connectivity.data();
+            for (Index c = 0; c < count; ++c, n += t.nodes) {
+                bool near = false;
+                for (int k = 0; k < t.corners; ++k) near |= level[n[k]] >= 0;
+                if (near) chosen.push_back(c);
+            }
+        }
+        return cells;
+    }
+    // One bit per element puts them in order at next to no cost.
+    std::array<std::vector<bool>, cell_type_count> near;
+    for (const CellBlock& block : mesh.blocks()) near[static_cast<int>(block.type)].resize(static_cast<std::size_t>(block.size()));
+    for (std::size_t n = 0; n < level.size(); ++n)
+        if (level[n] >= 0)
+            adjacency->around(static_cast<Index>(n), [&](CellType type, Index cell) { near[static_cast<int>(type)][static_cast<std::size_t>(cell)] = true; });
+    for (std::size_t type = 0; type < near.size(); ++type)
+        for (std::size_t c = 0; c < near[type].size(); ++c)
+            if (near[type][c]) cells[type].push_back(static_cast<Index>(c));
+    return cells;
+}
+
+}  // namespace
+
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency) {
     BandMesh band;
-    std::array<std::vector<Index>, cell_type_count> chosen;
+    const auto chosen = band_cells(mesh, level, adjacency);
     std::vector<int> local(mesh.points.size(), -1);
     for (const CellBlock& block : mesh.blocks()) {
         const CellTraits& t = traits(block.type);
-        std::vector<Index>& cells = chosen[static_cast<int>(block.type)];
-        const Index count = block.size();
-        const Index* n = block.connectivity.data();
-        for (Index c = 0; c < count; ++c, n += t.nodes) {
-            bool near = false;
-            for (int k = 0; k < t.corners; ++k) near = near || level[n[k]] >= 0;
-            if (!near) continue;
-            cells.push_back(c);
-            for (int k = 0; k < t.corners; ++k) local[n[k]] = 0;
-        }
+        const std::vector<Index>& cells = chosen[static_cast<int>(block.type)];
+        for (const Index c : cells)
+            for (int k = 0; k < t.corners; ++k) local[block.connectivity[c * t.nodes + k]] = 0;
         if (!t.simplex && !cells.empty()) {
             std::string numbers;
             for (std::size_t k = 0; k < cells.size() && k < 5; ++k) numbers += (k ? ", " : "") + std::to_string(block.ids[cells[k]]);
@@ -113,46 +146,52 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level) {
         }
     for_each_list(band, [&](auto& list) { list.resize_nodes(band.size()); });
 
-    const auto fill = [&]<std::size_t N>(SimplexList<N>& list, std::vector<CellRef>& refs, CellType type) {
-        const CellBlock& block = mesh.block(type);
-        const CellTraits& t = traits(type);
-        for (Index c : chosen[static_cast<int>(type)]) {
-            const auto n = block.nodes(c);
-            std::array<int, N> v;
-            for (std::size_t k = 0; k < N; ++k) v[k] = local[n[k]];
-            list.add(v, 0);
-            refs.push_back({type, c});
-            if (t.quadratic)
-                for (std::size_t e = 0; e < t.edges.size(); ++e)
-                    band.mid_nodes.emplace(edge_key(v[t.edges[e][0]], v[t.edges[e][1]]), n[t.corners + static_cast<int>(e)]);
+    const auto fill = [&]<std::size_t N>(SimplexList<N>& list, std::vector<CellRef>& refs, CellType linear, std::optional<CellType> quadratic) {
+        std::vector<std::array<int, N>> simplices;
+        for (const std::optional<CellType> type : {std::optional(linear), quadratic}) {
+            if (!type) continue;
+            const CellBlock& block = mesh.block(*type);
+            const CellTraits& t = traits(*type);
+            for (const Index c : chosen[static_cast<int>(*type)]) {
+                const auto n = block.nodes(c);
+                std::array<int, N> v;
+                for (std::size_t k = 0; k < N; ++k) v[k] = local[n[k]];
+                simplices.push_back(v);
+                refs.push_back({*type, c});
+                if (t.quadratic)
+                    for (std::size_t e = 0; e < t.edges.size(); ++e)
+                        band.mid_nodes.emplace(edge_key(v[t.edges[e][0]], v[t.edges[e][1]]), n[t.corners + static_cast<int>(e)]);
+            }
         }
+        list.assign(std::move(simplices), band.size());
     };
-    fill(band.tetras, band.tetra_cells, CellType::tetra);
-    fill(band.tetras, band.tetra_cells, CellType::tetra10);
-    fill(band.triangles, band.triangle_cells, CellType::triangle);
-    fill(band.triangles, band.triangle_cells, CellType::triangle6);
-    fill(band.lines, band.line_cells, CellType::line);
-    fill(band.lines, band.line_cells, CellType::line3);
-    fill(band.vertices, band.vertex_cells, CellType::vertex);
+    fill(band.tetras, band.tetra_cells, CellType::tetra, CellType::tetra10);
+    fill(band.triangles, band.triangle_cells, CellType::triangle, CellType::triangle6);
+    fill(band.lines, band.line_cells, CellType::line, CellType::line3);
+    fill(band.vertices, band.vertex_cells, CellType::vertex, std::nullopt);
 
     if (mesh.facets.empty()) return band;
-    std::map<std::pair<CellType, Index>, int> slots;
-    for (int s = 0; s < band.tetras.size(); ++s) slots.emplace(std::pair(band.tetra_cells[s].type, band.tetra_cells[s].cell), s);
-    for (int s = 0; s < band.triangles.size(); ++s) slots.emplace(std::pair(band.triangle_cells[s].type, band.triangle_cells[s].cell), s);
+    const auto slot_of = [&](CellType type, Index cell) {
+        const std::vector<Index>& cells = chosen[static_cast<int>(type)];
+        const auto at = std::ranges::lower_bound(cells, cell);
+        if (at == cells.end() || *at != cell) return -1;
+        const CellType first = traits(type).dimension == 3 ? CellType::tetra : CellType::triangle;  // fill() put it first
+        return static_cast<int>(at - cells.begin()) + (type == first ? 0 : static_cast<int>(chosen[static_cast<int>(first)].size()));
+    };
     for (std::size_t k = 0; k < mesh.facets.size(); ++k) {
         const Facet& f = mesh.facets[k];
-        const auto slot = slots.find({f.type, f.cell});
-        if (slot == slots.end()) continue;
+        const int slot = slot_of(f.type, f.cell);
+        if (slot < 0) continue;
         const int tag = static_cast<int>(k);
         if (traits(f.type).dimension == 3) {
             // The table's faces of a tetrahedron have their normal inwards.
             const auto& face = traits(f.type).faces[f.face - 1];
-            const auto& v = band.tetras[slot->second];
+            const auto& v = band.tetras[slot];
             band.facet_faces.add({v[face[0]], v[face[2]], v[face[1]]}, tag);
         } else if (f.face <= 2) {
-            band.facet_sides.push_back({slot->second, tag});
+            band.facet_sides.push_back({slot, tag});
         } else {
-            const auto& v = band.triangles[slot->second];
+            const auto& v = band.triangles[slot];
             band.facet_edges.add({v[f.face - 3], v[(f.face - 2) % 3]}, tag);
         }
     }

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/adjacency.h"
 #include "mesh/mesh.h"
+#include "mesh/rows.h"
 
 namespace femscalpel {
 
@@ -25,13 +29,23 @@ public:
     int origin(int s) const { return origin_[s]; }
     int tag(int s) const { return tag_[s]; }
     void set_tag(int s, int tag) { tag_[s] = tag; }
-    const std::vector<int>& around(int node) const { return around_[node]; }
+    /// Slots of the simplices at a node. Not to be kept while simplices are added, split or merged.
+    std::span<const int> around(int node) const { return around_[node]; }
 
     void resize_nodes(int count) { around_.resize(static_cast<std::size_t>(count)); }
-    void reserve(std::size_t count) {
-        nodes_.reserve(count);
-        origin_.reserve(count);
-        tag_.reserve(count);
+
+    /// Takes all simplices of an empty list over `node_count` nodes at once, with tag 0: cheaper than one by one.
+    void assign(std::vector<Nodes> nodes, int node_count) {
+        nodes_ = std::move(nodes);
+        origin_.resize(nodes_.size());
+        std::iota(origin_.begin(), origin_.end(), 0);
+        tag_.assign(nodes_.size(), 0);
+        std::vector<int> counts(static_cast<std::size_t>(node_count), 0);
+        for (const Nodes& simplex : nodes_)
+            for (const int v : simplex) ++counts[v];
+        around_.reserve(counts);
+        for (int s = 0; s < size(); ++s)
+            for (const int v : nodes_[s]) around_.add(v, s);
     }
 
     int add(const Nodes& nodes, int tag) {
@@ -39,15 +53,17 @@ public:
         nodes_.push_back(nodes);
         origin_.push_back(s);
         tag_.push_back(tag);
-        for (int v : nodes) around_[v].push_back(s);
+        for (int v : nodes) around_.add(v, s);
         return s;
     }
 
     /// Bisects every simplex that holds nodes a and b at node p. The part with a stays in its slot, the
     /// part with b gets a new one and inherits origin and tag. Orientation is kept.
     void split(int a, int b, int p) {
-        // around_[a] keeps its slots; only around_[b] and those of the opposite nodes change.
-        for (const int s : around_[a]) {
+        // The slots around a stay the same; only those around b and the opposite nodes change.
+        const auto count = around_[a].size();
+        for (std::size_t k = 0; k < count; ++k) {
+            const int s = around_[a][k];
             if (std::ranges::find(nodes_[s], b) == nodes_[s].end()) continue;
             Nodes child = nodes_[s];
             std::ranges::replace(child, a, p);
@@ -56,26 +72,28 @@ public:
             nodes_.push_back(child);
             origin_.push_back(origin_[s]);
             tag_.push_back(tag_[s]);
-            std::ranges::replace(around_[b], s, c);
-            around_[p].push_back(s);
+            around_.replace(b, s, c);
+            around_.add(p, s);
             for (int v : child)
-                if (v != b) around_[v].push_back(c);
+                if (v != b) around_.add(v, c);
         }
     }
 
     /// Moves node p onto its neighbour t: simplices with both vanish, in the others t takes p's place.
     void merge(int p, int t) {
-        for (const int s : around_[p]) {
+        const auto count = around_[p].size();
+        for (std::size_t k = 0; k < count; ++k) {
+            const int s = around_[p][k];
             if (std::ranges::find(nodes_[s], t) != nodes_[s].end()) {
                 for (int v : nodes_[s])
-                    if (v != p) std::erase(around_[v], s);
+                    if (v != p) around_.remove(v, s);
                 origin_[s] = -1;
             } else {
                 std::ranges::replace(nodes_[s], p, t);
-                around_[t].push_back(s);
+                around_.add(t, s);
             }
         }
-        around_[p].clear();
+        around_.clear(p);
     }
 
     /// Takes a simplex out for good.
@@ -95,7 +113,7 @@ private:
     std::vector<Nodes> nodes_;
     std::vector<int> origin_;
     std::vector<int> tag_;
-    std::vector<std::vector<int>> around_;
+    Rows around_;
 };
 
 /// Undirected edge as a 64-bit key.
@@ -174,8 +192,9 @@ public:
     double mean_edge_length(int node) const;
 };
 
-/// Copies the elements of `mesh` that have a node with 0 <= level[node]; `level` is -1 elsewhere.
+/// Copies the elements of `mesh` that have a node with 0 <= level[node]; `level` is -1 elsewhere. One pass over the
+/// elements, unless their `adjacency` is given.
 /// Throws UnsupportedElementError naming the elements when one of them is not a simplex.
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level);
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency = nullptr);
 
 }  // namespace femscalpel

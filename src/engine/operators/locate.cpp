@@ -5,30 +5,32 @@
 #include <sstream>
 
 namespace femscalpel {
+namespace {
 
-Adjacency::Adjacency(const Mesh& mesh) : start_(mesh.points.size() + 1, 0) {
+/// On which side of the tool a node is, as bits, so that those of an element can be joined.
+constexpr std::uint8_t behind = 1, on = 2, before = 4;
+
+/// Visits the elements of dimension 2 and more: type and corner nodes.
+template <class Visit>
+void for_each_element(const Mesh& mesh, Visit visit) {
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
-        for (Index c = 0; c < b.size(); ++c)
-            for (int k = 0; k < t.corners; ++k) ++start_[b.connectivity[static_cast<std::size_t>(c) * t.nodes + k] + 1];
-    }
-    for (std::size_t n = 1; n < start_.size(); ++n) start_[n] += start_[n - 1];
-    cells_.resize(static_cast<std::size_t>(start_.back()));
-    std::vector<Index> fill(start_.begin(), start_.end() - 1);
-    for (const CellBlock& b : mesh.blocks()) {
-        const CellTraits& t = traits(b.type);
-        for (Index c = 0; c < b.size(); ++c)
-            for (int k = 0; k < t.corners; ++k)
-                cells_[fill[b.connectivity[static_cast<std::size_t>(c) * t.nodes + k]]++] = c * cell_type_count + static_cast<Index>(b.type);
+        if (t.dimension < 2) continue;
+        const Index* n = b.connectivity.data();
+        const Index count = b.size();
+        const auto pass = [&](auto corners) {
+            for (Index c = 0; c < count; ++c, n += t.nodes) visit(n, corners);
+        };
+        // A constant lets the compiler unroll what is inside, for the elements that matter.
+        if (t.corners == 4) pass(std::integral_constant<int, 4>());
+        else pass(t.corners);
     }
 }
 
-namespace {
-
 /// Longest edge of an element, by its corners.
-double longest_edge(const Mesh& mesh, const CellTraits& t, const Index* n) {
+double longest_edge(const Mesh& mesh, int corners, const Index* n) {
     double longest = 0;
-    for (int a = 0; a < t.corners; ++a)
+    for (int a = 0; a < corners; ++a)
         for (int b = 0; b < a; ++b) longest = std::max(longest, (mesh.points[n[a]] - mesh.points[n[b]]).squaredNorm());
     return std::sqrt(longest);
 }
@@ -38,33 +40,28 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
     double nearest = std::numeric_limits<double>::infinity();
     for (const double d : distance)
         if (std::abs(d) < std::abs(nearest)) nearest = d;
+    std::vector<std::uint8_t> side(distance.size());
+    for (std::size_t n = 0; n < side.size(); ++n)
+        side[n] = distance[n] < -out.tolerance ? behind : distance[n] > out.tolerance ? before : on;
     bool touched = false, beyond = false;
-    for (const CellBlock& b : mesh.blocks()) {
-        const CellTraits& t = traits(b.type);
-        if (t.dimension < 2) continue;
-        const Index* n = b.connectivity.data();
-        for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
-            double smallest = distance[n[0]], largest = smallest;
-            for (int k = 1; k < t.corners; ++k) {
-                smallest = std::min(smallest, distance[n[k]]);
-                largest = std::max(largest, distance[n[k]]);
+    for_each_element(mesh, [&](const Index* n, int corners) {
+        std::uint8_t sides = 0;
+        for (int k = 0; k < corners; ++k) sides |= side[n[k]];
+        if (sides == behind || sides == before) return;
+        if (blade.bound) {
+            double bound = std::numeric_limits<double>::infinity();
+            for (int k = 0; k < corners; ++k) bound = std::min(bound, blade.bound(mesh.points[n[k]]));
+            if (bound > blade_margin * longest_edge(mesh, corners, n)) {
+                beyond = true;
+                return;
             }
-            if (smallest > out.tolerance || largest < -out.tolerance) continue;
-            if (blade.bound) {
-                double bound = std::numeric_limits<double>::infinity();
-                for (int k = 0; k < t.corners; ++k) bound = std::min(bound, blade.bound(mesh.points[n[k]]));
-                if (bound > blade_margin * longest_edge(mesh, t, n)) {
-                    beyond = true;
-                    continue;
-                }
-            }
-            const bool crossed = smallest < -out.tolerance && largest > out.tolerance;
-            if (crossed) ++out.crossed;
-            for (int k = 0; k < t.corners; ++k)
-                if (crossed || std::abs(distance[n[k]]) <= out.tolerance) out.level[n[k]] = 0;
-            touched = true;
         }
-    }
+        const bool crossed = (sides & behind) && (sides & before);
+        if (crossed) ++out.crossed;
+        for (int k = 0; k < corners; ++k)
+            if (crossed || side[n[k]] == on) out.level[n[k]] = 0;
+        touched = true;
+    });
     if (touched) return;
     std::ostringstream message;
     if (beyond) {
@@ -100,33 +97,29 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
         for (std::size_t n = 0; n < out.level.size(); ++n)
             if (out.level[n] == 0) front.push_back(static_cast<Index>(n));
     for (int level = 1; level <= levels; ++level) {
-        const auto reach = [&](CellType type, Index cell, const Index* n) {
-            static_cast<void>(cell);
-            const int corners = traits(type).corners;
-            bool near = false;
-            for (int k = 0; k < corners; ++k) near = near || out.level[n[k]] == level - 1;
-            if (!near) return;
-            for (int k = 0; k < corners; ++k)
-                if (out.level[n[k]] < 0) {
-                    out.level[n[k]] = static_cast<std::int8_t>(level);
-                    if (adjacency) next.push_back(n[k]);
-                }
-        };
-        if (adjacency) {
-            next.clear();
-            for (Index n : front)
-                adjacency->around(n, [&](CellType type, Index cell) {
-                    if (traits(type).dimension >= 2) reach(type, cell, mesh.block(type).nodes(cell).data());
-                });
-            front.swap(next);
-        } else {
-            for (const CellBlock& b : mesh.blocks()) {
-                const CellTraits& t = traits(b.type);
-                if (t.dimension < 2) continue;
-                const Index* n = b.connectivity.data();
-                for (Index c = 0; c < b.size(); ++c, n += t.nodes) reach(b.type, c, n);
-            }
+        if (!adjacency) {
+            for_each_element(mesh, [&](const Index* n, int corners) {
+                bool near = false;
+                for (int k = 0; k < corners; ++k) near |= out.level[n[k]] == level - 1;
+                if (!near) return;
+                for (int k = 0; k < corners; ++k)
+                    if (out.level[n[k]] < 0) out.level[n[k]] = static_cast<std::int8_t>(level);
+            });
+            continue;
         }
+        next.clear();
+        for (const Index at : front)
+            adjacency->around(at, [&](CellType type, Index cell) {
+                const CellTraits& t = traits(type);
+                if (t.dimension < 2) return;
+                const Index* n = mesh.block(type).nodes(cell).data();
+                for (int k = 0; k < t.corners; ++k) {
+                    if (out.level[n[k]] >= 0) continue;
+                    out.level[n[k]] = static_cast<std::int8_t>(level);
+                    next.push_back(n[k]);
+                }
+            });
+        front.swap(next);
     }
     return out;
 }

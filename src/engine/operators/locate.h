@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/adjacency.h"
 #include "mesh/mesh.h"
 #include "operators/interface.h"
 
@@ -23,26 +24,6 @@ struct Location {
 /// given, which makes the levels cost only the band.
 ///
 /// Throws ToolError when a tool misses the mesh: says how far away it is, and on which side.
-class Adjacency;
 Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr);
-
-/// Elements around each node, triangles and tetrahedra and whatever else shares a node. Linear time and memory.
-class Adjacency {
-public:
-    explicit Adjacency(const Mesh& mesh);
-
-    /// Calls visit(type, cell) for the elements around a node.
-    template <class Visit>
-    void around(Index node, Visit visit) const {
-        for (Index k = start_[node]; k < start_[node + 1]; ++k) {
-            const std::int64_t v = cells_[k];
-            visit(static_cast<CellType>(v % cell_type_count), static_cast<Index>(v / cell_type_count));
-        }
-    }
-
-private:
-    std::vector<Index> start_;
-    std::vector<std::int64_t> cells_;
-};
 
 }  // namespace femscalpel

@@ -296,7 +296,7 @@ Interface Operation::begin(std::span<const Blade> blades) {
     constraint_options.kept_hidden = marks_.kept;
     constraint_options.pinned = marks_.pinned;
     const Tool& first = *blades.front().tool;
-    Interface f{Deformable(extract_band(mesh(), location_.level), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}};
+    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}};
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];
