@@ -98,7 +98,7 @@ public:
 
     /// Takes a simplex out for good.
     void remove(int s) {
-        for (const int v : nodes_[s]) std::erase(around_[v], s);
+        for (const int v : nodes_[s]) around_.remove(v, s);
         origin_[s] = -1;
     }
 

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "operators/removal.h"
 
 namespace femscalpel {
 namespace {
+
+/// Elements that stay may bulge so deep into a hole, in its radii.
+constexpr double deepest_bulge = 0.25;
 
 /// The surfaces of a body, each bounded by the others, in the order they are cut.
 std::vector<Blade> blades_of(const Body& body) {
@@ -26,6 +30,30 @@ std::vector<Blade> blades_of(const Body& body) {
         blades.push_back(std::move(blade));
     }
     return blades;
+}
+
+/// Elements that stay must not reach deep into what was removed: then the mesh is too coarse to show the hole's shape.
+void check_resolution(const Interface& f, std::span<const Body> bodies) {
+    const BandMesh& band = f.d.band;
+    for (const Body& body : bodies) {
+        double radius = std::numeric_limits<double>::infinity();
+        for (const Body::Wall& w : body.walls) radius = std::min(radius, w.tool->feature_size());
+        if (!std::isfinite(radius)) continue;
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                Vec3 middle = Vec3::Zero();
+                for (const int v : list[s]) middle += band.nodes[v].at / static_cast<double>(list[s].size());
+                if (body.depth(middle) > -deepest_bulge * radius) continue;
+                std::ostringstream message;
+                message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius " << radius << " near (" << middle.transpose()
+                        << "): elements would reach deep into it. Refine the mesh there first, to edges of at most " << radius;
+                throw ToolError(message.str());
+            }
+        };
+        look(band.tetras);
+        look(band.triangles);
+    }
 }
 
 Index solid_count(const Mesh& mesh) {
@@ -98,6 +126,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     release_all_but_walls(f, tool_of_tag);
     if (options.method == Method::snap) relax_band(f);
     operation.take_laps(f.seconds);
+    check_resolution(f, bodies);
     check_shape(f, mesh);
     find_node_sets(f);
     check_contacts(f);

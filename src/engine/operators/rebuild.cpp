@@ -379,7 +379,7 @@ private:
 
     /// Drops the nodes that only removed elements had.
     void remove_nodes() {
-        if (removed_.empty()) return;
+        if (!lips_.removes) return;
         Mesh& mesh = out_.mesh;
         std::vector<char> orphan(mesh.points.size(), 0);
         bool any = false;

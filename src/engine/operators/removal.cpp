@@ -121,8 +121,8 @@ private:
     template <std::size_t N>
     void drop(SimplexList<N>& list, auto goes) {
         for (const int v : touched_) {
-            const std::vector<int> around = list.around(v);
-            for (const int s : around)
+            const auto slots = list.around(v);
+            for (const int s : std::vector<int>(slots.begin(), slots.end()))
                 if (goes(s)) list.remove(s);
         }
     }
@@ -210,6 +210,7 @@ void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_ta
 Lips open_walls(const Interface& f) {
     const BandMesh& band = f.d.band;
     Lips out;
+    out.removes = true;
     for (int t = 0; t < band.tetras.size(); ++t) out.tetras.push_back(band.tetras[t]);
     for (int t = 0; t < band.triangles.size(); ++t) out.triangles.push_back(band.triangles[t]);
     for (int l = 0; l < band.lines.size(); ++l) out.lines.push_back(band.lines[l]);
@@ -225,8 +226,15 @@ Lips open_walls(const Interface& f) {
     std::set<int> nodes;
     for (int s = 0; s < band.cut_faces.size(); ++s) {
         if (!band.cut_faces.alive(s)) continue;
-        const auto& face = band.cut_faces[s];
-        const auto host = std::ranges::find_if(band.tetras.around(face[0]), [&](int t) { return holds(band.tetras[t], face[1]) && holds(band.tetras[t], face[2]); });
+        auto face = band.cut_faces[s];
+        const auto around = band.tetras.around(face[0]);
+        const auto host = std::ranges::find_if(around, [&](int t) { return holds(band.tetras[t], face[1]) && holds(band.tetras[t], face[2]); });
+        // Merging nodes may have turned it over.
+        for (const auto& f : outward_faces) {
+            const auto& n = band.tetras[*host];
+            const std::array<int, 3> outward{n[f[0]], n[f[1]], n[f[2]]};
+            if (sorted(outward) == sorted(face)) face = outward;
+        }
         const auto at = triangle_at.find(sorted(face));
         out.faces.push_back({face, band.cut_faces.tag(s), at == triangle_at.end() ? Lips::fresh : at->second,
                              band.tetra_cells[band.tetras.origin(*host)].type == CellType::tetra10});
@@ -235,7 +243,8 @@ Lips open_walls(const Interface& f) {
     for (int s = 0; s < band.cut_edges.size(); ++s) {
         if (!band.cut_edges.alive(s)) continue;
         const auto& edge = band.cut_edges[s];
-        const auto host = std::ranges::find_if(band.triangles.around(edge[0]), [&](int t) { return holds(band.triangles[t], edge[1]); });
+        const auto around = band.triangles.around(edge[0]);
+        const auto host = std::ranges::find_if(around, [&](int t) { return holds(band.triangles[t], edge[1]); });
         const auto at = line_at.find(sorted(edge));
         out.edges.push_back({edge, band.cut_edges.tag(s), at == line_at.end() ? Lips::fresh : at->second,
                              band.triangle_cells[band.triangles.origin(*host)].type == CellType::triangle6});
