@@ -36,7 +36,11 @@ py::dict to_dict(const GroupRecord& record) {
     out["measure_before"] = record.measure_before;
     out["measure_after"] = record.measure_after;
     out["nodes_moved"] = record.nodes_moved;
+    out["boundary_kept"] = record.boundary_kept;
     out["boundary_drift"] = record.boundary_drift;
+    out["nodes_on_surface"] = record.nodes_on_surface;
+    out["nodes_on_line"] = record.nodes_on_line;
+    out["nodes_fixed"] = record.nodes_fixed;
     out["status"] = record.status;
     return out;
 }
@@ -71,14 +75,14 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-/// (name, method, transition, feature_angle, strict), as _common_options() in operators.py makes it.
-using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, bool>;
+/// (name, method, transition, feature_angle, preserve, strict), as _common_options() in operators.py makes it.
+using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool>;
 
 template <class Options>
 Options options(const CommonOptions& common) {
     Options out;
     std::string method;
-    std::tie(out.name, method, out.transition, out.feature_angle, out.strict) = common;
+    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict) = common;
     out.method = method_from_name(method);
     return out;
 }
