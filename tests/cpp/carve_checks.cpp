@@ -127,13 +127,13 @@ private:
     void faces() {
         std::map<Key3, std::vector<const Carved::Wall*>> wall;
         std::map<Key3, std::array<Index, 3>> turned;
-        std::map<Key3, bool> is_new;  // an element that was there keeps its own direction
+        std::map<Key3, bool> is_new;  // an element that was there, or part of one, keeps its own direction
         for_each([](CellType t) { return is_triangle(t); }, [&](const CellBlock& b, Index c, std::span<const Index> n) {
             const auto walls = walls_of(b.families[c]);
             if (walls.empty()) return;
             wall[ascending(Key3{n[0], n[1], n[2]})] = walls;
             turned[ascending(Key3{n[0], n[1], n[2]})] = {n[0], n[1], n[2]};
-            is_new[ascending(Key3{n[0], n[1], n[2]})] = b.ids[c] > model_.largest_cell;
+            is_new[ascending(Key3{n[0], n[1], n[2]})] = std::ranges::none_of(after_.families.groups(b.families[c]), [&](GroupIndex g) { return static_cast<std::size_t>(g) < before_.groups.size(); });
             for (const Index v : n)
                 if (v == n[0] || v == n[1] || v == n[2])
                     for (const auto* w : walls)
