@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "operators/refine.h"
 #include "operators/scalpel.h"
 
 namespace py = pybind11;
@@ -115,6 +116,21 @@ void bind_operators(py::module_& module) {
     });
     module.def("drill", [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
         return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
+    });
+
+    module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
+                            double reach, bool relax, Index max_elements, double feature_angle, bool strict) {
+        RefineOptions o;
+        o.size = size;
+        o.gradation = gradation;
+        o.reach = reach;
+        o.relax = relax;
+        o.max_elements = max_elements;
+        o.feature_angle = feature_angle;
+        o.strict = strict;
+        std::vector<Vec3> at;
+        for (py::ssize_t i = 0; i < points.size() / 3; ++i) at.emplace_back(points.data() + 3 * i);
+        return run([&] { return refine(mesh, tools.empty() ? distance_to(std::move(at)) : distance_to(tools), o); });
     });
 
     py::class_<Scalpel>(module, "Scalpel")

@@ -194,7 +194,7 @@ public:
 
 /// Copies the elements of `mesh` that have a node with 0 <= level[node]; `level` is -1 elsewhere. One pass over the
 /// elements, unless their `adjacency` is given.
-/// Throws UnsupportedElementError naming the elements when one of them is not a simplex.
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency = nullptr);
+/// Throws UnsupportedElementError naming the elements when one of them is not a simplex, or leaves them out if `simplices_only`.
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency = nullptr, bool simplices_only = false);
 
 }  // namespace femscalpel

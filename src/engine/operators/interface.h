@@ -45,6 +45,8 @@ struct Interface {
     std::vector<CellRef> deep_inside;  ///< elements to be removed that are not in the band
     std::vector<std::string> warnings;
     std::vector<std::pair<std::string, double>> seconds;
+    /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
+    std::function<Vec3(int, int)> mid_side;
 
     /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
     /// the side its elements are on.

@@ -53,23 +53,6 @@ int bandwidth(const Location& location, const Mesh& mesh) {
     return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
 }
 
-QualitySummary summarise(std::vector<ElementQuality> qualities) {
-    QualitySummary s;
-    s.count = static_cast<Index>(qualities.size());
-    double sum = 0;
-    for (const ElementQuality& q : qualities) {
-        s.minimum = std::min(s.minimum, q.mean_ratio);
-        sum += q.mean_ratio;
-        const int bar = std::clamp(static_cast<int>(q.mean_ratio * quality_bars), 0, quality_bars - 1);
-        ++s.histogram[bar];
-    }
-    if (s.count > 0) s.mean = sum / static_cast<double>(s.count);
-    const auto worst = qualities.begin() + std::min<std::ptrdiff_t>(10, static_cast<std::ptrdiff_t>(qualities.size()));
-    std::ranges::partial_sort(qualities, worst, {}, [](const ElementQuality& q) { return std::pair(q.mean_ratio, q.id); });
-    s.worst.assign(qualities.begin(), worst);
-    return s;
-}
-
 /// Elements of the band's moving part before and after; `inverted` collects those that were bad on arrival.
 struct BandQuality {
     std::vector<ElementQuality> before, after;
@@ -326,7 +309,7 @@ Interface Operation::begin(std::span<const Blade> blades) {
     constraint_options.kept_hidden = marks_.kept;
     constraint_options.pinned = marks_.pinned;
     const Tool& first = *blades.front().tool;
-    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}};
+    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}, {}};
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];

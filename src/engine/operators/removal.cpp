@@ -214,6 +214,7 @@ Lips open_walls(const Interface& f) {
     for (int t = 0; t < band.tetras.size(); ++t) out.tetras.push_back(band.tetras[t]);
     for (int t = 0; t < band.triangles.size(); ++t) out.triangles.push_back(band.triangles[t]);
     for (int l = 0; l < band.lines.size(); ++l) out.lines.push_back(band.lines[l]);
+    for (int p = 0; p < band.vertices.size(); ++p) out.vertices.push_back(band.vertices[p]);
     // Elements that already lie on a wall join its group; the first one met per place.
     std::map<std::array<int, 3>, int> triangle_at;
     std::map<std::array<int, 2>, int> line_at;

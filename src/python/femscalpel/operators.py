@@ -4,6 +4,8 @@
 from dataclasses import dataclass
 from typing import Iterable, Optional, Sequence, Union
 
+import numpy as np
+
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
 from .report import Report
@@ -167,6 +169,80 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
     """
     return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve),
                                       _depth(depth)))
+
+
+def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
+           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False) -> Result:
+    """Bisects elements near a tool until their edges are short enough.
+
+    For a tool that is finer than the mesh, or for sharp stresses around it. No edge is longer afterwards than
+    ``size + gradation * max(0, d - reach)``, where d is its distance from the tool. Always the longest edge of an
+    element is bisected, with everything on it, so shapes stay good. Children inherit their parent's groups; a new
+    node is in the node groups both ends of its edge are in. Nothing of the input moves; curved second-order
+    elements are divided along their own geometry. `mesh` itself is not changed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Triangles and tetrahedra, linear or quadratic, where it is refined; anything elsewhere.
+    near : Tool, sequence of Tool, or array of shape (n, 3)
+        What to refine around: tools, or points.
+    size : float
+        Longest edge wanted there, in the mesh's unit.
+    gradation : float
+        How much longer edges may be per unit of distance; 0 refines the whole mesh to `size`.
+    reach : float
+        `size` holds up to this distance from the tool.
+    relax : bool
+        Moves new nodes inside the material, in flat faces and on straight edges for better shape.
+    max_elements : int
+        ToolError rather than a mesh of more elements: a size much too small is easily given.
+    feature_angle : float
+        Degrees; a skin edge sharper than this is a feature line.
+    strict : bool
+        As for :func:`crack`.
+
+    Returns
+    -------
+    Result
+        The report's quality is that of the elements that were divided. Without any it has a warning.
+
+    Raises
+    ------
+    ToolError
+        A parameter is out of range, or `max_elements` would be passed.
+    UnsupportedElementError
+        An edge to be bisected is one of a quadrangle, prism, pyramid or hexahedron.
+    QualityError
+        The mesh has flat or inverted elements near the tool.
+    """
+    engine_mesh = check_mesh(mesh)
+    tools, points = _near(near)
+    for name, value in (("relax", relax), ("strict", strict)):
+        if not isinstance(value, bool):
+            raise TypeError(f"{name} must be True or False, not {_arguments.describe(value)}")
+    return Result._wrap(_engine.refine(
+        engine_mesh, tools, points, _arguments.real(size, "size"), _arguments.real(gradation, "gradation"), _arguments.real(reach, "reach"),
+        relax, _arguments.whole(max_elements, "max_elements", 1), _arguments.real(feature_angle, "feature_angle"), strict))
+
+
+def _near(near) -> tuple:
+    """(tools, points) of refine()'s parameter."""
+    none = np.empty((0, 3))
+    message = f"near must be a tool, a sequence of tools or an array of points of shape (n, 3), not {_arguments.describe(near)}"
+    if isinstance(near, Tool):
+        return [near], none
+    if isinstance(near, (list, tuple)) and any(isinstance(t, Tool) for t in near):
+        return [check_tool(t, f"near[{k}]") for k, t in enumerate(near)], none
+    try:
+        points = np.array(near, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(message) from None
+    if points.shape == (3,):
+        points = points.reshape(1, 3)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise TypeError(message)
+    return [], points
 
 
 class Scalpel:
