@@ -24,7 +24,7 @@ if FreeCAD.GuiUp:
 
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
-              group_name="CRACK", feature_angle=30.0):
+              group_name="CRACK", feature_angle=30.0, preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
@@ -50,6 +50,8 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         on a mesh with some face elements only).
     feature_angle : float
         Degrees; skin edges sharper than this keep their shape.
+    preserve : names of mesh groups, optional
+        The groups whose border keeps its shape; all when not given. Borders of others may drift.
 
     Returns
     -------
@@ -66,11 +68,11 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     _check_source(doc, source)
     plane = _placement(source, placement, origin, normal, "normal")
     return _make(doc, Crack, source, name, PlanePlacement=plane, Method=method, Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle)
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
 
 
 def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, origin=None, axis=None, radius=1.0, method="snap",
-                         transition=0, group_name="CRACK", feature_angle=30.0):
+                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder.
 
     The cylinder has the z axis of `placement`, or `axis` through `origin`, and the length `radius` in mm. The lip ``_P`` is
@@ -79,11 +81,12 @@ def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, o
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
     return _make(doc, CylindricalCrack, source, name, AxisPlacement=placement, Radius=radius, Method=method, Transition=transition,
-                 GroupName=group_name, FeatureAngle=feature_angle)
+                 GroupName=group_name, FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
 
 
 def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=None, origin=None, axis=None, radius=1.0,
-                    tube_radius=0.25, half_angle=30.0, method="snap", transition=0, group_name="CRACK", feature_angle=30.0):
+                    tube_radius=0.25, half_angle=30.0, method="snap", transition=0, group_name="CRACK", feature_angle=30.0,
+                    preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a curved tool.
 
     `tool` is "Cylinder", "Sphere", "Torus" or "Cone"; see the classes of that name in femscalpel. Its centre and axis are
@@ -94,16 +97,17 @@ def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=No
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
     return _make(doc, CurvedCrack, source, name, ToolShape=tool, AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
-                 HalfAngle=half_angle, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle)
+                 HalfAngle=half_angle, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle,
+                 PreservedGroups=_preserved(preserve))
 
 
 def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None, radius=1.0, depth=None, positions=(),
-              method="snap", transition=0, group_name="HOLE", feature_angle=30.0):
+              method="snap", transition=0, group_name="HOLE", feature_angle=30.0, preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source` with one or several parallel holes.
 
     Parameters
     ----------
-    doc, source, name, method, transition, feature_angle
+    doc, source, name, method, transition, feature_angle, preserve
         As for makeCrack().
     placement : App.Placement, optional
         A hole's axis is z of this placement.
@@ -124,7 +128,7 @@ def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None,
     placement = _placement(source, placement, origin, axis, "axis")
     return _make(doc, Drill, source, name, AxisPlacement=placement, Radius=radius, Positions=[FreeCAD.Vector(*p) for p in positions],
                  Through=depth is None, Depth=depth or 0, Method=method, Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle)
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
 
 
 def makeRefine(doc, source, name="Refine", tool="Cylinder", placement=None, origin=None, axis=None, radius=1.0, tube_radius=0.25,
@@ -194,6 +198,10 @@ def _make(doc, operation, source, name, **properties):
     if FreeCAD.GuiUp:
         ViewProviderMeshOperation(obj.ViewObject)
     return obj
+
+
+def _preserved(preserve):
+    return ["*"] if preserve is None else list(preserve)
 
 
 def _placement(source, placement, origin, direction, name):

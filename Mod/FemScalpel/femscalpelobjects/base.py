@@ -10,7 +10,7 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from .on_shape import OnShape, nodes_around, shapes_of
+from .on_shape import OnShape, bookkeeping_groups, nodes_around, shapes_of
 
 # Attribute bits of addProperty.
 OUTPUT = 8  # setting it does not ask for a recompute
@@ -244,14 +244,22 @@ SURFACE_INPUTS = (
     ("App::PropertyEnumeration", "Method", "snap: move and split, always succeeds; deform: only move nodes"),
     ("App::PropertyIntegerConstraint", "Transition", "Rings of elements around the tool that may move; 0: automatic"),
     ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
+    ("App::PropertyStringList", "PreservedGroups", "Mesh groups whose border keeps its shape; *: all. The borders of others "
+     "may drift, those of all if the list is empty"),
 )
 SURFACE_DEFAULTS = {
     "Method": (list(femscalpel.operators.METHODS), "snap"),
     "Transition": ((0, 0, 1000, 1),),
     "FeatureAngle": (30,),
+    "PreservedGroups": (["*"],),
 }
 
 
-def surface_options(obj):
-    """The properties SURFACE_INPUTS and GroupName as keyword arguments of femscalpel's operators."""
-    return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value)
+def surface_options(obj, mesh):
+    """The properties SURFACE_INPUTS and GroupName as keyword arguments of femscalpel's operators on `mesh`.
+
+    The geometry is kept whatever PreservedGroups says: FreeCAD finds what it needs by it.
+    """
+    preserve = None if "*" in obj.PreservedGroups else [*obj.PreservedGroups, *bookkeeping_groups(mesh)]
+    return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value,
+                preserve=preserve)

@@ -23,4 +23,4 @@ class Crack(MeshOperation):
         return [plane_of(obj.PlanePlacement)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], **surface_options(obj))
+        return femscalpel.crack(mesh, tools[0], **surface_options(obj, mesh))

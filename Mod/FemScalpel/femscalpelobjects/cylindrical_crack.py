@@ -23,4 +23,4 @@ class CylindricalCrack(MeshOperation):
         return [femscalpel.Cylinder(obj.AxisPlacement.Base, direction_of(obj.AxisPlacement), obj.Radius.Value)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], **surface_options(obj))
+        return femscalpel.crack(mesh, tools[0], **surface_options(obj, mesh))

@@ -31,5 +31,5 @@ class Drill(MeshOperation):
 
     def operate(self, obj, mesh, tools):
         if obj.Through:
-            return femscalpel.drill(mesh, tools, **surface_options(obj))
-        return femscalpel.drill(mesh, tools[:-1], depth=obj.Depth.Value, **surface_options(obj))
+            return femscalpel.drill(mesh, tools, **surface_options(obj, mesh))
+        return femscalpel.drill(mesh, tools[:-1], depth=obj.Depth.Value, **surface_options(obj, mesh))

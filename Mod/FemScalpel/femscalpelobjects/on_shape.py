@@ -86,6 +86,11 @@ def _with_rings(mesh, near, rings):
     return near
 
 
+def bookkeeping_groups(mesh):
+    """Names of the groups of `mesh` that an OnShape has made."""
+    return [name for name in mesh.groups if name.startswith(_GROUP)]
+
+
 class OnShape:
     """Which nodes of a mesh lie on which faces and edges of shapes, before and after an operator.
 
