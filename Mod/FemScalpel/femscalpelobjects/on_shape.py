@@ -13,6 +13,7 @@ import numpy as np
 import Part
 
 import femscalpel
+from femscalpel.mesh import CELL_TYPES
 
 # Faces of a tetrahedron as CalculiX numbers them: corners, then the places of the mid-side nodes among all ten.
 _TETRA_FACES = np.array(((0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6)))
