@@ -137,10 +137,9 @@ void warn_of_grazing(Interface& f, const Tool& tool) {
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
-        const double gap = std::abs(tool.distance(band.nodes[v].at));
-        if (gap > 0.15 * band.mean_edge_length(v)) continue;
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
-        if (normal && normal->cross(tool.normal(band.nodes[v].at)).norm() < 0.15) ++near;
+        if (!normal || normal->cross(tool.normal(band.nodes[v].at)).norm() >= 0.15) continue;
+        if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v)) ++near;
     }
     if (near > 0)
         f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +

@@ -51,7 +51,7 @@ public:
         };
         std::vector<Edge> edges;
         for (int v = 0; v < band_.size(); ++v) {
-            if (f_.distance[v] >= 0) continue;
+            if (f_.distance[v] >= 0 || !crosses(v)) continue;
             band_.neighbours(v, neighbours_);
             for (const int w : neighbours_)
                 if (f_.distance[w] > 0 && divides(v, w)) edges.push_back({(band_.nodes[v].at - band_.nodes[w].at).norm(), v, w});
