@@ -36,7 +36,11 @@ py::dict to_dict(const GroupRecord& record) {
     out["measure_before"] = record.measure_before;
     out["measure_after"] = record.measure_after;
     out["nodes_moved"] = record.nodes_moved;
+    out["boundary_kept"] = record.boundary_kept;
     out["boundary_drift"] = record.boundary_drift;
+    out["nodes_on_surface"] = record.nodes_on_surface;
+    out["nodes_on_line"] = record.nodes_on_line;
+    out["nodes_fixed"] = record.nodes_fixed;
     out["status"] = record.status;
     return out;
 }
@@ -71,12 +75,13 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, bool strict) {
+CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
     CrackOptions out;
     out.name = name;
     out.method = method_from_name(method);
     out.transition = transition;
     out.feature_angle = feature_angle;
+    out.preserve = std::move(preserve);
     out.strict = strict;
     return out;
 }
@@ -99,8 +104,8 @@ py::tuple run(Operation operation) {
 
 void bind_operators(py::module_& module) {
     module.def("crack", [](const Mesh& mesh, const Tool& tool, const std::string& name, const std::string& method,
-                           std::optional<int> transition, double feature_angle, bool strict) {
-        const CrackOptions o = options(name, method, transition, feature_angle, strict);
+                           std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
+        const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
         return run([&] { return crack(mesh, tool, o); });
     });
 
@@ -110,8 +115,8 @@ void bind_operators(py::module_& module) {
              py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
         .def("crack", [](const Scalpel& scalpel, const Tool& tool, const std::string& name, const std::string& method,
-                         std::optional<int> transition, double feature_angle, bool strict) {
-            const CrackOptions o = options(name, method, transition, feature_angle, strict);
+                         std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
+            const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
             return run([&] { return scalpel.crack(tool, o); });
         });
 }

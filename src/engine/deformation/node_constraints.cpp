@@ -2,6 +2,7 @@
 #include "deformation/node_constraints.h"
 
 #include "groups/band_boundaries.h"
+#include "mesh/closest_point.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -37,38 +38,6 @@ private:
     std::vector<int> parent_;
 };
 
-Vec3 closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, Vec3& bary) {
-    // Ericson, Real-Time Collision Detection, 5.1.5.
-    const Vec3 ab = b - a, ac = c - a, ap = p - a;
-    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-    if (d1 <= 0 && d2 <= 0) return bary = {1, 0, 0}, a;
-    const Vec3 bp = p - b;
-    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-    if (d3 >= 0 && d4 <= d3) return bary = {0, 1, 0}, b;
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-        const double v = d1 / (d1 - d3);
-        return bary = {1 - v, v, 0}, a + v * ab;
-    }
-    const Vec3 cp = p - c;
-    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-    if (d6 >= 0 && d5 <= d6) return bary = {0, 0, 1}, c;
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-        const double w = d2 / (d2 - d6);
-        return bary = {1 - w, 0, w}, a + w * ac;
-    }
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return bary = {0, 1 - w, w}, b + w * (c - b);
-    }
-    const double denominator = 1 / (va + vb + vc);
-    const double v = vb * denominator, w = vc * denominator;
-    bary = {1 - v - w, v, w};
-    return a + ab * v + ac * w;
-}
-
 }  // namespace
 
 NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const ConstraintOptions& options) {
@@ -102,12 +71,13 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         int kind;
         bool internal;
         bool shell;
+        int groups;
     };
     std::vector<Face> faces;
     for (const BandBoundaries::Face& f : boundaries.faces()) {
         // Faces that differ in this are never one surface.
         const int place = f.is_shell() ? 0 : f.is_skin() ? 1 : 2;
-        faces.push_back({f.nodes, (f.kind * 3 + place) * 2 + f.element, f.is_internal(), f.is_shell()});
+        faces.push_back({f.nodes, (f.kind * 3 + place) * 2 + f.element, f.is_internal(), f.is_shell(), f.kind});
     }
     shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -159,8 +129,10 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         std::array<int, 2> nodes;
         int kind;
         bool border;
+        int groups;
     };
     std::vector<Crease> creases;
+    const auto groups_of_line = [](int line_family) { return line_family / 2; };
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t end = i;
         while (end < edges.size() && edges[end].first == edges[i].first) ++end;
@@ -176,14 +148,14 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             if (end - i == 2 && is_smooth(key, edges[i].second, edges[i + 1].second)) joined.unite(edges[i].second, edges[i + 1].second);
             const int k = crease_kinds.emplace(std::move(kind), static_cast<int>(crease_kinds.size())).first->second;
             creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k,
-                               end - i == 1 && faces[edges[i].second].shell});
+                               end - i == 1 && faces[edges[i].second].shell, line == line_family.end() ? 0 : groups_of_line(line->second)});
         }
         if (line != line_family.end()) line_family.erase(line);
         i = end;
     }
     for (const auto& [key, family] : line_family) {  // segments inside the material
         const int k = crease_kinds.emplace(std::vector<int>{family}, static_cast<int>(crease_kinds.size())).first->second;
-        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false});
+        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false, groups_of_line(family)});
     }
 
     // 3. Surfaces.
@@ -200,6 +172,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             surfaces_.push_back({});
             surfaces_.back().internal = faces[f].internal;
             surfaces_.back().shell = faces[f].shell;
+            surfaces_.back().kind = faces[f].groups;
         }
         Facet& facet = facets_[f];
         facet.node = faces[f].nodes;
@@ -267,7 +240,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         segment.curved = (segment.mid - chord).norm() > flat_tolerance * size_;
         if (curve_of[root] < 0) {
             curve_of[root] = static_cast<int>(curves_.size());
-            curves_.push_back({true, creases[c].border, segment.end[0], (segment.end[1] - segment.end[0]).normalized()});
+            curves_.push_back({true, creases[c].border, creases[c].groups, segment.end[0], (segment.end[1] - segment.end[0]).normalized()});
         }
         segment.curve = curve_of[root];
         band.creases.add(segment.node, segment.curve);
@@ -292,7 +265,15 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     }
 
     // 5. Freedom of each node. Isolated members of groups (IE) do not move.
-    for (const BandBoundaries::Node& n : boundaries.isolated()) nodes_[n.node].freedom = NodeFreedom::fixed;
+    kinds_ = boundaries.kinds();
+    for (const BandBoundaries::Node& n : boundaries.isolated()) {
+        nodes_[n.node].freedom = NodeFreedom::fixed;
+        isolated_.push_back({n.node, n.kind});
+    }
+    for (const auto& [a, b] : boundaries.isolated_middles()) fixed_middles_.insert(edge_key(a, b));
+    if (!options.pinned.empty())
+        for (const auto& [key, mid] : band.mid_nodes)
+            if (std::ranges::binary_search(options.pinned, mid)) fixed_middles_.insert(key);
     for (int v = 0; v < node_count; ++v) {
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
@@ -588,6 +569,43 @@ double NodeConstraints::distance(const NodeConstraint& c, const Vec3& x) const {
     if (c.freedom == NodeFreedom::surface) return std::sqrt(surface_foot(c, x).distance2);
     if (c.freedom == NodeFreedom::curve) return std::sqrt(curve_foot(c, x).distance2);
     return 0;
+}
+
+std::vector<NodeConstraints::GroupCount> NodeConstraints::count_by_group(const BandMesh& band, std::span<const int> nodes,
+                                                                         std::size_t group_count) const {
+    // Many nodes lie on few combinations of kinds: these are counted, and spread over their groups at the end.
+    std::map<std::vector<int>, GroupCount> by_kinds;
+    std::vector<int> kinds;
+    for (const int v : nodes) {
+        kinds.clear();
+        for (const int s : band.skin.around(v)) kinds.push_back(surfaces_[band.skin.tag(s)].kind);
+        for (const int s : band.creases.around(v)) kinds.push_back(curves_[band.creases.tag(s)].kind);
+        const auto alone = std::ranges::lower_bound(isolated_, v, {}, [](const auto& n) { return n.first; });
+        if (alone != isolated_.end() && alone->first == v) kinds.push_back(alone->second);
+        std::ranges::sort(kinds);
+        kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+        GroupCount& count = by_kinds[kinds];
+        switch (nodes_[v].freedom) {
+            case NodeFreedom::free: break;
+            case NodeFreedom::surface: ++count.surface; break;
+            case NodeFreedom::curve: ++count.line; break;
+            case NodeFreedom::fixed: ++count.fixed; break;
+        }
+    }
+    std::vector<GroupCount> out(group_count);
+    std::vector<GroupIndex> groups;
+    for (const auto& [combination, count] : by_kinds) {
+        groups.clear();
+        for (const int kind : combination) groups.insert(groups.end(), kinds_.groups(kind).begin(), kinds_.groups(kind).end());
+        std::ranges::sort(groups);
+        groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+        for (const GroupIndex g : groups) {
+            out[g].surface += count.surface;
+            out[g].line += count.line;
+            out[g].fixed += count.fixed;
+        }
+    }
+    return out;
 }
 
 std::optional<Vec3> NodeConstraints::surface_normal(const NodeConstraint& c, const Vec3& x) const {

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include "mesh/band_mesh.h"
+#include "mesh/family_table.h"
 #include "tools/contact.h"
 
 namespace femscalpel {
@@ -48,6 +50,13 @@ public:
     /// Must be called after BandMesh::split_edge() made `node`: it keeps to what its edge was on.
     void add_node(const BandMesh& band, int node);
 
+    /// Whether the mid-side node of the edge a-b must not move: an isolated member of a group (IE), or pinned.
+    bool has_fixed_middles() const { return !fixed_middles_.empty(); }
+    bool has_fixed_middle(int a, int b) const { return fixed_middles_.contains(edge_key(a, b)); }
+
+    /// To be called after add_node() for a node that was such a mid-side node.
+    void fix_node(int node) { nodes_[node].freedom = NodeFreedom::fixed; }
+
     /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
     NodeConstraint on_edge(const BandMesh& band, int a, int b) const;
 
@@ -82,6 +91,15 @@ public:
     /// Whether a node lies on a surface inside the material: a border between groups.
     bool is_on_internal(const BandMesh& band, int node) const;
 
+    /// Number of nodes by what a group's boundary leaves them, the other constraints of the node included.
+    struct GroupCount {
+        Index surface = 0;  ///< move on a surface, part of the boundary
+        Index line = 0;     ///< move along a line
+        Index fixed = 0;    ///< do not move
+    };
+    /// For each of `group_count` groups of the mesh, how many of `nodes` lie on its boundary (BE, LE and IE).
+    std::vector<GroupCount> count_by_group(const BandMesh& band, std::span<const int> nodes, std::size_t group_count) const;
+
     /// Whether the triangle element in this slot is no face of a tetrahedron (a shell of its own).
     bool is_shell(int triangle_origin) const { return shell_[triangle_origin] != 0; }
 
@@ -100,6 +118,7 @@ private:
         bool flat = true;
         bool internal = false;  // between two tetrahedra
         bool shell = false;
+        int kind = 0;           // groups with their boundary here, in kinds_
         Vec3 normal = Vec3::Zero();
         Vec3 origin = Vec3::Zero();
     };
@@ -113,6 +132,7 @@ private:
     struct Curve {
         bool straight = true;
         bool border = false;  // of a shell
+        int kind = 0;         // groups with a linking edge here, in kinds_
         Vec3 origin = Vec3::Zero();
         Vec3 direction = Vec3::Zero();
     };
@@ -139,6 +159,9 @@ private:
     std::vector<char> exterior_;
     std::vector<char> shell_;
     std::vector<char> loose_;
+    FamilyTable kinds_;
+    std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds
+    std::unordered_set<std::uint64_t> fixed_middles_;
     double size_ = 1;  // of the band, for tolerances
 };
 

@@ -133,7 +133,7 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), contact(static_cast<std::size_t>(band.size())),
+    : band(std::move(b)), constraints(band, mesh, options), membership(band, mesh), contact(static_cast<std::size_t>(band.size())),
       side(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -144,11 +144,14 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 }
 
 int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
+    const bool fixed = constraints.has_fixed_middle(a, b);
     const int node = band.split_edge(a, b, at);
     contact.push_back(tools);
     const double distance = barrier && !tools.has(barrier) ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     constraints.add_node(band, node);
+    if (fixed) constraints.fix_node(node);
+    membership.add_node(band, node);
     return node;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "deformation/node_constraints.h"
+#include "groups/node_membership.h"
 #include "mesh/band_mesh.h"
 #include "tools/contact.h"
 
@@ -13,6 +14,7 @@ namespace femscalpel {
 struct Deformable {
     BandMesh band;
     NodeConstraints constraints;
+    NodeMembership membership;         ///< node groups of each node
     std::vector<Contact> contact;      ///< by node: the tools it must stay on
     std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
     const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0

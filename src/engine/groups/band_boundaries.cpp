@@ -148,7 +148,13 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         }
         return kept[f];
     };
-    const auto of_cell = [&](const CellRef& c) { return kept_groups(mesh.block(c.type).families[c.cell]); };
+    const auto family_of = [&](const CellRef& c) { return mesh.block(c.type).families[c.cell]; };
+    const auto of_cell = [&](const CellRef& c) { return kept_groups(family_of(c)); };
+    // Whether an element or facet inside the material or on the skin is kept where it is: it is in no group, or in
+    // one that is kept.
+    const auto is_kept = [&](FamilyIndex f) {
+        return kept_groups(f) != 0 || std::ranges::all_of(mesh.families.groups(f), [&](GroupIndex g) { return mesh.groups[g].hidden; });
+    };
 
     // Node groups of each node; one born here is in those of both ends.
     std::vector<int> in(static_cast<std::size_t>(band.size()));
@@ -193,7 +199,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     for (int f = 0; f < band.facet_faces.size(); ++f) {
         if (!band.facet_faces.alive(f) || !movable(band.facet_faces[f])) continue;
         const int at = index.find(band.facet_faces[f]);
-        if (at < 0) continue;
+        if (at < 0 || !is_kept(mesh.facets[band.facet_faces.tag(f)].family)) continue;
         faces[at].element = true;
         faces[at].kind = sets.either(faces[at].kind, kept_groups(mesh.facets[band.facet_faces.tag(f)].family));
     }
@@ -205,11 +211,12 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     for (int t = 0; t < band.triangles.size(); ++t) {
         if (!band.triangles.alive(t) || !movable(band.triangles[t])) continue;
         const auto& v = band.triangles[t];
-        int kind = of_cell(band.triangle_cells[band.triangles.origin(t)]);
+        const CellRef& cell = band.triangle_cells[band.triangles.origin(t)];
+        int kind = of_cell(cell);
         const auto side = side_groups.find(band.triangles.origin(t));
         if (side != side_groups.end()) kind = sets.either(kind, side->second);
         if (const int at = index.find(v); at >= 0) {
-            faces[at].element = true;
+            faces[at].element = faces[at].element || kind != 0 || is_kept(family_of(cell));
             faces[at].kind = sets.either(faces[at].kind, kind);
         } else {
             faces_.push_back({v, sets.either(kind, in_all(v)), {-1, -1}, true});
@@ -261,9 +268,9 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     };
     for (int l = 0; l < band.lines.size(); ++l)
         if (band.lines.alive(l) && movable(band.lines[l]))
-            put_line(band.lines[l], of_cell(band.line_cells[band.lines.origin(l)]), true);
+            if (const CellRef& cell = band.line_cells[band.lines.origin(l)]; is_kept(family_of(cell))) put_line(band.lines[l], of_cell(cell), true);
     for (int f = 0; f < band.facet_edges.size(); ++f)
-        if (band.facet_edges.alive(f) && movable(band.facet_edges[f]))
+        if (band.facet_edges.alive(f) && movable(band.facet_edges[f]) && is_kept(mesh.facets[band.facet_edges.tag(f)].family))
             put_line(band.facet_edges[f], kept_groups(mesh.facets[band.facet_edges.tag(f)].family), true);
     std::unordered_map<std::uint64_t, int> seen;
     const auto link = [&](int a, int b) {
@@ -338,6 +345,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (groups == 0) continue;
         const int a = static_cast<int>(key >> 32), b = static_cast<int>(key & 0xffffffffu);
         const int rest = sets.minus(groups, sets.both(in[a], in[b]));
+        if (rest != 0) isolated_middles_.push_back({a, b});
         for (const int v : {a, b})
             if (band.nodes[v].movable()) pinned[v] = sets.either(pinned[v], rest);
     }

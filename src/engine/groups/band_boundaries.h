@@ -22,6 +22,8 @@ namespace femscalpel {
 ///   has such shortcuts in every corner element. Its nodes keep to the faces; pinning them to the shortcut too would
 ///   freeze the corner.) At the rim of the band, where not all faces are known, shortcuts are kept.
 /// - Entities of outer nodes only, which never move, are left out.
+/// - Groups whose boundary may drift count for nothing, and so do triangles on faces of tetrahedra, segments and
+///   facets that are in such groups alone.
 ///
 /// The cost is that of the band, whatever the number of groups: groups are handled as families.
 class BandBoundaries {
@@ -31,12 +33,12 @@ public:
         std::array<int, 3> nodes;         ///< band nodes; normal out of tetra[0]
         int kind = 0;                     ///< groups with BE or LE here; for a shell, those it is part of
         std::array<int, 2> tetra{-1, -1}; ///< slots of the tetrahedra behind and in front; none for a shell
-        bool element = false;             ///< a triangle element or a facet lies here
+        bool element = false;             ///< a triangle element or a facet that is to be kept lies here
         bool is_shell() const { return tetra[0] < 0; }
         bool is_skin() const { return tetra[0] >= 0 && tetra[1] < 0; }
         bool is_internal() const { return tetra[1] >= 0; }
     };
-    /// An edge in LE of a group, or one with a segment element or a facet.
+    /// An edge in LE of a group, or one with a segment element or a facet that is to be kept.
     struct Line {
         std::array<int, 2> nodes;
         int kind = 0;
@@ -60,14 +62,18 @@ public:
     /// The groups of a kind, ascending.
     std::span<const GroupIndex> groups(int kind) const { return sets_.groups(kind); }
 
-    /// The kind of an entity with both these kinds.
-    int unite(int kind, int other) { return sets_.unite(kind, other); }
+    /// All kinds.
+    const FamilyTable& kinds() const { return sets_; }
+
+    /// An edge (ends ascending) whose mid-side node is in IE of a group.
+    std::span<const std::array<int, 2>> isolated_middles() const { return isolated_middles_; }
 
 private:
     FamilyTable sets_;
     std::vector<Face> faces_;
     std::vector<Line> lines_;
     std::vector<Node> isolated_;
+    std::vector<std::array<int, 2>> isolated_middles_;
 };
 
 }  // namespace femscalpel

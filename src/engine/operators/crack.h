@@ -18,7 +18,7 @@ struct CrackOptions : OperatorOptions {
 ///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
-/// Throws ToolError (bad name, tool misses the mesh), UnsupportedElementError (the band reaches
+/// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches
 /// elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
 Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {}, const Prepared& prepared = {});
 

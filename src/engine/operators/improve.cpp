@@ -36,7 +36,8 @@ public:
             for (int i = 0; i < corners; ++i)
                 for (int j = 0; j < i; ++j) {
                     const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).squaredNorm();
-                    if (length > longest && (band_.nodes[v[i]].movable() || band_.nodes[v[j]].movable())) {
+                    if (length > longest && (band_.nodes[v[i]].movable() || band_.nodes[v[j]].movable()) &&
+                        !d_.constraints.has_fixed_middle(v[i], v[j])) {
                         longest = length;
                         a = v[i];
                         b = v[j];
@@ -96,7 +97,7 @@ private:
             return false;
         }
         if (!band_.lines.around(p).empty() && !joined(band_.lines, p, t)) return false;
-        return true;
+        return !d_.membership.merge_links(band_, p, t);
     }
 
     /// Link condition: every node next to both p and t forms a triangle (tetrahedron face) with them.

@@ -46,6 +46,27 @@ void find_node_sets(Interface& f) {
     std::ranges::sort(f.transition);
 }
 
+void split_at_fixed_middles(Interface& f, const Blade& blade, const Mesh& mesh) {
+    BandMesh& band = f.d.band;
+    if (!f.d.constraints.has_fixed_middles()) return;
+    std::vector<std::pair<std::array<int, 2>, Index>> crossed;
+    for (const auto& [key, middle] : band.mid_nodes) {
+        const std::array<int, 2> e{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)};
+        if (!f.d.constraints.has_fixed_middle(e[0], e[1])) continue;
+        const Vec3 &a = band.nodes[e[0]].at, &b = band.nodes[e[1]].at;
+        const double at_a = blade.tool->distance(a), at_b = blade.tool->distance(b);
+        if (std::min(at_a, at_b) >= -f.tolerance || std::max(at_a, at_b) <= f.tolerance) continue;
+        if (!blade.bound || blade.bound(mesh.points[middle]) <= blade_margin * (a - b).norm()) crossed.push_back({e, middle});
+    }
+    std::ranges::sort(crossed);
+    for (const auto& [e, middle] : crossed) {
+        const double distance = f.tool->distance(mesh.points[middle]);
+        const bool on_tool = std::abs(distance) <= f.tolerance;
+        f.d.split_edge(e[0], e[1], mesh.points[middle], on_tool && !blade.bound && blade.tool == f.tool ? f.tool : nullptr);
+        f.distance.push_back(on_tool ? 0 : distance);
+    }
+}
+
 namespace {
 
 struct Bad {

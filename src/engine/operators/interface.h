@@ -72,6 +72,10 @@ void find_node_sets(Interface& interface);
 /// QualityError naming the elements in the way when no surface tried can be moved there.
 void deform_to_tool(Interface& interface, const Tool& tool, const Mesh& mesh);
 
+/// Edges that are to be cut by the blade and whose mid-side node must not move (NodeConstraints::has_fixed_middle()) are
+/// split in that node, where it is; the blade then crosses one half. To be called first.
+void split_at_fixed_middles(Interface& interface, const Blade& blade, const Mesh& mesh);
+
 /// Throws QualityError that names the elements when the input itself has inverted ones in the band; counts
 /// poor ones (mean ratio below 0.1) as a warning.
 void check_input_shape(Interface& interface, const Mesh& mesh);

@@ -167,6 +167,34 @@ void count_constraints(const Interface& f, const std::vector<Blade>& blades, Rep
         }
 }
 
+/// Calls visit(index, record) for each group of the input that is not hidden: their records come first, in order.
+void for_each_record(const Mesh& before, Report& report, auto visit) {
+    std::size_t record = 0;
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+        if (!before.groups[g].hidden) visit(g, report.groups[record++]);
+}
+
+void count_group_constraints(const Interface& f, const Mesh& before, Report& report) {
+    std::vector<int> nodes = f.nodes;
+    nodes.insert(nodes.end(), f.transition.begin(), f.transition.end());
+    const auto counts = f.d.constraints.count_by_group(f.d.band, nodes, before.groups.size());
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        r.nodes_on_surface = counts[g].surface;
+        r.nodes_on_line = counts[g].line;
+        r.nodes_fixed = counts[g].fixed;
+    });
+}
+
+/// Of groups whose boundary was not kept: how far it went.
+void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& before, const std::vector<bool>& drifting, Report& report) {
+    const std::vector<double> drift = gauge.drift(f.d.band, before);
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        if (!drifting[g]) return;
+        r.boundary_kept = false;
+        r.boundary_drift = drift[g];
+    });
+}
+
 /// Moved nodes and boundary drift of each group, by group index.
 void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebuilt, Report& report) {
     const BandMesh& band = f.d.band;
@@ -273,6 +301,7 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
     watch_.skip();
     marks_ = mark_deck(input);
+    drifting_ = drifting_groups(mesh(), options.preserve);
     if (marks_.mesh) prepared_.totals = nullptr;  // other families
     if (input.solver_input) watch_.lap("mark deck");
 }
@@ -292,6 +321,7 @@ Interface Operation::begin(std::span<const Blade> blades) {
     watch_.lap("locate");
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options_.feature_angle;
+    constraint_options.drifting_groups = drifting_;
     constraint_options.kept_hidden = marks_.kept;
     constraint_options.pinned = marks_.pinned;
     const Tool& first = *blades.front().tool;
@@ -304,6 +334,8 @@ Interface Operation::begin(std::span<const Blade> blades) {
         if (!blades.front().bound) f.d.contact[v] = &first;
     }
     check_input_shape(f, mesh());
+    if (options_.preserve) gauge_.emplace(f.d.band, mesh(), drifting_);
+    for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
     watch_.lap("constraints");
     return f;
 }
@@ -357,6 +389,8 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
         report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
     describe_motion(f, mesh(), rebuilt, report_);
+    count_group_constraints(f, mesh(), report_);
+    if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
     watch_.lap("report");
     remove_marks(rebuilt.mesh);
     return {std::move(rebuilt.mesh), std::move(report_)};

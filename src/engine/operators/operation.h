@@ -10,6 +10,7 @@
 #include <string>
 
 #include "groups/group_report.h"
+#include "groups/preserve.h"
 #include "operators/interface.h"
 #include "operators/lips.h"
 #include "operators/locate.h"
@@ -26,6 +27,8 @@ struct OperatorOptions {
     Method method = Method::snap;
     std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
     double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
+    /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
+    std::optional<std::vector<std::string>> preserve;
     bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
 };
 
@@ -75,6 +78,8 @@ private:
     DeckMarks marks_;
     std::vector<Blade> blades_;
     Location location_;
+    std::vector<bool> drifting_;       // groups, by index; empty if none
+    std::optional<DriftGauge> gauge_;  // of them
     std::future<std::pair<std::unique_ptr<Mesh>, FamilyTotals>> copy_;
 };
 

@@ -2,7 +2,7 @@
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
 from dataclasses import dataclass
-from typing import Optional
+from typing import Iterable, Optional
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
@@ -25,7 +25,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _crack_options(name, method, transition, feature_angle, strict) -> tuple:
+def _crack_options(name, method, transition, feature_angle, strict, preserve) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -34,13 +34,17 @@ def _crack_options(name, method, transition, feature_angle, strict) -> tuple:
     feature_angle = _arguments.real(feature_angle, "feature_angle")
     if not 0 < feature_angle < 180:
         raise ValueError(f"feature_angle must be between 0 and 180 degrees, not {feature_angle}")
+    if preserve is not None:
+        if isinstance(preserve, str) or not isinstance(preserve, Iterable):
+            raise TypeError(f"preserve must be a list of group names, not {_arguments.describe(preserve)}")
+        preserve = [_arguments.text(group, "preserve") for group in preserve]
     if not isinstance(strict, bool):
         raise TypeError(f"strict must be True or False, not {_arguments.describe(strict)}")
-    return name, method, transition, feature_angle, strict
+    return name, method, transition, feature_angle, preserve, strict
 
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-          feature_angle: float = 30.0, strict: bool = False) -> Result:
+          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None) -> Result:
     """Cracks a mesh along the whole of a tool.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -68,6 +72,10 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     strict : bool
         For a mesh read from a CalculiX deck: what its cards say is carried over to new nodes and elements, and
         where that is not possible the report warns with file and line. With strict=True that is an Error.
+    preserve : names, optional
+        The groups whose boundary keeps its shape when nodes move; the boundaries of others may drift, which leaves
+        more freedom for the elements' shape. All are kept when not given; ``preserve=()`` keeps none. The skin and
+        its feature lines are kept always, and so is what a deck's cards name by number.
 
     Returns
     -------
@@ -77,7 +85,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     Raises
     ------
     ToolError
-        The name is bad or taken, or the tool misses the mesh.
+        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool misses the mesh.
     UnsupportedElementError
         The band around the tool reaches quadrangles, prisms, pyramids or hexahedra.
     QualityError
@@ -95,7 +103,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      *_crack_options(name, method, transition, feature_angle, strict)))
+                                      *_crack_options(name, method, transition, feature_angle, strict, preserve)))
 
 
 class Scalpel:
@@ -117,6 +125,6 @@ class Scalpel:
         return Mesh._wrap(self._session.mesh)
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-              feature_angle: float = 30.0, strict: bool = False) -> Result:
+              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), *_crack_options(name, method, transition, feature_angle, strict)))
+        return Result._wrap(self._session.crack(check_tool(tool), *_crack_options(name, method, transition, feature_angle, strict, preserve)))

@@ -55,7 +55,12 @@ class GroupRecord:
     measure_before: float
     measure_after: float
     nodes_moved: int  #: nodes of the group, or of its elements, that changed place
+    boundary_kept: bool  #: False: its boundary was allowed to drift (`preserve`)
     boundary_drift: float  #: largest distance of its boundary nodes from the boundary's old shape
+    #: Nodes near the tool on the group's virtual boundary that may move on a surface ...
+    nodes_on_surface: int
+    nodes_on_line: int  #: ... along a line ...
+    nodes_fixed: int  #: ... and not at all, the tool apart.
     status: str  #: "untouched", "kept", "changed", "became empty" or "new"
 
 
@@ -91,6 +96,17 @@ class Report:
         groups = [GroupRecord(**g) for g in fields.pop("groups")]
         return cls(quality=Quality(before, after), groups=groups, **fields)
 
+    @property
+    def constraints_by_group(self) -> Dict[str, Dict[str, int]]:
+        """Constraint counts of each group: how many nodes near the tool its boundary keeps on a "surface", on a "line" or
+        "fixed". Groups of one name but several kinds are told apart by `groups`, which has the same numbers."""
+        counts: Dict[str, Dict[str, int]] = {}
+        for g in self.groups:
+            sums = counts.setdefault(g.name, {"surface": 0, "line": 0, "fixed": 0})
+            for key, count in zip(sums, (g.nodes_on_surface, g.nodes_on_line, g.nodes_fixed)):
+                sums[key] += count
+        return counts
+
     def to_text(self) -> str:
         """Summary, warnings and the table of groups as aligned text."""
         before, after = self.quality
@@ -111,7 +127,8 @@ class Report:
         return "\n".join(lines + ["", *self._group_table()]) + "\n"
 
     def _group_table(self) -> List[str]:
-        header = ("group", "kind", "status", "count", "->", "after", "measure", "->", "after", "change", "moved", "drift")
+        header = ("group", "kind", "status", "count", "->", "after", "measure", "->", "after", "change", "moved", "drift",
+                  "surface/line/fixed")
         rows = [header]
         for g in self.groups:
             measured = g.kind != "node" and g.dimension > 0
@@ -123,7 +140,8 @@ class Report:
             rows.append((
                 g.name, g.kind + (f" {unit}" if unit else ""), g.status, str(g.count_before), "->", str(g.count_after),
                 f"{g.measure_before:.6g}" if measured else "-", "->", f"{g.measure_after:.6g}" if measured else "-", change,
-                str(g.nodes_moved), f"{g.boundary_drift:.2g}",
+                str(g.nodes_moved), f"{g.boundary_drift:.2g}" + ("" if g.boundary_kept else " free"),
+                f"{g.nodes_on_surface}/{g.nodes_on_line}/{g.nodes_fixed}",
             ))
         widths = [max(len(row[i]) for row in rows) for i in range(len(header))]
         lines = [" ".join(cell.ljust(w) if i < 3 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip()
