@@ -300,17 +300,39 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
     watch_.skip();
-    marks_ = mark_deck(input);
+    if (!prepared.marks) own_marks_ = mark_deck(input);
+    marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
-    if (marks_.mesh) prepared_.totals = nullptr;  // other families
+    numbering_ = next_numbers(whole());
     if (input.solver_input) watch_.lap("mark deck");
+}
+
+/// Goes on with the elements of the band alone.
+void Operation::crop_to_band() {
+    part_ = crop(whole(), elements_near(whole(), location_.level, prepared_.adjacency));
+    prepared_.adjacency = nullptr;
+    Location part{{}, {}, location_.tolerance, location_.crossed};
+    for (const Index n : part_->nodes) {
+        part.distance.push_back(location_.distance[n]);
+        part.level.push_back(location_.level[n]);
+    }
+    location_ = std::move(part);
+}
+
+std::vector<Index> Operation::pinned() const {
+    if (!part_) return marks_->pinned;
+    std::vector<Index> out;
+    for (std::size_t n = 0; n < part_->nodes.size(); ++n)
+        if (std::ranges::binary_search(marks_->pinned, part_->nodes[n])) out.push_back(static_cast<Index>(n));
+    return out;
 }
 
 Interface Operation::begin(std::span<const Blade> blades) {
     blades_.assign(blades.begin(), blades.end());
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
-    copy_ = std::async(std::launch::async, [this, measure = prepared_.totals == nullptr] {
-        return std::pair(std::make_unique<Mesh>(mesh()), measure ? family_totals(mesh()) : FamilyTotals());
+    const bool copies = !options_.band_only, measures = prepared_.totals == nullptr;
+    copy_ = std::async(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
+        return std::pair(copies ? std::make_unique<Mesh>(whole()) : nullptr, measures ? family_totals(whole()) : FamilyTotals());
     });
     int width = options_.transition.value_or(2);
     location_ = locate(mesh(), blades, width, prepared_.adjacency);
@@ -318,12 +340,13 @@ Interface Operation::begin(std::span<const Blade> blades) {
         width = bandwidth(location_, mesh());
         if (width > 2) location_ = locate(mesh(), blades, width, prepared_.adjacency);
     }
+    if (options_.band_only) crop_to_band();
     watch_.lap("locate");
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options_.feature_angle;
     constraint_options.drifting_groups = drifting_;
-    constraint_options.kept_hidden = marks_.kept;
-    constraint_options.pinned = marks_.pinned;
+    constraint_options.kept_hidden = marks_->kept;
+    constraint_options.pinned = pinned();
     const Tool& first = *blades.front().tool;
     Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}};
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
@@ -347,19 +370,22 @@ void Operation::take_laps(const std::vector<std::pair<std::string, double>>& lap
 
 Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
+    std::vector<char> opened(static_cast<std::size_t>(f.d.band.size()), 0);
+    for (const int v : lips.interface_nodes) opened[v] = 1;
     for (int v = 0; v < f.d.band.size(); ++v)
-        if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = {};
+        if (!opened[v]) f.d.contact[v] = {};
     find_node_sets(f);
     add_moved_nodes(f);
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
+    if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
-    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups);
+    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_);
     add_front(lips, naming.front, rebuilt);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
-    if (input_.solver_input) {
+    if (input_.solver_input && !part_) {
         carry_deck(mesh(), rebuilt.mesh, rebuilt.changes, options_.strict, deck_warnings);
         watch_.lap("carry deck");
     }
@@ -384,7 +410,12 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     FamilyTotals after = totals;
     count_cells(after, mesh(), rebuilt.before, -1);
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);
-    recount_nodes_and_facets(after, rebuilt.mesh);
+    if (part_) {
+        count_nodes_and_facets(after, mesh(), -1);
+        count_nodes_and_facets(after, rebuilt.mesh, +1);
+    } else {
+        recount_nodes_and_facets(after, rebuilt.mesh);
+    }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
         report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
