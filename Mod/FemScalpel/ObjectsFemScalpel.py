@@ -13,6 +13,10 @@ import FreeCAD
 
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
+from femscalpelobjects.group_names import rename_group
+
+if FreeCAD.GuiUp:
+    from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
 
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
@@ -73,7 +77,7 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         doc.removeObject(obj.Name)
         raise
     if FreeCAD.GuiUp:
-        obj.ViewObject.Proxy = 0  # shows the object with FreeCAD's own view provider
+        ViewProviderMeshOperation(obj.ViewObject)
     return obj
 
 
@@ -98,6 +102,16 @@ def takeOutOfAnalysis(obj):
     Raises ValueError when `obj` is in no analysis.
     """
     return take_out_of_analysis(obj)
+
+
+def renameGroup(obj, old, new, kind=None):
+    """Renames a group of the mesh of `obj`, as one step to undo.
+
+    `kind` is "node" or "element"; needed only when both have the name. An element group of several dimensions is renamed
+    as a whole. Raises ValueError, and changes nothing, when there is no such group, when the new name is empty or taken,
+    or when `obj` is made by FemScalpel: its groups come from its source and from its property GroupName.
+    """
+    rename_group(obj, old, new, kind)
 
 
 def _plane_placement(source, placement, origin, normal):

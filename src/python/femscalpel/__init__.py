@@ -18,7 +18,7 @@ from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
 from .operators import Result, Scalpel, crack
-from .quality import mean_ratio, measure
+from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Cylinder, Plane, Tool
 
@@ -52,6 +52,8 @@ __all__ = [
     "mean_ratio",
     "measure",
     "read",
+    "scaled_jacobian",
+    "smallest_angle",
     "to_meshio",
     "virtual_boundaries",
     "virtual_boundary",

@@ -5,7 +5,7 @@ from typing import Dict
 
 import numpy as np
 
-from .mesh import Mesh, check_mesh
+from .mesh import CELL_TYPES, Mesh, check_mesh
 
 
 def mean_ratio(mesh: Mesh) -> Dict[str, np.ndarray]:
@@ -24,3 +24,91 @@ def measure(mesh: Mesh) -> Dict[str, np.ndarray]:
     Volumes are signed. Quadratic elements are integrated on their own curved shape. 0 for points.
     """
     return check_mesh(mesh).measures()
+
+
+# Corner nodes at each corner: the corner, then its neighbours along the edges, so that a regular element counts positive.
+_CORNERS = {
+    "tetra": ((0, 1, 2, 3), (1, 2, 0, 3), (2, 0, 1, 3), (3, 0, 2, 1)),
+    "pyramid": ((0, 1, 3, 4), (1, 2, 0, 4), (2, 3, 1, 4), (3, 0, 2, 4)),
+    "wedge": ((0, 1, 2, 3), (1, 2, 0, 4), (2, 0, 1, 5), (3, 5, 4, 0), (4, 3, 5, 1), (5, 4, 3, 2)),
+    "hexahedron": ((0, 1, 3, 4), (1, 2, 0, 5), (2, 3, 1, 6), (3, 0, 2, 7), (4, 7, 5, 0), (5, 4, 6, 1), (6, 5, 7, 2), (7, 6, 4, 3)),
+    "triangle": ((0, 1, 2), (1, 2, 0), (2, 0, 1)),
+    "quad": ((0, 1, 3), (1, 2, 0), (2, 3, 1), (3, 0, 2)),
+}
+# What the smallest corner of the regular element has.
+_REGULAR = {"tetra": np.sqrt(0.5), "pyramid": np.sqrt(0.5), "wedge": np.sqrt(0.75), "hexahedron": 1.0,
+            "triangle": np.sqrt(0.75), "quad": 1.0}
+# Faces of solids, turning the same way round.
+_FACES = {
+    "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+    "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+}
+
+
+def scaled_jacobian(mesh: Mesh) -> Dict[str, np.ndarray]:
+    """Scaled Jacobian of every element by type, in the order of ``mesh.cells``: 1 regular, 0 flat, negative inverted.
+
+    By the corner nodes: the smallest determinant of the unit edge vectors at a corner, divided by that of the regular
+    element (Knupp, SIAM J. Sci. Comput. 23, 2001). Of triangles and quadrangles the sine of the smallest or
+    largest corner angle, likewise divided. 1 for points and segments.
+    """
+    def of(shape, points):
+        smallest = np.full(len(points), np.inf)
+        for corner in _CORNERS[shape]:
+            edges = [points[:, k] - points[:, corner[0]] for k in corner[1:]]
+            length = np.prod([np.linalg.norm(e, axis=1) for e in edges], axis=0)
+            if len(edges) == 3:
+                size = np.einsum("ij,ij->i", np.cross(edges[0], edges[1]), edges[2])
+            else:
+                size = np.linalg.norm(np.cross(*edges), axis=1)
+            smallest = np.minimum(smallest, size / np.where(length > 0, length, 1))
+        return smallest / _REGULAR[shape]
+
+    return _by_type(mesh, of, _CORNERS, 1.0)
+
+
+def smallest_angle(mesh: Mesh) -> Dict[str, np.ndarray]:
+    """Smallest angle in degrees of every element by type, in the order of ``mesh.cells``.
+
+    Of solids the smallest dihedral angle, between the planes of two faces that share an edge (70.53 for the regular
+    tetrahedron), of triangles and quadrangles the smallest corner angle. By the corner nodes; a quadrangular face counts
+    by its mean plane. NaN for points and segments.
+    """
+    def of(shape, points):
+        smallest = np.full(len(points), np.inf)
+        if shape not in _FACES:
+            for a, b, c in _CORNERS[shape]:
+                smallest = np.minimum(smallest, _angle(points[:, b] - points[:, a], points[:, c] - points[:, a]))
+            return smallest
+        faces = _FACES[shape]
+        normals = []
+        for face in faces:
+            if len(face) == 3:
+                normals.append(np.cross(points[:, face[1]] - points[:, face[0]], points[:, face[2]] - points[:, face[0]]))
+            else:
+                normals.append(np.cross(points[:, face[2]] - points[:, face[0]], points[:, face[3]] - points[:, face[1]]))
+        for i, a in enumerate(faces):
+            for j in range(i):
+                if len(set(a) & set(faces[j])) == 2:
+                    smallest = np.minimum(smallest, 180 - _angle(normals[i], normals[j]))
+        return smallest
+
+    return _by_type(mesh, of, _CORNERS, np.nan)
+
+
+def _angle(a, b):
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b)))
+
+
+def _by_type(mesh, function, known, otherwise):
+    check_mesh(mesh)
+    out = {}
+    for name, nodes in mesh.cells.items():
+        shape = name.rstrip("0123456789")
+        if shape in known:
+            out[name] = function(shape, mesh.points[nodes[:, :CELL_TYPES[name][2]]])
+        else:
+            out[name] = np.full(len(nodes), otherwise)
+    return out

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FreeCAD runs this file by exec() when its window starts: it adds the workbench."""
+
+import FreeCAD
+import FreeCADGui
+
+
+class FemScalpelWorkbench(FreeCADGui.Workbench):
+    """Cracks, drills and cuts FEM meshes."""
+
+    def __init__(self):
+        from femscalpelgui.translate import icon, translate
+        self.__class__.MenuText = "FemScalpel"
+        self.__class__.ToolTip = translate("FemScalpel", "Cracks, drills and cuts FEM meshes and keeps their groups")
+        self.__class__.Icon = icon("FemScalpel")
+
+    def Initialize(self):
+        from femscalpelgui import commands
+        names = commands.register()
+        self.appendToolbar("FemScalpel", names)
+        self.appendMenu("&FemScalpel", names)
+
+    def GetClassName(self):
+        return "Gui::PythonWorkbench"
+
+
+# exec() gives functions no sight of this file's names, so everything is done at its top level.
+from femscalpelgui.translate import TRANSLATIONS
+
+FreeCADGui.addLanguagePath(TRANSLATIONS)
+FreeCADGui.updateLocale()
+FreeCADGui.addWorkbench(FemScalpelWorkbench())

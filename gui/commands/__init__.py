@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The commands, one file each."""
+
+import FreeCADGui
+
+from .crack import Crack
+from .group_inspector import GroupInspector
+from .mesh_quality import MeshQuality
+
+#: In the order of menu and toolbar; None is a separator.
+COMMANDS = (Crack, None, GroupInspector, MeshQuality)
+
+
+def register():
+    """Adds the commands to FreeCAD and returns their names, "Separator" between them."""
+    names = []
+    for command in COMMANDS:
+        if command is None:
+            names.append("Separator")
+        else:
+            FreeCADGui.addCommand(command.NAME, command())
+            names.append(command.NAME)
+    return names

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FreeCAD's unit-aware number fields, and messages beside fields."""
+
+
+class Number:
+    """A Gui::QuantitySpinBox whose number is exact.
+
+    The box rounds what a program gives it to the decimals it shows; here the given number stays until the user types
+    another. In FreeCAD's base units: mm, degrees.
+    """
+
+    def __init__(self, box, changed, number=0.0, step=None):
+        self._box, self._changed = box, changed
+        if step is not None:
+            box.setProperty("singleStep", step)
+        self.set(number)
+        box.valueChanged.connect(self._typed)
+
+    @property
+    def value(self):
+        """The number."""
+        return self._value
+
+    def set(self, number):
+        """Enters a number without telling anyone."""
+        self._value = float(number)
+        blocked = self._box.blockSignals(True)
+        self._box.setProperty("rawValue", self._value)
+        self._box.blockSignals(blocked)
+
+    def _typed(self, *_):
+        self._value = float(self._box.property("rawValue"))
+        self._changed()
+
+
+def show_error(label, text):
+    """Shows `text` in a message label, or hides it when there is none."""
+    label.setText(text or "")
+    label.setVisible(bool(text))

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Input of a plane."""
+
+import FreeCAD
+
+from ..translate import translate
+from ..view import picking
+from ..view.handles import PlaneHandles
+from . import fields
+from .geometry_input import GeometryInput, _round_step
+
+
+class PlaneInput(GeometryInput):
+    """A plane by point, normal and offset; by three nodes, a face, an edge, a datum, a sketch or the view."""
+
+    UI = "plane_input.ui"
+    NODES = 3
+
+    def __init__(self, source_object):
+        self._offset = None
+        super().__init__(source_object)
+        self._offset = fields.Number(self.form.offset, self._tell, step=_round_step(self.size / 100))
+        self.form.flip.clicked.connect(self._flip)
+
+    def origin(self):
+        direction = self.direction()
+        if not direction.Length > 0 or self._offset is None:
+            return self.base()
+        return self.base() + direction.normalize() * self._offset.value
+
+    def set_pose(self, origin, direction, radius=None, from_handle=False):
+        if self._offset is not None:
+            self._offset.set(0)
+        super().set_pose(origin, direction, radius, from_handle)
+
+    def placement(self):
+        """The plane as a placement whose z axis is the normal."""
+        return FreeCAD.Placement(self.origin(), self.rotation())
+
+    def _flip(self):
+        self.set_pose(self.origin(), self.direction().negative())
+
+    def _make_handles(self, view):
+        return PlaneHandles(view, self.size, self._dragged)
+
+    def _ask_geometry(self):
+        return translate("FemScalpel", "Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.")
+
+    def _from_nodes(self, points):
+        return picking.plane_through(points)
+
+    def _from_click(self, click):
+        return picking.plane(click, self.source)
+
+    def close(self):
+        super().close()
+        self._offset = None

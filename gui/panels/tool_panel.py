@@ -1,0 +1,359 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of an operator: geometry, options, live preview. One subclass per operator says what is special."""
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+import femscalpel
+
+from .. import preferences
+from ..translate import form, icon, translate
+from ..view import preview_scene
+from ..view.group_shape import group_shape
+from ..view.preview_data import make_preview
+from . import fields, group_table
+from .histogram import Histogram
+from .view_panel import ViewPanel, abort_transaction
+
+
+class ToolPanel(ViewPanel):
+    """Asks for one operation on the mesh of `source_object`, or edits the object `edited`.
+
+    Nothing is put into the document before OK; OK does everything in one transaction, by Gui.doCommand.
+    """
+
+    #: Set by subclasses.
+    TITLE = ICON = GROUP_NAME = OBJECT_NAME = MAKE = ""
+    REMOVES_INSIDE = False
+
+    def __init__(self, source_object, edited=None):
+        super().__init__(source_object)
+        self.edited = edited
+        self.shown = None  # PreviewData of the newest request, None while it is not there or was an error
+        self._ticket, self._settled = 0, 0
+
+        self.geometry = self.make_geometry()
+        self.options = FreeCADGui.PySideUic.loadUi(form("options.ui"))
+        self.result = FreeCADGui.PySideUic.loadUi(form("result.ui"))
+        self.form = [self.geometry.form, self.options, self.result]
+        self._set_up_options()
+        self._set_up_result()
+        self.add_inputs()
+        if edited is not None:
+            self.read(edited)
+        self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
+        for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
+            box.setWindowIcon(QtGui.QIcon(icon(name)))
+
+        self.scene = preview_scene.PreviewScene(self.view)
+        self.geometry.add_handles(self.view)
+        self.geometry.changed.connect(self.update)
+        self.geometry.picking_changed.connect(self._picking)
+        self._status(translate("FemScalpel", "Reading the mesh…"))
+        self.start()
+
+    # What subclasses say.
+
+    def make_geometry(self):
+        """The GeometryInput."""
+        raise NotImplementedError
+
+    def add_inputs(self):
+        """Adds further inputs to the options; each must call update() when it changes."""
+
+    def tool(self):
+        """The femscalpel.Tool as entered."""
+        raise NotImplementedError
+
+    def operation(self, tool, options):
+        """A function of a femscalpel.Scalpel that returns the Result; called on another thread, so it must not look at
+        the panel."""
+        raise NotImplementedError
+
+    def read(self, obj):
+        """Enters what a document object holds."""
+        self.options.groupName.setText(obj.GroupName)
+        self.options.method.setCurrentIndex(self.options.method.findData(obj.Method))
+        self.options.transition.setValue(obj.Transition)
+        self._feature_angle.set(obj.FeatureAngle.Value)
+
+    def arguments(self):
+        """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
+        options = self.entered()
+        return {"method": repr(options["method"]), "transition": repr(options["transition"] or 0),
+                "group_name": repr(options["name"]), "feature_angle": repr(options["feature_angle"])}
+
+    def settings(self):
+        """Properties of the document object as Python text by name."""
+        options = self.entered()
+        return {"Method": repr(options["method"]), "Transition": repr(options["transition"] or 0),
+                "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"])}
+
+    # Set-up.
+
+    def _set_up_options(self):
+        o = self.options
+        for name in preferences.METHODS:
+            o.method.addItem({"snap": translate("FemScalpel", "snap: move and split"),
+                              "deform": translate("FemScalpel", "deform: only move nodes")}[name], name)
+        o.method.setCurrentIndex(o.method.findData(preferences.method()))
+        o.transition.setValue(preferences.transition())
+        self._feature_angle = fields.Number(o.featureAngle, self.update, 30)
+        o.groupName.setText(self._free_name())
+        o.groupName.textChanged.connect(lambda *_: self.update())
+        o.method.currentIndexChanged.connect(lambda *_: self.update())
+        o.transition.valueChanged.connect(lambda *_: self.update())
+        analysis = self._analysis()
+        o.intoAnalysis.setVisible(analysis is not None and self.edited is None)
+        o.intoAnalysis.setChecked(analysis is not None and self.edited is None and preferences.put_into_analysis())
+
+    def _free_name(self):
+        taken = {self.source_object.FemMesh.getGroupName(g) for g in self.source_object.FemMesh.Groups}
+        name, number = self.GROUP_NAME, 2
+        while any(t.startswith(name + "_") for t in taken):
+            name, number = f"{self.GROUP_NAME}{number}", number + 1
+        return name
+
+    def _analysis(self):
+        """The analysis putIntoAnalysis() would use."""
+        mesh = self.source_object
+        while mesh is not None:
+            for analysis in self.document.findObjects("Fem::FemAnalysis"):
+                if mesh in analysis.Group:
+                    return analysis
+            mesh = getattr(mesh, "Source", None)
+        return None
+
+    def _set_up_result(self):
+        r = self.result
+        looks = (translate("FemScalpel", "Cut away"), translate("FemScalpel", "Whole part"), translate("FemScalpel", "Changed part"))
+        for text, data in zip(looks, preview_scene.LOOKS):
+            r.look.addItem(text, data)
+        colourings = (translate("FemScalpel", "By quality"), translate("FemScalpel", "By group"))
+        for text, data in zip(colourings, preview_scene.COLOURINGS):
+            r.colouring.addItem(text, data)
+        self.histogram = Histogram()
+        r.histogramLayout.addWidget(self.histogram)
+        group_table.set_up(r.groups)
+        for box in (r.look, r.colouring):
+            box.currentIndexChanged.connect(lambda *_: self._restyle())
+        for box in (r.moved, r.worst):
+            box.toggled.connect(lambda *_: self._restyle())
+        r.groups.itemSelectionChanged.connect(self._light_up)
+
+    # Preview.
+
+    def loaded(self):
+        self.geometry.source = self.source
+        self.scene.show_whole(self.source.whole())
+        self.update()
+
+    def not_loaded(self, error):
+        self._no_result(str(error))
+
+    def entered(self):
+        """What the options say: name, method, transition (None: automatic), feature_angle."""
+        o = self.options
+        return {"name": o.groupName.text(), "method": o.method.currentData(), "transition": o.transition.value() or None,
+                "feature_angle": self._feature_angle.value}
+
+    def update(self):
+        """Asks for a new preview of what is entered now."""
+        if self._closed or self.source is None:
+            return
+        problem = self.geometry.error()
+        self.geometry.show_error(problem)
+        if problem:
+            self._ticket = self._settled = 0
+            self._no_result(translate("FemScalpel", "No preview."))
+            return
+        try:
+            tool = self.tool()
+        except (femscalpel.Error, ValueError, TypeError) as error:
+            self._ticket = self._settled = 0
+            self._place_error(error)
+            return
+        operate, source, removes = self.operation(tool, self.entered()), self.source, self.REMOVES_INSIDE
+        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), tool, removes))
+
+    def finished(self, ticket, value):
+        if ticket < self._settled or not self._ticket:
+            return
+        self._settled = ticket
+        self._clear_errors()
+        self.shown = value
+        self.scene.show(value)
+        report = value.result.report
+        self.histogram.show_counts(report.quality.after.histogram, report.quality.before.histogram)
+        group_table.fill(self.result.groups, report.groups)
+        self._light_up()
+        self._status(_summary(report))
+
+    def failed(self, ticket, error):
+        if ticket < self._settled or not self._ticket:
+            return
+        self._settled = ticket
+        self._place_error(error)
+        if not isinstance(error, (femscalpel.Error, ValueError, TypeError)):
+            FreeCAD.Console.PrintError(f"FemScalpel: {type(error).__name__}: {error}\n")
+
+    def _no_result(self, status):
+        self.shown = None
+        if self.source is not None:
+            self.scene.show_whole(self.source.whole())
+        self.scene.highlight(None)
+        self.histogram.clear()
+        self.result.groups.setRowCount(0)
+        self._status(status)
+
+    def _clear_errors(self):
+        self.geometry.show_error("")
+        for label in (self.options.nameError, self.options.methodError, self.result.resultError):
+            fields.show_error(label, "")
+
+    def _place_error(self, error):
+        """Shows an error at the field that caused it."""
+        self._clear_errors()
+        text = str(error)
+        if isinstance(error, femscalpel.ToolError) and text.startswith("name"):
+            fields.show_error(self.options.nameError, _sentence(text))
+        elif isinstance(error, femscalpel.QualityError) or text.startswith(("transition", "feature_angle", "method")):
+            fields.show_error(self.options.methodError, _sentence(text))
+        elif isinstance(error, (femscalpel.ToolError, femscalpel.UnsupportedElementError)):
+            self.geometry.show_error(_sentence(text))
+        else:
+            fields.show_error(self.result.resultError, _sentence(text))
+        self._no_result(translate("FemScalpel", "No preview: see the message in red."))
+
+    def _status(self, text):
+        self.result.status.setText(text)
+
+    def _restyle(self):
+        r = self.result
+        self.scene.look, self.scene.colouring = r.look.currentData(), r.colouring.currentData()
+        self.scene.show_moved, self.scene.show_worst = r.moved.isChecked(), r.worst.isChecked()
+        self.scene.redraw()
+
+    def _light_up(self):
+        chosen = group_table.selected(self.result.groups)
+        if chosen is None or self.shown is None:
+            self.scene.highlight(None)
+            return
+        mesh = self.shown.result.mesh
+        if chosen not in [(g.name, g.kind) for g in mesh.groups.all()]:
+            self.scene.highlight(None)
+            return
+        self.scene.highlight(group_shape(mesh, *chosen))
+
+    # Picking.
+
+    def _picking(self, on):
+        if self._closed:
+            return
+        self._meshes.pickable(on)
+        switch = self.scene.root
+        graph = self.view.getSceneGraph()
+        if on and graph.findChild(switch) >= 0:
+            graph.removeChild(switch)
+        elif not on and graph.findChild(switch) < 0:
+            graph.addChild(switch)
+
+    # OK and Cancel.
+
+    def getStandardButtons(self):
+        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+
+    def accept(self):
+        """OK: makes or changes the document object; stays open with a message when that is not possible."""
+        self.geometry.stop_picking()
+        self._wait()
+        if self.shown is None:
+            return False
+        self.document.openTransaction(translate("FemScalpel", self.TITLE))
+        try:
+            obj = self._change_object() if self.edited is not None else self._make_object()
+            if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
+                raise femscalpel.Error(translate("FemScalpel", "The object could not be computed; see the report view."))
+        except Exception as error:
+            abort_transaction(self.document)
+            fields.show_error(self.result.resultError, _sentence(str(error)))
+            return False
+        self.document.commitTransaction()
+        self.leave()
+        return True
+
+    def reject(self):
+        """Cancel: leaves everything as it was. While something is being picked, only ends that."""
+        if self.geometry.is_picking():
+            self.geometry.stop_picking()
+            return False
+        return super().reject()
+
+    def _wait(self):
+        """Lets the newest preview arrive; the window stays alive meanwhile."""
+        while self.source is None and self._reading is not None or (self._ticket and self._settled < self._ticket):
+            FreeCADGui.updateGui()
+            QtCore.QThread.msleep(5)
+
+    def _text_of(self, obj):
+        document = "FreeCAD.ActiveDocument" if FreeCAD.ActiveDocument == self.document \
+            else f"FreeCAD.getDocument({self.document.Name!r})"
+        return document if obj is None else f"{document}.getObject({obj.Name!r})"
+
+    def _make_object(self):
+        document = self._text_of(None)
+        arguments = [document, self._text_of(self.source_object), f"name={self.OBJECT_NAME!r}"]
+        arguments += [f"{name}={text}" for name, text in self.arguments().items()]
+        FreeCADGui.addModule("FreeCAD")
+        FreeCADGui.addModule("ObjectsFemScalpel")
+        before = set(self.document.Objects)
+        FreeCADGui.doCommand(f"ObjectsFemScalpel.{self.MAKE}({', '.join(arguments)})")
+        obj = next(o for o in self.document.Objects if o not in before)
+        FreeCADGui.doCommand(f"{document}.recompute()")
+        if "Invalid" not in obj.State and self.options.intoAnalysis.isChecked():
+            FreeCADGui.doCommand(f"ObjectsFemScalpel.putIntoAnalysis({self._text_of(obj)})")
+        FreeCADGui.doCommandGui(f"FreeCADGui.getDocument({self.document.Name!r}).getObject({self.source_object.Name!r}).Visibility = False")
+        return obj
+
+    def _change_object(self):
+        FreeCADGui.addModule("FreeCAD")
+        text = self._text_of(self.edited)
+        for name, value in self.settings().items():
+            FreeCADGui.doCommand(f"{text}.{name} = {value}")
+        FreeCADGui.doCommand(f"{self._text_of(None)}.recompute()")
+        return self.edited
+
+    def leave(self):
+        if self._closed:
+            return
+        self.close()
+        if self.edited is not None:
+            FreeCADGui.getDocument(self.document.Name).resetEdit()
+        FreeCADGui.Control.closeDialog()
+
+    def clear_view(self):
+        self.geometry.close()
+        self.scene.close()
+
+    def forget_widgets(self):
+        self.options = self.result = self.histogram = self._feature_angle = None
+
+
+def _sentence(text):
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
+
+
+def _summary(report):
+    after = report.quality.after
+    text = translate("FemScalpel", "%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).")
+    numbers = (report.nodes_moved, report.nodes_added, report.elements_added, report.elements_removed, f"{after.minimum:.2f}",
+               f"{report.quality.before.minimum:.2f}")
+    for k, number in enumerate(numbers, 1):
+        text = text.replace(f"%{k}", str(number))
+    if after.minimum < preferences.quality_threshold():
+        text += " <b style='color:#b3261e'>" + translate("FemScalpel", "Worse than your threshold of %1.") \
+            .replace("%1", f"{preferences.quality_threshold():g}") + "</b>"
+    for warning in report.warnings:
+        text += f"<br><span style='color:#8a5a00'>{_sentence(warning)}</span>"
+    return text

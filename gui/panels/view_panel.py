@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What all task panels share: a mesh read on another thread, the 3-D view to themselves, and leaving without a trace."""
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore
+from pivy import coin
+
+import femmesh_bridge
+
+from ..latest_wins import LatestWins
+from ..view.mesh_visibility import HiddenMeshes
+from ..view.preview_data import PreviewSource
+
+
+# Forms that FreeCAD has deleted itself; Python must never do it again.
+_lost = []
+
+
+class ViewPanel(QtCore.QObject):
+    """A task panel about the mesh of one object. Subclasses make `form` first, then call start()."""
+
+    def __init__(self, source_object):
+        super().__init__()
+        self.source_object = source_object
+        self.document = source_object.Document
+        self.view = _view(self.document)
+        self.source = None  # PreviewSource, once it was read
+        self.form = []
+        self._closed = False
+        self._reading = None
+
+    def start(self):
+        """Takes the view and starts reading the mesh; loaded() or failed() follow."""
+        self._meshes = HiddenMeshes(self.document, self.source_object)
+        self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
+        self.worker = LatestWins(self._arrived, self._broke)
+        # FreeCAD can take the panel away without asking, as when the document is closed.
+        self._forms = list(self.form)
+        self._forms[0].destroyed.connect(lambda *_: self._died())
+        femmesh = self.source_object.FemMesh
+        self._reading = self.worker.request(lambda: PreviewSource(femmesh_bridge.from_femmesh(femmesh)))
+
+    def loaded(self):
+        """The mesh was read: `source` is there."""
+        raise NotImplementedError
+
+    def not_loaded(self, error):
+        """The mesh could not be read."""
+        raise NotImplementedError
+
+    def finished(self, ticket, value):
+        """Work asked of `worker` is done."""
+
+    def failed(self, ticket, error):
+        """Work asked of `worker` has failed."""
+
+    def _arrived(self, ticket, value):
+        if self._closed:
+            return
+        if ticket == self._reading:
+            self._reading = None
+            self.source = value
+            self.loaded()
+        else:
+            self.finished(ticket, value)
+
+    def _broke(self, ticket, error):
+        if self._closed:
+            return
+        if ticket == self._reading:
+            self._reading = None
+            self.not_loaded(error)
+        else:
+            self.failed(ticket, error)
+
+    def _key(self, callback):
+        event = callback.getEvent()
+        if event.getKey() == coin.SoKeyboardEvent.ESCAPE and event.getState() == coin.SoButtonEvent.DOWN:
+            callback.setHandled()
+            # The view must not lose the callback while it is in it.
+            QtCore.QTimer.singleShot(0, self._escape)
+
+    def _escape(self):
+        if not self._closed:
+            self.reject()
+
+    def reject(self):
+        """Cancel, Close or Escape."""
+        self.leave()
+        return True
+
+    def leave(self):
+        """Closes the panel."""
+        if self._closed:
+            return
+        self.close()
+        FreeCADGui.Control.closeDialog()
+
+    def close(self):
+        """Takes everything out of the view and ends the work."""
+        if self._closed:
+            return
+        self._closed = True
+        self.worker.close()
+        self.clear_view()
+        self._meshes.restore()
+        try:
+            self.view.removeEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._keys)
+        except (RuntimeError, AttributeError):  # the view is gone
+            pass
+        self._give_up_forms()
+        self.form = None
+        self.forget_widgets()
+
+    def _give_up_forms(self):
+        # Python believes that it owns what FreeCAD's form loader made, and would delete it once more, or whatever is at
+        # its address by then. So the forms are taken back from FreeCAD before it deletes them; they go once no event of
+        # theirs is on its way.
+        forms, self._forms = self._forms, []
+        for form in forms:
+            form.hide()
+            form.setParent(None)
+        QtCore.QTimer.singleShot(0, forms.clear)
+
+    def _died(self):
+        _lost.extend(self._forms)
+        self._forms = []
+        self.close()
+
+    def clear_view(self):
+        """Takes the panel's own nodes out of the view."""
+        raise NotImplementedError
+
+    def forget_widgets(self):
+        """Drops references to widgets."""
+        raise NotImplementedError
+
+
+def abort_transaction(document):
+    """Takes back what was done since the transaction was opened."""
+    document.abortTransaction()
+    # FreeCAD would still put the next change, such as one while undoing, into a new transaction of that name.
+    FreeCAD.closeActiveTransaction(True)
+
+
+def _view(document):
+    gui = FreeCADGui.getDocument(document.Name)
+    view = gui.ActiveView
+    return view if hasattr(view, "getSceneGraph") else gui.mdiViewsOfType("Gui::View3DInventor")[0]

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Takes FreeCAD's own drawing of the meshes out of the way, without touching the document."""
+
+# Child of FreeCAD's switch that a hidden mesh would show: faces with their edges.
+_FACES_AND_WIREFRAME = 3
+
+
+class HiddenMeshes:
+    """Hides the FEM meshes of a document while this lives, by their scene graph alone: no property changes."""
+
+    def __init__(self, document, source):
+        self._document = document
+        self._before = [(o.Name, o.ViewObject.SwitchNode, o.ViewObject.SwitchNode.whichChild.getValue())
+                        for o in document.Objects if o.isDerivedFrom("Fem::FemMeshObject")]
+        self._source = source.ViewObject.SwitchNode
+        self._mode = self._source.whichChild.getValue()
+        if self._mode < 0:
+            self._mode = min(_FACES_AND_WIREFRAME, self._source.getNumChildren() - 1)
+        self._hide()
+
+    def _hide(self):
+        for _, switch, _ in self._before:
+            switch.whichChild = -1
+
+    def pickable(self, on):
+        """Shows the source mesh, so that it can be clicked at, or hides it again."""
+        self._hide()
+        if on:
+            self._source.whichChild = self._mode
+
+    def restore(self):
+        """Shows again what is meant to be shown."""
+        for name, switch, mode in self._before:
+            obj = self._document.getObject(name)
+            if obj is not None and obj.ViewObject.Visibility:
+                switch.whichChild = mode if mode >= 0 else self._mode

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The preview in the 3-D view: shows PreviewData in a view's scene graph."""
+
+import numpy as np
+from pivy import coin
+
+from . import colours
+from .group_scene import lights
+from .nodes import FaceNode, LabelNode, LineNode, PointNode
+
+NAME = "FemScalpelPreview"
+#: How much of the part is shown, and what the colours mean.
+LOOKS = ("cut away", "whole", "changed part only")
+COLOURINGS = ("quality", "groups")
+
+
+class PreviewScene:
+    """The nodes of the preview, under one separator called "FemScalpelPreview".
+
+    Its parts are called FemScalpelBand, ...Rest, ...Ghost, ...Borders, ...Outline, ...Front, ...Moved, ...Removed,
+    ...Worst and ...Highlight, each an object with `count`, the number of things it shows.
+    """
+
+    def __init__(self, view):
+        self._view = view
+        self.look, self.colouring = LOOKS[0], COLOURINGS[0]
+        self.show_moved, self.show_worst = True, True
+        self._data = None
+        self.root = coin.SoSeparator()
+        self.root.setName(NAME)
+        # What is drawn here is looked at, not picked: clicks go through to what can be selected.
+        pick = coin.SoPickStyle()
+        pick.style = coin.SoPickStyle.UNPICKABLE
+        self.root.addChild(pick)
+        self.rest = FaceNode("FemScalpelRest", colours.NEUTRAL, edges=(0.62, 0.64, 0.68))
+        self.band = FaceNode("FemScalpelBand", colours.NEUTRAL, edges=(0.15, 0.15, 0.18))
+        self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.82)
+        self.removed = FaceNode("FemScalpelRemoved", colours.REMOVED, transparency=0.75)
+        self.borders = LineNode("FemScalpelBorders", colours.BORDER, 2.5)
+        self.outline = LineNode("FemScalpelOutline", colours.INTERFACE, 4.0)
+        self.front = LineNode("FemScalpelFront", colours.FRONT, 5.0)
+        self.moved = PointNode("FemScalpelMoved", colours.MOVED, 4.0)
+        self.worst = LineNode("FemScalpelWorst", (0, 0, 0), 3.0)
+        self.worst_label = LabelNode("FemScalpelWorstLabel", (0, 0, 0))
+        self.highlight_faces = FaceNode("FemScalpelHighlight", colours.HIGHLIGHT, edges=(0.45, 0.3, 0.0), in_front=True)
+        self.highlight_lines = LineNode("FemScalpelHighlightLines", colours.HIGHLIGHT, 6.0)
+        self.highlight_points = PointNode("FemScalpelHighlightPoints", colours.HIGHLIGHT, 9.0)
+        # A highlighted group is in front of everything: it may lie inside the part.
+        front = coin.SoAnnotation()
+        for part in (self.worst, self.highlight_lines, self.highlight_points):
+            front.addChild(part.root)
+        blend = coin.SoTransparencyType()
+        blend.value = coin.SoTransparencyType.DELAYED_BLEND
+        self.root.addChild(blend)
+        for light in lights():
+            self.root.addChild(light)
+        for part in (self.highlight_faces, self.rest, self.band, self.borders, self.outline, self.front, self.moved,
+                     self.removed, self.ghost):
+            self.root.addChild(part.root)
+        self.root.addChild(front)
+        self.root.addChild(self.worst_label.root)
+        self._view.getSceneGraph().addChild(self.root)
+
+    def close(self):
+        """Takes everything out of the view."""
+        try:
+            graph = self._view.getSceneGraph()
+        except (RuntimeError, AttributeError):  # the view is gone, and its graph with it
+            return
+        if graph.findChild(self.root) >= 0:
+            graph.removeChild(self.root)
+
+    def show_whole(self, surface):
+        """Shows an unchanged mesh, while there is no result."""
+        self._data = None
+        for part in (self.band, self.ghost, self.removed, self.borders, self.outline, self.front, self.moved, self.worst,
+                     self.worst_label):
+            part.hide()
+        self.rest.show(surface.points, surface.faces)
+
+    def show(self, data):
+        """Shows a PreviewData."""
+        self._data = data
+        self.redraw()
+
+    def redraw(self):
+        """Shows the same again after a change of look or colouring."""
+        data = self._data
+        if data is None:
+            return
+        cut_away, only = self.look == LOOKS[0] and not len(data.removed.faces), self.look == LOOKS[2]
+        through = len(data.removed.faces) > 0 and not only
+        negative, positive = data.rest
+        if only:
+            self.rest.hide()
+            self.ghost.hide()
+        elif cut_away:
+            self._fill(self.rest, [negative], data)
+            self._fill(self.ghost, [positive, data.band[1]], None)
+        elif through and self.look == LOOKS[0]:
+            self.rest.hide()
+            self._fill(self.ghost, [negative, positive], None)
+        else:
+            self._fill(self.rest, [negative, positive], data)
+            self.ghost.hide()
+        self._fill(self.band, data.band[:1] if cut_away else data.band, data, self.colouring == "quality")
+        self.removed.show(data.removed.points, data.removed.faces)
+        self.borders.show(data.borders)
+        self.outline.show(data.outline)
+        self.front.show(data.front)
+        self.moved.show(data.moved) if self.show_moved else self.moved.hide()
+        if self.show_worst and len(data.worst):
+            self.worst.show(data.worst)
+            self.worst_label.show(data.worst_centre, f"  worst {data.worst_ratio:.2f}")
+        else:
+            self.worst.hide()
+            self.worst_label.hide()
+
+    def _fill(self, part, surfaces, data, by_quality=False):
+        points, faces, first = [], [], 0
+        for surface in surfaces:
+            points.append(surface.points)
+            faces.append(np.where(surface.faces < 0, -1, surface.faces + first))
+            first += len(surface.points)
+        rgb = None
+        if by_quality:
+            rgb = colours.quality_rgb(np.concatenate([s.quality for s in surfaces]))
+        elif data is not None and self.colouring == "groups":
+            palette = np.array([colours.group_rgb(names) for names in data.families])
+            rgb = palette[np.concatenate([s.family for s in surfaces])]
+        part.show(np.concatenate(points), np.concatenate(faces), rgb)
+
+    def highlight(self, shape):
+        """Lights up a GroupShape; None puts the light out."""
+        if shape is None:
+            for part in (self.highlight_faces, self.highlight_lines, self.highlight_points):
+                part.hide()
+            return
+        self.highlight_faces.show(shape.points, shape.faces)
+        self.highlight_lines.show(shape.lines)
+        self.highlight_points.show(shape.nodes)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""View provider of the objects an operator makes: icon, and double-click to edit."""
+
+import importlib
+
+import FreeCADGui
+from PySide import QtGui
+
+from ..translate import icon, translate
+
+#: Type of the object's proxy: (icon, module of panels, class).
+PANELS = {
+    "FemScalpel::Crack": ("FemScalpel_Crack", "crack", "CrackPanel"),
+}
+
+
+class ViewProviderMeshOperation:
+    """Opens the task panel the object was made with."""
+
+    def __init__(self, vobj):
+        vobj.Proxy = self
+
+    def attach(self, vobj):
+        self.Object = vobj.Object
+
+    def _panel(self):
+        return PANELS.get(getattr(getattr(self.Object, "Proxy", None), "Type", ""))
+
+    def getIcon(self):
+        panel = self._panel()
+        return icon(panel[0] if panel else "FemScalpel")
+
+    def setEdit(self, vobj, mode=0):
+        panel = self._panel()
+        if mode != 0 or panel is None:
+            return None
+        obj = vobj.Object
+        if obj.Source is None or not obj.Source.FemMesh.NodeCount:
+            QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), translate("FemScalpel", "Edit"), translate(
+                "FemScalpel", "%1 has no source mesh. Set its property Source to a FEM mesh first.").replace("%1", obj.Label))
+            return False
+        module = importlib.import_module("femscalpelgui.panels." + panel[1])
+        FreeCADGui.Control.showDialog(getattr(module, panel[2])(obj.Source, obj))
+        return True
+
+    def unsetEdit(self, vobj, mode=0):
+        FreeCADGui.Control.closeDialog()
+        return True
+
+    def doubleClicked(self, vobj):
+        document = FreeCADGui.getDocument(vobj.Object.Document.Name)
+        if FreeCADGui.Control.activeDialog():
+            QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), translate("FemScalpel", "Edit"), translate(
+                "FemScalpel", "Another task panel is open. Close it first."))
+            return True
+        document.setEdit(vobj.Object.Name)
+        return True
+
+    def setupContextMenu(self, vobj, menu):
+        action = menu.addAction(QtGui.QIcon(self.getIcon()), translate("FemScalpel", "Edit"))
+        action.triggered.connect(lambda: self.doubleClicked(vobj))
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    # FreeCAD before 0.21.2 asks for these.
+    __getstate__ = dumps
+    __setstate__ = loads

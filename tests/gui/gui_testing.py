@@ -1,0 +1,300 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Operates FreeCAD's window as a user does: types, clicks, picks, looks. Used by TestFemScalpelGui.
+
+Screenshots go to the folder FEMSCALPEL_SCREENSHOTS, if that is set.
+"""
+
+import importlib
+import os
+import re
+import time
+import unittest
+
+import FreeCAD
+import FreeCADGui
+from pivy import coin
+from PySide import QtCore, QtGui
+
+try:
+    from PySide import QtTest
+except ImportError:  # FreeCAD 0.20's shim has no QtTest
+    QtTest = importlib.import_module("PySide2.QtTest" if QtCore.qVersion().startswith("5") else "PySide6.QtTest")
+
+QTest = QtTest.QTest
+PATIENCE = 60  # seconds until something that must happen counts as not happening
+
+
+def spin(seconds=0.05):
+    """Lets the window work."""
+    end = time.monotonic() + seconds
+    while True:
+        FreeCADGui.updateGui()
+        QtGui.QApplication.sendPostedEvents(None, QtCore.QEvent.DeferredDelete)
+        if time.monotonic() >= end:
+            return
+        time.sleep(0.005)
+
+
+def wait_until(condition, what):
+    """Lets the window work until condition() holds; fails with `what` when it never does."""
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"waited in vain for {what}")
+        spin(0.01)
+
+
+def widget(name, parent=None):
+    """The visible widget of that object name."""
+    found = [w for w in (parent or FreeCADGui.getMainWindow()).findChildren(QtGui.QWidget, name) if w.isVisible()]
+    if not found:
+        raise AssertionError(f"no visible widget '{name}'")
+    return found[-1]
+
+
+def is_shown(name):
+    """Whether a visible widget has that object name."""
+    return any(w.isVisible() for w in FreeCADGui.getMainWindow().findChildren(QtGui.QWidget, name))
+
+
+def type_into(name, text):
+    """Replaces the text of a field, key by key, and leaves it with Tab."""
+    field = widget(name)
+    edit = field if isinstance(field, QtGui.QLineEdit) else field.findChild(QtGui.QLineEdit)
+    edit.setFocus()
+    edit.selectAll()
+    QTest.keyClicks(edit, text)
+    QTest.keyClick(edit, QtCore.Qt.Key_Tab)
+    spin(0)
+
+
+def click(name):
+    """Clicks a button or check box."""
+    box = widget(name)
+    if isinstance(box, QtGui.QCheckBox):
+        QTest.mouseClick(box, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, QtCore.QPoint(8, box.height() // 2))
+    else:
+        QTest.mouseClick(box, QtCore.Qt.LeftButton)
+    spin(0)
+
+
+def choose(name, data):
+    """Chooses an entry of a combo box by its data, with the keyboard."""
+    box = widget(name)
+    index = box.findData(data)
+    if index < 0:
+        raise AssertionError(f"combo box '{name}' has no {data!r}")
+    box.setFocus()
+    while box.currentIndex() != index:
+        QTest.keyClick(box, QtCore.Qt.Key_Down if box.currentIndex() < index else QtCore.Qt.Key_Up)
+    spin(0)
+
+
+def click_row(name, text):
+    """Clicks the row of a table or tree whose first cell is `text`."""
+    table = widget(name)
+    item = table.findItems(text, QtCore.Qt.MatchExactly)[0]
+    table.scrollToItem(item)
+    spin(0)
+    QTest.mouseClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, table.visualItemRect(item).center())
+    spin(0)
+
+
+def press_button(*choices):
+    """Clicks OK, Cancel or Close of the task panel, whichever is there."""
+    boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]
+    button = next(b.button(choice) for b in boxes for choice in choices if b.button(choice))
+    QTest.mouseClick(button, QtCore.Qt.LeftButton)
+    spin(0.05)
+
+
+def press_ok():
+    press_button(QtGui.QDialogButtonBox.Ok)
+
+
+def press_cancel():
+    press_button(QtGui.QDialogButtonBox.Cancel)
+
+
+def value(name):
+    """Number a unit-aware field shows: rounded to its decimals."""
+    return widget(name).property("rawValue")
+
+
+def view():
+    """The active 3-D view."""
+    return FreeCADGui.ActiveDocument.ActiveView
+
+
+def canvas():
+    """The widget that takes the 3-D view's mouse events."""
+    window = FreeCADGui.getMainWindow().findChild(QtGui.QMdiArea).activeSubWindow()
+    return next(w for w in window.findChildren(QtGui.QGraphicsView)).viewport()
+
+
+def on_screen(point):
+    """Where a point of the model is on the canvas."""
+    width, height = canvas().width(), canvas().height()
+    volume = view().getCameraNode().getViewVolume(width / height)
+    projected = volume.projectToScreen(coin.SbVec3f(*point))
+    if isinstance(projected, coin.SbVec3f):
+        x, y, _ = projected.getValue()
+    return QtCore.QPoint(round(x * width), round((1 - y) * height))
+
+
+def click_at(point):
+    """Clicks at a point of the model in the 3-D view."""
+    spin(0.1)
+    place = on_screen(point)
+    QTest.mouseMove(canvas(), place)
+    spin(0.05)
+    QTest.mouseClick(canvas(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place)
+    spin(0.1)
+
+
+def drag(start, end, steps=8):
+    """Drags with the left button from one point of the model to another, in the 3-D view."""
+    a, b = on_screen(start), on_screen(end)
+    QTest.mouseMove(canvas(), a)
+    spin(0.02)
+    QTest.mousePress(canvas(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, a)
+    for k in range(1, steps + 1):
+        at = QtCore.QPoint(a.x() + (b.x() - a.x()) * k // steps, a.y() + (b.y() - a.y()) * k // steps)
+        move = QtGui.QMouseEvent(QtCore.QEvent.MouseMove, at, canvas().mapToGlobal(at), QtCore.Qt.NoButton, QtCore.Qt.LeftButton,
+                                 QtCore.Qt.NoModifier)
+        QtGui.QApplication.sendEvent(canvas(), move)
+        spin(0.02)
+    QTest.mouseRelease(canvas(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, b)
+    spin(0.05)
+
+
+def in_scene(name):
+    """The node of that name in the 3-D view, None when there is none."""
+    search = coin.SoSearchAction()
+    search.setName(coin.SbName(name))
+    search.setSearchingAll(True)
+    search.apply(view().getSceneGraph())
+    path = search.getPath()
+    return path.getTail() if path else None
+
+
+def shapes_in(name, kind):
+    """The nodes of a type that are drawn under the node of that name."""
+    node = in_scene(name)
+    if node is None:
+        return []
+    search = coin.SoSearchAction()
+    search.setType(kind.getClassTypeId())
+    search.setInterest(coin.SoSearchAction.ALL)
+    search.apply(node)
+    paths = search.getPaths()
+    return [paths[k].getTail() for k in range(paths.getLength())]
+
+
+def faces_drawn(name):
+    """Number of faces drawn under the node of that name."""
+    return sum(list(s.coordIndex.getValues()).count(-1) for s in shapes_in(name, coin.SoIndexedFaceSet))
+
+
+def lines_drawn(name):
+    """Number of two-point lines drawn under the node of that name."""
+    return sum(s.numVertices.getNum() for s in shapes_in(name, coin.SoLineSet))
+
+
+def points_drawn(name):
+    """Number of points drawn under the node of that name."""
+    return sum(s.numPoints.getValue() for s in shapes_in(name, coin.SoPointSet))
+
+
+def screenshot(name):
+    """Keeps a picture of the whole window."""
+    folder = os.environ.get("FEMSCALPEL_SCREENSHOTS")
+    if folder:
+        spin(0.15)
+        os.makedirs(folder, exist_ok=True)
+        QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(folder, name + ".png"))
+
+
+def message_during(action):
+    """Does something that must open a message box; closes the box and returns its text."""
+    texts = []
+
+    def close():
+        box = QtGui.QApplication.activeModalWidget()
+        if isinstance(box, QtGui.QMessageBox):
+            texts.append(box.text())
+            screenshot(f"message_{re.sub('[^a-z]+', '_', box.text().lower())[:40]}")
+            box.button(QtGui.QMessageBox.Ok).click()
+
+    timer = QtCore.QTimer()
+    timer.timeout.connect(close)
+    timer.start(50)
+    try:
+        action()
+        spin(0.1)
+    finally:
+        timer.stop()
+    if not texts:
+        raise AssertionError("no message came up")
+    return " ".join(texts)
+
+
+def report_view():
+    """Text of FreeCAD's report view."""
+    view = FreeCADGui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
+    return view.toPlainText() if view else ""
+
+
+class GuiTest(unittest.TestCase):
+    """A document with a window; afterwards no panel may be open and the report view must be free of errors."""
+
+    def setUp(self):
+        FreeCADGui.activateWorkbench("FemScalpelWorkbench")
+        window = FreeCADGui.getMainWindow()
+        window.resizeDocks([window.findChild(QtGui.QDockWidget, "Combo View")], [330], QtCore.Qt.Horizontal)
+        self.reported = len(report_view())
+        self.doc = FreeCAD.newDocument("GuiTest")
+        self.doc.UndoMode = 1
+        spin(0.05)
+
+    def tearDown(self):
+        while FreeCADGui.Control.activeDialog():
+            press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
+        FreeCADGui.Selection.clearSelection()
+        for name in list(FreeCAD.listDocuments()):
+            FreeCAD.closeDocument(name)
+        spin(0.05)
+        new = report_view()[self.reported:]
+        self.assertNotRegex(new, r"Traceback|Error:|Exception")
+
+    def add_mesh(self, mesh, name="Mesh"):
+        """A FEM mesh object with a femscalpel.Mesh, in sight."""
+        import femmesh_bridge
+        obj = self.doc.addObject("Fem::FemMeshObject", name)
+        obj.FemMesh = femmesh_bridge.to_femmesh(mesh)
+        self.doc.recompute()
+        self.doc.clearUndos()
+        self.look()
+        return obj
+
+    def look(self):
+        """Looks at everything from the front, right and above."""
+        view().setAnimationEnabled(False)
+        view().viewIsometric()
+        view().fitAll()
+        spin(0.05)
+
+    def run_command(self, name):
+        """Runs a command as a click on its button would; it must be active."""
+        self.assertTrue(FreeCADGui.Command.get(name).isActive(), f"{name} is not active")
+        FreeCADGui.runCommand(name)
+        spin(0)
+
+    def wait_for_preview(self):
+        """Waits until the panel shows a result."""
+        wait_until(lambda: is_shown("status") and re.match(r"\d+ ", widget("status").text()), "the preview")
+
+    def wait_for_message(self, name):
+        """Waits for a message beside a field and returns it."""
+        wait_until(lambda: is_shown(name), f"the message {name}")
+        return widget(name).text()
