@@ -75,7 +75,7 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
+CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict, bool band_only) {
     CrackOptions out;
     out.name = name;
     out.method = method_from_name(method);
@@ -83,6 +83,7 @@ CrackOptions options(const std::string& name, const std::string& method, std::op
     out.feature_angle = feature_angle;
     out.preserve = std::move(preserve);
     out.strict = strict;
+    out.band_only = band_only;
     return out;
 }
 
@@ -104,8 +105,8 @@ py::tuple run(Operation operation) {
 
 void bind_operators(py::module_& module) {
     module.def("crack", [](const Mesh& mesh, const Tool& tool, const std::string& name, const std::string& method,
-                           std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
-        const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
+                           std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict, bool band_only) {
+        const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict, band_only);
         return run([&] { return crack(mesh, tool, o); });
     });
 
@@ -115,8 +116,8 @@ void bind_operators(py::module_& module) {
              py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
         .def("crack", [](const Scalpel& scalpel, const Tool& tool, const std::string& name, const std::string& method,
-                         std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
-            const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
+                         std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict, bool band_only) {
+            const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict, band_only);
             return run([&] { return scalpel.crack(tool, o); });
         });
 }

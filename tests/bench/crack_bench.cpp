@@ -87,6 +87,20 @@ void BM_session(benchmark::State& state, const std::string& name) {
     report(state, scalpel.mesh(), last);
 }
 
+/// The same, making only what a preview shows.
+void BM_preview(benchmark::State& state, const std::string& name) {
+    const Scalpel scalpel(mesh_of(name));
+    CrackOptions options;
+    options.band_only = true;
+    Report last;
+    double offset = 0;
+    for (auto _ : state) {
+        offset += 0.01;
+        last = scalpel.crack(Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2}), options).report;
+    }
+    report(state, scalpel.mesh(), last);
+}
+
 /// The reference mesh with so many more overlapping groups. Every other one holds the whole middle of the model,
 /// so that each element near the crack is in half of them; the rest are random boxes elsewhere. All borders are
 /// away from the crack: only the number of groups differs, not the geometry to be kept.
@@ -121,6 +135,7 @@ int main(int argc, char** argv) {
         if (!std::filesystem::exists(std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (std::string(name) + ".inp"))) continue;
         benchmark::RegisterBenchmark((std::string("crack/") + name).c_str(), BM_crack, name)->Unit(benchmark::kMillisecond);
         benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("preview/") + name).c_str(), BM_preview, name)->Unit(benchmark::kMillisecond);
     }
     benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)->Arg(5)->Arg(500)->Unit(benchmark::kMillisecond);
     benchmark::Initialize(&argc, argv);
