@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <future>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -58,14 +59,20 @@ class Operation {
 public:
     /// Checks the options; `suffixes` are those of the groups the operator makes. Throws ToolError.
     Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-              std::initializer_list<const char*> suffixes);
+              const std::vector<std::string>& suffixes);
 
     /// What is worked on: the input, with the solver's input marked; of it, if asked for and after begin(), the band alone.
     const Mesh& mesh() const { return part_ ? part_->mesh : whole(); }
 
+    /// The same, but never the band alone.
+    const Mesh& whole() const { return marks_->mesh ? *marks_->mesh : input_; }
+
+    /// Picks elements with no node in the band (level < 0) that the operator removes.
+    using PickRemoved = std::function<std::vector<CellRef>(const Mesh& mesh, const std::vector<std::int8_t>& level)>;
+
     /// Finds the band of `blades` and what its nodes have to keep to. Nodes on the first blade, where it is
     /// unbounded, are in contact with it. Throws as locate(), extract_band() and check_input_shape() do.
-    Interface begin(std::span<const Blade> blades);
+    Interface begin(std::span<const Blade> blades, const PickRemoved& pick_removed = {});
 
     /// Where the blades meet the mesh; known after begin().
     const Location& location() const { return location_; }
@@ -76,8 +83,7 @@ public:
     Result finish(Interface& f, const Lips& lips, const Naming& naming);
 
 private:
-    const Mesh& whole() const { return marks_->mesh ? *marks_->mesh : input_; }
-    void crop_to_band();
+    void crop_to_band(std::vector<CellRef>& removed);
     std::vector<Index> pinned() const;
 
     const Mesh& input_;
