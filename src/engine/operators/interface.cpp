@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/interface.h"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
+
+#include "operators/mend_curved.h"
 
 namespace femscalpel {
 
@@ -75,15 +79,14 @@ struct Bad {
 /// Elements of the band worse than `limit`, by number.
 std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) {
     std::vector<Bad> bad;
-    const auto note = [&](const CellRef& c, double q) {
-        if (!(q > limit)) bad.push_back({mesh.block(c.type).ids[c.cell], q});
-    };
+    const auto note = [&](const CellRef& c, double q) { bad.push_back({mesh.block(c.type).ids[c.cell], q}); };
     const BandMesh& band = f.d.band;
     for (int t = 0; t < band.tetras.size(); ++t)
-        if (band.tetras.alive(t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
-    for (int t = 0; t < band.triangles.size(); ++t)
-        if (band.triangles.alive(t) && f.d.constraints.is_shell(band.triangles.origin(t)))
-            note(band.triangle_cells[band.triangles.origin(t)], shell_quality(f.d, t));
+        if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
+    for (int t = 0; t < band.triangles.size(); ++t) {
+        if (!band.triangles.alive(t) || !f.d.constraints.is_shell(band.triangles.origin(t))) continue;
+        if (const double q = shell_quality(f.d, t); !(q >= limit)) note(band.triangle_cells[band.triangles.origin(t)], q);
+    }
     std::ranges::sort(bad, {}, [](const Bad& b) { return std::pair(b.id, b.quality); });
     return bad;
 }
@@ -101,12 +104,34 @@ constexpr double flat = 1e-6;
 
 }  // namespace
 
+double Interface::off_tools(int node) const {
+    double off = 0;
+    for (const Tool* t : d.contact[node].tools()) off = std::max(off, std::abs(t->distance(d.band.nodes[node].at)));
+    return off;
+}
+
+void check_contacts(const Interface& f) {
+    int count = 0;
+    double worst = 0;
+    for (const int v : f.nodes) {
+        const double off = f.off_tools(v);
+        count += off > 10 * f.tolerance;
+        worst = std::max(worst, off);
+    }
+    if (count == 0) return;
+    std::ostringstream message;
+    message << count << " node(s) cannot be brought onto the " << f.tool->kind() << " (off by up to " << worst
+            << "): the mesh is too coarse for it there. Refine the mesh near the tool first";
+    throw QualityError(message.str());
+}
+
 void check_input_shape(Interface& f, const Mesh& mesh) {
-    const std::vector<Bad> bad = worse_than(flat, f, mesh);
+    const std::vector<Bad> poor = worse_than(0.1, f, mesh);
+    std::vector<Bad> bad;
+    std::ranges::copy_if(poor, std::back_inserter(bad), [](const Bad& b) { return !(b.quality >= flat); });
     if (!bad.empty())
         throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
                            name_them(bad) + "); repair them first");
-    const std::vector<Bad> poor = worse_than(0.1, f, mesh);
     if (!poor.empty())
         f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) + " element(s) with mean ratio below 0.1 near the tool (" +
                              name_them(poor) + ")");
@@ -117,6 +142,14 @@ void check_shape(const Interface& f, const Mesh& mesh) {
     if (!bad.empty())
         throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +
                            "): the tool passes too close to a corner or crease there. Move it a little");
+    std::vector<Bad> folded;
+    for (const int t : folded_elements(f, 0)) {
+        const CellRef& c = f.d.band.tetra_cells[f.d.band.tetras.origin(t)];
+        folded.push_back({mesh.block(c.type).ids[c.cell], 0});
+    }
+    if (!folded.empty())
+        throw QualityError(std::to_string(folded.size()) + " second-order element(s) would be folded (" + name_them(folded) +
+                           "): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh");
 }
 
 }  // namespace femscalpel

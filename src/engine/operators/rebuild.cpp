@@ -12,15 +12,13 @@ namespace {
 
 class Rebuilder {
 public:
-    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {
+    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips, const Numbering& numbering)
+        : input_(input), f_(f), band_(f.d.band), lips_(lips), next_node_(numbering.node), next_cell_(numbering.cell) {
         out_.mesh = std::move(copy);
     }
 
     Rebuilt run(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
-        next_node_ = input_.largest_node_id() + 1;
-        next_cell_ = input_.largest_cell_id() + 1;
-        if (input_.solver_input) next_cell_ = std::max(next_cell_, input_.solver_input->largest_other_element() + 1);
         write_nodes();
         find_mid_owners();
         write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
@@ -47,7 +45,7 @@ private:
         out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
         for (int v = 0; v < band_.size(); ++v) {
             const BandNode& n = band_.nodes[v];
-            if (!band_.in_use(v)) continue;
+            if (n.global < 0 && !band_.in_use(v)) continue;
             if (n.global >= 0) {
                 out_.node[v] = n.global;
                 mesh.points[n.global] = n.at;
@@ -352,7 +350,7 @@ private:
 
     /// Drops the nodes that only removed elements had.
     void remove_nodes() {
-        if (removed_.empty()) return;
+        if (!lips_.removes) return;
         Mesh& mesh = out_.mesh;
         std::vector<char> orphan(mesh.points.size(), 0);
         bool any = false;
@@ -388,7 +386,7 @@ private:
     const BandMesh& band_;
     const Lips& lips_;
     Rebuilt out_;
-    Index next_node_ = 1, next_cell_ = 1;
+    Index next_node_, next_cell_;
     std::vector<Index> tetra_cell_, triangle_cell_, line_cell_, vertex_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
@@ -402,9 +400,15 @@ private:
 
 }  // namespace
 
+Numbering next_numbers(const Mesh& mesh) {
+    Numbering next{mesh.largest_node_id() + 1, mesh.largest_cell_id() + 1};
+    if (mesh.solver_input) next.cell = std::max(next.cell, mesh.solver_input->largest_other_element() + 1);
+    return next;
+}
+
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
-                const std::vector<std::vector<std::string>>& groups) {
-    return Rebuilder(input, std::move(copy), interface, lips).run(groups);
+                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering) {
+    return Rebuilder(input, std::move(copy), interface, lips, numbering).run(groups);
 }
 
 }  // namespace femscalpel

@@ -7,16 +7,18 @@ namespace femscalpel {
 
 struct Scalpel::State {
     std::shared_ptr<const Mesh> mesh;
+    DeckMarks marks;
     Adjacency adjacency;
     FamilyTotals totals;
 
-    Prepared prepared() const { return {&adjacency, &totals}; }
+    Prepared prepared() const { return {&adjacency, &totals, &marks}; }
 };
 
 Scalpel::Scalpel(std::shared_ptr<const Mesh> mesh) {
+    DeckMarks marks = mark_deck(*mesh);
     Adjacency adjacency(*mesh);
-    FamilyTotals totals = family_totals(*mesh);
-    state_ = std::make_unique<State>(State{std::move(mesh), std::move(adjacency), std::move(totals)});
+    FamilyTotals totals = family_totals(marks.mesh ? *marks.mesh : *mesh);
+    state_ = std::make_unique<State>(State{std::move(mesh), std::move(marks), std::move(adjacency), std::move(totals)});
 }
 
 Scalpel::~Scalpel() = default;
@@ -26,6 +28,10 @@ const Mesh& Scalpel::mesh() const { return *state_->mesh; }
 
 Result Scalpel::crack(const Tool& tool, const CrackOptions& options) const {
     return femscalpel::crack(*state_->mesh, tool, options, state_->prepared());
+}
+
+Result Scalpel::drill(std::span<const Tool* const> tools, const DrillOptions& options) const {
+    return femscalpel::drill(*state_->mesh, tools, options, state_->prepared());
 }
 
 }  // namespace femscalpel

@@ -22,6 +22,8 @@ constexpr double improvement_goal = 0.45;
 /// A node on a corner or a crease may be off the tool by this many edge lengths and still be put on it:
 /// far below what a measure of a group would notice.
 constexpr double forced_reach = 1e-7;
+/// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
+constexpr double dip = 0.15;
 
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
@@ -30,7 +32,37 @@ constexpr int attempts = 8;
 
 class Snapper {
 public:
-    Snapper(Interface& interface, const Tool& tool) : f_(interface), d_(interface.d), band_(interface.d.band), tool_(tool) {}
+    /// `value`: signed distances to the blade's tool by band node, exactly 0 in contact.
+    Snapper(Interface& interface, const Blade& blade, std::vector<double>& value)
+        : f_(interface), d_(interface.d), band_(interface.d.band), blade_(blade), tool_(*blade.tool), value_(value) {
+        find_region();
+    }
+
+    /// Nodes that already lie on the tool, where it is wanted.
+    void touch_nodes() {
+        for (int v = 0; v < band_.size(); ++v) {
+            if (std::abs(value_[v]) > f_.tolerance || d_.contact[v].has(&tool_) || d_.contact[v].full() || !in_region(v)) continue;
+            d_.contact[v] = d_.contact[v].with(&tool_);
+            value_[v] = 0;
+        }
+    }
+
+    /// Halves edges that dip through a curved tool between two ends on the same side.
+    void split_dipping_edges() {
+        if (!std::isfinite(tool_.feature_size())) return;
+        std::vector<Edge> edges = region_edges([&](int a, int b) {
+            if (value_[a] * value_[b] <= 0) return false;
+            const Vec3 middle = (band_.nodes[a].at + band_.nodes[b].at) / 2;
+            const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
+            if (std::min(std::abs(value_[a]), std::abs(value_[b])) > length) return false;
+            return tool_.distance(middle) * (value_[a] > 0 ? -1 : 1) > dip * length;
+        });
+        for (const Edge& e : edges) {
+            const Contact tools = d_.edge_contact(e.a, e.b);
+            split(e.a, e.b, d_.fitted_split(e.a, e.b, d_.along_edge(e.a, e.b, 0.5), tools).at, tools);
+        }
+        if (!edges.empty()) find_region();
+    }
 
     void snap_nodes() {
         struct Candidate {
@@ -40,9 +72,9 @@ public:
         };
         std::vector<Candidate> candidates;
         for (int v = 0; v < band_.size(); ++v) {
-            if (d_.contact[v] || band_.nodes[v].level != 0 || !crosses(v)) continue;
+            if (d_.contact[v].has(&tool_) || d_.contact[v].full() || band_.nodes[v].level != 0 || !crosses(v)) continue;
             const double length = band_.mean_edge_length(v);
-            const double ratio = std::abs(f_.distance[v]) / length;
+            const double ratio = std::abs(value_[v]) / length;
             if (ratio < snap_reach) candidates.push_back({ratio, v, length});
         }
         std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) {
@@ -53,44 +85,89 @@ public:
     }
 
     void split_edges() {
-        struct Edge {
-            double length;
-            int a, b;
-        };
-        std::vector<Edge> edges;
-        for (int v = 0; v < band_.size(); ++v) {
-            if (f_.distance[v] >= 0) continue;
-            band_.neighbours(v, neighbours_);
-            for (const int w : neighbours_)
-                if (f_.distance[w] > 0 && divides(v, w)) edges.push_back({(band_.nodes[v].at - band_.nodes[w].at).norm(), v, w});
-        }
-        std::ranges::sort(edges, [](const Edge& x, const Edge& y) {
-            return x.length != y.length ? x.length > y.length : std::pair(x.a, x.b) < std::pair(y.a, y.b);
-        });
-        for (const Edge& e : edges) {
-            const Vec3 at = crossing(e.a, e.b);
-            d_.split_edge(e.a, e.b, at, &tool_);
-            f_.distance.push_back(0);
+        for (const Edge& e : region_edges([&](int a, int b) { return value_[a] * value_[b] < 0; })) {
+            const Contact tools = d_.edge_contact(e.a, e.b).with(&tool_);
+            split(e.a, e.b, crossing(e.a, e.b, tools), tools);
         }
     }
 
 private:
-    /// Whether an edge to cut joins the two nodes: one of a triangle or tetrahedron.
-    bool divides(int v, int w) const {
-        const auto holds = [&](const auto& list) {
-            return std::ranges::any_of(list.around(v), [&](int s) { return std::ranges::find(list[s], w) != list[s].end(); });
+    struct Edge {
+        double length;
+        int a, b;
+    };
+
+    /// The elements in which the blade is wanted.
+    void find_region() {
+        everywhere_ = !blade_.bound && blade_.inside.empty();
+        if (everywhere_) return;
+        std::vector<double> bound(static_cast<std::size_t>(band_.size()), -std::numeric_limits<double>::infinity());
+        if (blade_.bound)
+            for (int v = 0; v < band_.size(); ++v) bound[v] = blade_.bound(band_.nodes[v].at);
+        std::vector<char> outside(static_cast<std::size_t>(band_.size()), 0);
+        for (const Tool* t : blade_.inside)
+            for (int v = 0; v < band_.size(); ++v) outside[v] = outside[v] || f_.value(v, *t) > f_.tolerance;
+        const auto choose = [&](const auto& list, std::vector<char>& in) {
+            in.assign(static_cast<std::size_t>(list.size()), 0);
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                double least = std::numeric_limits<double>::infinity(), longest = 0;
+                bool out = false;
+                for (const int v : list[s]) {
+                    out = out || outside[v];
+                    least = std::min(least, bound[v]);
+                    for (const int w : list[s]) longest = std::max(longest, (band_.nodes[v].at - band_.nodes[w].at).squaredNorm());
+                }
+                in[s] = !out && least <= blade_margin * std::sqrt(longest);
+            }
         };
-        return holds(band_.tetras) || holds(band_.triangles);
+        choose(band_.tetras, tetra_in_);
+        choose(band_.triangles, triangle_in_);
+    }
+
+    bool any_around(int v, auto holds) const {
+        for (const int s : band_.tetras.around(v))
+            if ((everywhere_ || tetra_in_[s]) && holds(band_.tetras[s])) return true;
+        for (const int s : band_.triangles.around(v))
+            if ((everywhere_ || triangle_in_[s]) && holds(band_.triangles[s])) return true;
+        return false;
+    }
+
+    bool in_region(int v) const {
+        return everywhere_ || any_around(v, [](const auto&) { return true; });
     }
 
     bool crosses(int v) const {
-        const double side = f_.distance[v];
-        const auto opposite = [&](const auto& list) {
-            return std::ranges::any_of(list.around(v), [&](int s) {
-                return std::ranges::any_of(list[s], [&](int w) { return f_.distance[w] * side < 0; });
+        const double side = value_[v];
+        return any_around(v, [&](const auto& nodes) {
+            return std::ranges::any_of(nodes, [&](int w) { return value_[w] * side < 0; });
+        });
+    }
+
+    /// The edges of triangles and tetrahedra of the region that `wanted` takes, longest first.
+    std::vector<Edge> region_edges(auto wanted) {
+        std::vector<Edge> edges;
+        for (int v = 0; v < band_.size(); ++v) {
+            neighbours_.clear();
+            any_around(v, [&](const auto& nodes) {
+                for (const int w : nodes)
+                    if (w > v && wanted(v, w)) neighbours_.push_back(w);
+                return false;
             });
-        };
-        return opposite(band_.tetras) || opposite(band_.triangles);
+            std::ranges::sort(neighbours_);
+            neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+            for (const int w : neighbours_) edges.push_back({(band_.nodes[v].at - band_.nodes[w].at).norm(), v, w});
+        }
+        std::ranges::sort(edges, [](const Edge& x, const Edge& y) {
+            return x.length != y.length ? x.length > y.length : std::pair(x.a, x.b) < std::pair(y.a, y.b);
+        });
+        return edges;
+    }
+
+    void split(int a, int b, const Vec3& at, const Contact& tools) {
+        d_.split_edge(a, b, at, tools);
+        if (&value_ != &f_.distance) value_.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
+        f_.distance.push_back(tools.has(f_.tool) ? 0 : f_.tool->distance(at));
     }
 
     /// Whether, with v on the tool, a face of a curved skin (a segment of a curved line) would lie on it with all its
@@ -110,23 +187,25 @@ private:
         if (d_.off_tool[v] || would_lie_flat(v)) return;
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
-        if (!d_.constraints.project(v, &tool_, target)) {
-            if (ratio > forced_reach) return;
+        const Contact tools = d_.contact[v].with(&tool_);
+        if (!d_.constraints.project(v, tools, target)) {
+            if (ratio > forced_reach || d_.contact[v]) return;
             target = tool_.project(node.at);
         }
-        if ((target - node.at).norm() > std::min(snap_slide * length, d_.constraints.leash(v))) return;
+        if ((target - node.at).norm() > snap_slide * length) return;
+        if ((target - node.start).norm() > d_.constraints.leash(v)) return;
         const double before = quality_around(d_, v, node.at);
         const double after = quality_around(d_, v, target);
         if (!(after >= std::min(0.1, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return;
         node.at = target;
-        d_.contact[v] = &tool_;
-        f_.distance[v] = 0;
+        d_.contact[v] = tools;
+        value_[v] = 0;
     }
 
     /// The point of the edge a-b on the tool, and on the surface or curve the edge is on.
-    Vec3 crossing(int a, int b) const {
+    Vec3 crossing(int a, int b, const Contact& tools) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
-        double ta = 0, tb = 1, da = f_.distance[a], db = f_.distance[b];
+        double ta = 0, tb = 1, da = value_[a], db = value_[b];
         Vec3 at = pa;
         // Regula falsi, Illinois variant; exact in one step for a plane and a straight edge.
         for (int i = 0; i < 60; ++i) {
@@ -144,28 +223,33 @@ private:
                 da /= 2;
             }
         }
-        const Deformable::SplitPoint bent = d_.fitted_split(a, b, at, &tool_);
+        const Deformable::SplitPoint bent = d_.fitted_split(a, b, at, tools);
         if (bent.fits && bent.worst > 0) return bent.at;
         // On the chord elements stay sound; the surface has to wait.
-        const double t = f_.distance[a] / (f_.distance[a] - f_.distance[b]);
-        return tool_.project(pa + t * (pb - pa));
+        const double t = value_[a] / (value_[a] - value_[b]);
+        Vec3 straight = pa + t * (pb - pa);
+        return d_.constraints.project(NodeConstraint{}, tools, straight) ? straight : bent.at;
     }
 
     Interface& f_;
     Deformable& d_;
     BandMesh& band_;
+    const Blade& blade_;
     const Tool& tool_;
+    std::vector<double>& value_;
+    bool everywhere_ = true;
+    std::vector<char> tetra_in_, triangle_in_;  // by slot
     std::vector<int> neighbours_;
 };
 
-/// Nodes born on a curved skin where the curve would have spoiled an element lie on the chord at first. Now
+/// Nodes born on a curved skin or tool where the curve would have spoiled an element lie on the chord at first. Now
 /// that the band is relaxed, brings them onto their surface or curve; true if any moved.
-bool fit_to_shapes(Deformable& d) {
+bool fit_to_shapes(const Interface& f, Deformable& d) {
     bool any = false;
     for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
-        if (!d.band.in_use(v) || d.constraints[v].freedom == NodeFreedom::free) continue;
+        if (!d.band.in_use(v) || (d.constraints[v].freedom == NodeFreedom::free && !d.contact[v])) continue;
         Vec3 x = d.band.nodes[v].at;
-        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v)) continue;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && f.off_tools(v) <= f.tolerance) continue;
         if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
@@ -191,7 +275,7 @@ std::vector<int> misfits(const Interface& f) {
 
 /// Bisects the edges of some elements (slots of the input), longest first. Halves bulge a quarter as far, so that a tool
 /// finds room between a curved skin and its chords where it found none.
-void refine(Interface& f, const std::vector<int>& origins, const Tool& tool) {
+void refine(Interface& f, const std::vector<int>& origins) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
     for (int t = 0; t < band.tetras.size(); ++t) {
@@ -207,53 +291,61 @@ void refine(Interface& f, const std::vector<int>& origins, const Tool& tool) {
         if (f.d.contact[a].common(f.d.contact[b])) continue;
         const Vec3 at = f.d.along_edge(a, b, 0.5);
         f.d.split_edge(a, b, at, {});
-        f.distance.push_back(tool.distance(at));
+        f.distance.push_back(f.tool->distance(at));
     }
 }
 
-[[noreturn]] void fail_at(const Interface& f, int slot, const Tool& tool) {
+[[noreturn]] void fail_at(const Interface& f, int slot) {
     Vec3 middle = Vec3::Zero();
     for (const int v : f.d.band.tetras[slot]) middle += f.d.band.nodes[v].start / 4;
     std::ostringstream text;
-    text << "no sound elements were found on the curved skin near (" << middle.transpose() << "): the mesh is too coarse for the way the " << tool.kind()
-         << " meets the skin there. Move the " << tool.kind() << " a little, or refine the mesh";
+    text << "no sound elements were found on the curved skin near (" << middle.transpose() << "): the mesh is too coarse for the way the " << f.tool->kind()
+         << " meets the skin there. Move the " << f.tool->kind() << " a little, or refine the mesh";
     throw QualityError(text.str());
 }
 
-void snap_once(Interface& f, const Tool& tool) {
+}  // namespace
+
+void cut_along(Interface& f, const Blade& blade) {
     Stopwatch watch(f.seconds);
-    Snapper snapper(f, tool);
+    std::vector<double> own;
+    if (blade.tool != f.tool) {
+        own.resize(static_cast<std::size_t>(f.d.band.size()));
+        for (int v = 0; v < f.d.band.size(); ++v) own[v] = f.value(v, *blade.tool);
+    }
+    Snapper snapper(f, blade, blade.tool == f.tool ? f.distance : own);
+    snapper.touch_nodes();
+    snapper.split_dipping_edges();
     snapper.snap_nodes();
     watch.lap("snap");
     snapper.split_edges();
     watch.lap("split");
-    f.d.barrier = &tool;
-    for (int v = 0; v < f.d.band.size(); ++v)
-        f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
+}
+
+void relax_band(Interface& f) {
+    Stopwatch watch(f.seconds);
     find_node_sets(f);
     deform(f.d, f.nodes, f.transition);
     watch.lap("deform");
-    improve(f, tool, improvement_goal);
-    for (int round = 0; round < 3 && fit_to_shapes(f.d); ++round) {
+    improve(f, *f.tool, improvement_goal);
+    for (int round = 0; round < 3 && fit_to_shapes(f, f.d); ++round) {
         find_node_sets(f);
         std::vector<int> movable = f.nodes;
         movable.insert(movable.end(), f.transition.begin(), f.transition.end());
         relax(f.d, movable);
     }
-    mend_curved(f, tool);
+    mend_curved(f, *f.tool);
     watch.lap("improve");
 }
 
-}  // namespace
-
-void snap_to_tool(Interface& f, const Tool& tool) {
-    if (!f.d.mids.any() && !f.d.constraints.any_curved()) return snap_once(f, tool);
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut) {
+    if (!f.d.mids.any() && !f.d.constraints.any_curved()) return cut(f);
     Interface start = f;
     for (int attempt = 1;; ++attempt) {
-        snap_once(f, tool);
+        cut(f);
         const std::vector<int> bad = misfits(f);
         if (bad.empty()) return;
-        if (attempt == attempts) fail_at(f, bad[0], tool);
+        if (attempt == attempts) fail_at(f, bad[0]);
         // First these elements' nodes are not put on the tool, then the elements are refined.
         std::vector<char>& off_tool = start.d.off_tool;
         if (attempt % 2 == 1) {
@@ -261,13 +353,23 @@ void snap_to_tool(Interface& f, const Tool& tool) {
                 if (start.d.band.tetras.alive(t) && std::ranges::binary_search(bad, start.d.band.tetras.origin(t)))
                     for (const int v : start.d.band.tetras[t]) off_tool[v] = 1;
         } else {
-            refine(start, bad, tool);
+            refine(start, bad);
             std::ranges::fill(off_tool, 0);
         }
         const auto seconds = f.seconds;
         f = start;
         f.seconds = seconds;
     }
+}
+
+void snap_to_tool(Interface& f, const Tool& tool) {
+    cut_soundly(f, [&tool](Interface& g) {
+        cut_along(g, {&tool, {}, {}});
+        g.d.barrier = &tool;
+        for (int v = 0; v < g.d.band.size(); ++v)
+            g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
+        relax_band(g);
+    });
 }
 
 }  // namespace femscalpel
