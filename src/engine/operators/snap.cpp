@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
@@ -29,6 +31,9 @@ constexpr double dip = 0.15;
 constexpr double largest_misfit = 5e-4;
 /// How often cutting a curved mesh is tried, each time with more nodes left alone.
 constexpr int attempts = 8;
+/// Elements of a curved mesh below this mean ratio are refined before another try, of which there are so many.
+constexpr double poor_quality = 0.1;
+constexpr int polishings = 3;
 
 class Snapper {
 public:
@@ -258,49 +263,90 @@ bool fit_to_shapes(const Interface& f, Deformable& d) {
     return any;
 }
 
-/// Elements of the input (slots) in which new nodes are off the curved skin they were born on, or parts came out as folded
-/// second-order elements.
-std::vector<int> misfits(const Interface& f) {
+/// Elements of the input, by slot.
+struct Slots {
+    std::vector<int> tetras, triangles;
+
+    bool empty() const { return tetras.empty() && triangles.empty(); }
+    void tidy() {
+        for (std::vector<int>* list : {&tetras, &triangles}) {
+            std::ranges::sort(*list);
+            list->erase(std::unique(list->begin(), list->end()), list->end());
+        }
+    }
+};
+
+/// Those in which new nodes are off the curved skin they were born on, or parts came out as folded second-order elements.
+Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
-    std::vector<int> found;
-    const auto note = [&](int t) { found.push_back(band.tetras.origin(t)); };
-    std::ranges::for_each(folded_elements(f, least_curved), note);
-    for (int v = band.original_nodes(); v < band.size(); ++v)
-        if (band.in_use(v) && f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) > largest_misfit * band.mean_edge_length(v))
-            std::ranges::for_each(band.tetras.around(v), note);
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    Slots found;
+    for (const int t : folded_elements(f, least_curved)) found.tetras.push_back(band.tetras.origin(t));
+    for (int v = band.original_nodes(); v < band.size(); ++v) {
+        if (!band.in_use(v) || f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) <= largest_misfit * band.mean_edge_length(v)) continue;
+        for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
+        for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
+    }
+    found.tidy();
     return found;
 }
 
-/// Bisects the edges of some elements (slots of the input), longest first. Halves bulge a quarter as far, so that a tool
-/// finds room between a curved skin and its chords where it found none.
-void refine(Interface& f, const std::vector<int>& origins) {
+/// The smallest mean ratio of the tetrahedra that were changed, and those that have parts below `limit`.
+double poorest(const Interface& f, double limit, Slots& poor) {
+    const BandMesh& band = f.d.band;
+    double worst = 1;
+    for (int t = 0; t < band.tetras.size(); ++t) {
+        if (!band.tetras.alive(t)) continue;
+        if (std::ranges::none_of(band.tetras[t], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
+        const double quality = tetra_quality(f.d, t);
+        worst = std::min(worst, quality);
+        if (quality < limit) poor.tetras.push_back(band.tetras.origin(t));
+    }
+    poor.tidy();
+    return worst;
+}
+
+/// Calls visit(nodes) for the parts of some elements.
+void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
+    const auto look = [&](const auto& list, const std::vector<int>& origins) {
+        if (origins.empty()) return;
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && std::ranges::binary_search(origins, list.origin(s))) visit(list[s]);
+    };
+    look(band.tetras, slots.tetras);
+    look(band.triangles, slots.triangles);
+}
+
+/// Bisects the edges of some elements, longest first. Halves bulge a quarter as far, so that a tool finds room between a
+/// curved skin and its chords where it found none.
+void refine(Interface& f, const Slots& slots) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
-    for (int t = 0; t < band.tetras.size(); ++t) {
-        if (!band.tetras.alive(t) || !std::ranges::binary_search(origins, band.tetras.origin(t))) continue;
-        for (const int a : band.tetras[t])
-            for (const int b : band.tetras[t])
+    for_parts(band, slots, [&](const auto& nodes) {
+        for (const int a : nodes)
+            for (const int b : nodes)
                 if (a < b && (band.nodes[a].movable() || band.nodes[b].movable())) edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
-    }
+    });
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (const auto& [length, a, b] : edges) {
         // With both ends on the tool the halves would have to be, too.
-        if (f.d.contact[a].common(f.d.contact[b])) continue;
-        const Vec3 at = f.d.along_edge(a, b, 0.5);
-        f.d.split_edge(a, b, at, {});
-        f.distance.push_back(f.tool->distance(at));
+        if (f.d.contact[a].common(f.d.contact[b]) || f.d.constraints.has_fixed_middle(a, b)) continue;
+        const Deformable::SplitPoint point = f.d.fitted_split(a, b, f.d.along_edge(a, b, 0.5), {});
+        if (!point.fits || !(point.worst > 0.1)) continue;
+        f.d.split_edge(a, b, point.at, {});
+        f.distance.push_back(f.tool->distance(point.at));
     }
 }
 
-[[noreturn]] void fail_at(const Interface& f, int slot) {
-    Vec3 middle = Vec3::Zero();
-    for (const int v : f.d.band.tetras[slot]) middle += f.d.band.nodes[v].start / 4;
+[[noreturn]] void fail_at(const Interface& f, const Slots& slots) {
     std::ostringstream text;
-    text << "no sound elements were found on the curved skin near (" << middle.transpose() << "): the mesh is too coarse for the way the " << f.tool->kind()
-         << " meets the skin there. Move the " << f.tool->kind() << " a little, or refine the mesh";
+    text << "no sound elements were found on the curved skin near (";
+    bool first = true;
+    for_parts(f.d.band, slots, [&](const auto& nodes) {
+        if (std::exchange(first, false)) text << f.d.band.nodes[nodes[0]].start.transpose();
+    });
+    text << "): the mesh is too coarse for the way the " << f.tool->kind() << " meets the skin there. Move the " << f.tool->kind()
+         << " a little, or refine the mesh";
     throw QualityError(text.str());
 }
 
@@ -341,17 +387,32 @@ void relax_band(Interface& f) {
 void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut) {
     if (!f.d.mids.any() && !f.d.constraints.any_curved()) return cut(f);
     Interface start = f;
-    for (int attempt = 1;; ++attempt) {
+    std::optional<Interface> best;
+    double best_quality = -1;
+    for (int attempt = 1, polished = 0;; ++attempt) {
         cut(f);
-        const std::vector<int> bad = misfits(f);
-        if (bad.empty()) return;
-        if (attempt == attempts) fail_at(f, bad[0]);
-        // First these elements' nodes are not put on the tool, then the elements are refined.
+        Slots bad = misfits(f);
+        bool polish = false;
+        if (bad.empty()) {
+            const double quality = poorest(f, 1.5 * poor_quality, bad);
+            if (quality >= poor_quality) return;
+            if (quality > best_quality) {
+                best_quality = quality;
+                best = f;
+            }
+            polish = true;
+            if (++polished == polishings) break;
+        }
+        if (attempt == attempts) {
+            if (!best) fail_at(f, bad);
+            break;
+        }
+        // First the nodes of these elements are not put on the tool, then the elements are refined.
         std::vector<char>& off_tool = start.d.off_tool;
-        if (attempt % 2 == 1) {
-            for (int t = 0; t < start.d.band.tetras.size(); ++t)
-                if (start.d.band.tetras.alive(t) && std::ranges::binary_search(bad, start.d.band.tetras.origin(t)))
-                    for (const int v : start.d.band.tetras[t]) off_tool[v] = 1;
+        if (attempt % 2 == 1 && !polish) {
+            for_parts(start.d.band, bad, [&](const auto& nodes) {
+                for (const int v : nodes) off_tool[v] = 1;
+            });
         } else {
             refine(start, bad);
             std::ranges::fill(off_tool, 0);
@@ -360,6 +421,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut) {
         f = start;
         f.seconds = seconds;
     }
+    f = std::move(*best);
 }
 
 void snap_to_tool(Interface& f, const Tool& tool) {
