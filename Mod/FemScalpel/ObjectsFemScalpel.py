@@ -11,8 +11,11 @@
 
 import FreeCAD
 
+import femmesh_bridge
+import femscalpel
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
+from femscalpelobjects.cylindrical_crack import CylindricalCrack
 from femscalpelobjects.group_names import rename_group
 
 if FreeCAD.GuiUp:
@@ -59,26 +62,19 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         `source` is not a FEM mesh object of `doc`, the plane is given twice or has a zero normal, or an option is
         not one the property takes. Nothing is added then.
     """
-    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
-        raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
-    if source.Document != doc:
-        raise ValueError(f"source '{source.Label}' is in another document")
-    plane = _plane_placement(source, placement, origin, normal)
-    obj = doc.addObject("Fem::FemMeshObjectPython", name)
-    try:
-        Crack(obj)
-        obj.PlanePlacement = plane
-        obj.Method = method
-        obj.Transition = transition
-        obj.GroupName = group_name
-        obj.FeatureAngle = feature_angle
-        obj.Source = source
-    except Exception:
-        doc.removeObject(obj.Name)
-        raise
-    if FreeCAD.GuiUp:
-        ViewProviderMeshOperation(obj.ViewObject)
-    return obj
+    return _make(doc, source, name, Crack, lambda: {"PlanePlacement": _placement(source, placement, origin, normal)},
+                 Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle)
+
+
+def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, origin=None, axis=None, radius=1.0, method="snap",
+                         transition=0, group_name="CRACK", feature_angle=30.0):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder.
+
+    The axis is the z axis of `placement`, or goes through `origin` along `axis`; `radius` in mm. ``group_name_N`` is the
+    inner lip. The rest is as for makeCrack().
+    """
+    return _make(doc, source, name, CylindricalCrack, lambda: {"AxisPlacement": _placement(source, placement, origin, axis)},
+                 Radius=radius, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle)
 
 
 def putIntoAnalysis(obj, strict=True):
@@ -114,13 +110,42 @@ def renameGroup(obj, old, new, kind=None):
     rename_group(obj, old, new, kind)
 
 
-def _plane_placement(source, placement, origin, normal):
+def exportMesh(obj, path):
+    """Writes the mesh of `obj` with its groups and numbers to a .med, .inp or .vtu file.
+
+    Raises femscalpel.WriteError when the file cannot be written or the ending is another.
+    """
+    femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
+
+
+def _make(doc, source, name, proxy, geometry, **properties):
+    """Adds an object with a proxy of class `proxy`; `geometry()` gives the properties of the tool."""
+    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
+        raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
+    if source.Document != doc:
+        raise ValueError(f"source '{source.Label}' is in another document")
+    properties = {**geometry(), **properties, "Source": source}
+    obj = doc.addObject("Fem::FemMeshObjectPython", name)
+    try:
+        proxy(obj)
+        for property_name, value in properties.items():
+            setattr(obj, property_name, value)
+    except Exception:
+        doc.removeObject(obj.Name)
+        raise
+    if FreeCAD.GuiUp:
+        ViewProviderMeshOperation(obj.ViewObject)
+    return obj
+
+
+def _placement(source, placement, origin, direction):
+    """A placement whose z axis is the direction; in the middle of the mesh and along z where nothing is said."""
     if placement is not None:
-        if origin is not None or normal is not None:
-            raise ValueError("give the plane as placement, or as origin and normal, not both")
+        if origin is not None or direction is not None:
+            raise ValueError("give the tool as placement, or as origin and direction, not both")
         return FreeCAD.Placement(placement)
     base = source.FemMesh.BoundBox.Center if origin is None else FreeCAD.Vector(*origin)
-    direction = FreeCAD.Vector(0, 0, 1) if normal is None else FreeCAD.Vector(*normal)
+    direction = FreeCAD.Vector(0, 0, 1) if direction is None else FreeCAD.Vector(*direction)
     if not direction.Length > 0:
-        raise ValueError("normal is the zero vector; give a direction")
+        raise ValueError("the direction (normal or axis) is the zero vector")
     return FreeCAD.Placement(base, FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), direction))

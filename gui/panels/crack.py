@@ -36,6 +36,4 @@ class CrackPanel(ToolPanel):
         return {**geometry, **super().arguments()}
 
     def settings(self):
-        placement = self.geometry.placement()
-        text = f"FreeCAD.Placement(FreeCAD.Vector{tuple(placement.Base)!r}, FreeCAD.Rotation{placement.Rotation.Q!r})"
-        return {"PlanePlacement": text, **super().settings()}
+        return {"PlanePlacement": self.placement_text(), **super().settings()}

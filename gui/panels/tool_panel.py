@@ -25,7 +25,6 @@ class ToolPanel(ViewPanel):
 
     #: Set by subclasses.
     TITLE = ICON = GROUP_NAME = OBJECT_NAME = MAKE = ""
-    REMOVES_INSIDE = False
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object)
@@ -66,6 +65,10 @@ class ToolPanel(ViewPanel):
         """The femscalpel.Tool as entered."""
         raise NotImplementedError
 
+    def removed_region(self, tool):
+        """Something whose distance(points) is negative where the operator removes material; None when it removes none."""
+        return None
+
     def operation(self, tool, options):
         """A function of a femscalpel.Scalpel that returns the Result; called on another thread, so it must not look at
         the panel."""
@@ -89,6 +92,11 @@ class ToolPanel(ViewPanel):
         options = self.entered()
         return {"Method": repr(options["method"]), "Transition": repr(options["transition"] or 0),
                 "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"])}
+
+    def placement_text(self):
+        """The geometry's placement as exact Python text."""
+        placement = self.geometry.placement()
+        return f"FreeCAD.Placement(FreeCAD.Vector{tuple(placement.Base)!r}, FreeCAD.Rotation{placement.Rotation.Q!r})"
 
     # Set-up.
 
@@ -174,8 +182,8 @@ class ToolPanel(ViewPanel):
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        operate, source, removes = self.operation(tool, self.entered()), self.source, self.REMOVES_INSIDE
-        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), tool, removes))
+        operate, source, region = self.operation(tool, self.entered()), self.source, self.removed_region(tool)
+        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), tool, region))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
