@@ -13,6 +13,7 @@
 #include "crack_checks.h"
 #include "io/inp.h"
 #include "operators/scalpel.h"
+#include "simple_meshes.h"
 #include "tools/plane.h"
 
 namespace femscalpel {
@@ -245,61 +246,6 @@ TEST(Crack, AlongElementFacesOnlyDoubles) {
     EXPECT_EQ(result.mesh.block(CellType::triangle).size(), model.mesh.block(CellType::triangle).size() + static_cast<Index>(faces(model.mesh, "GLUE")));
     EXPECT_NEAR(group_sums(result.mesh)[*model.mesh.find_group("GLUE", GroupKind::element)].measure, 200, 1e-7);
 }
-
-/// A box of nx x ny x nz cubes of side 1 about the origin's octant, each of six tetrahedra around a diagonal.
-Mesh grid(int nx, int ny, int nz) {
-    Mesh mesh;
-    const auto node = [&](int i, int j, int k) { return static_cast<Index>((k * (ny + 1) + j) * (nx + 1) + i); };
-    for (int k = 0; k <= nz; ++k)
-        for (int j = 0; j <= ny; ++j)
-            for (int i = 0; i <= nx; ++i) mesh.add_node(Vec3(i, j, k), 10 + mesh.node_count());
-    constexpr int paths[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-    Index number = 100;
-    for (int k = 0; k < nz; ++k)
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i)
-                for (const auto& path : paths) {
-                    std::array<int, 3> at{i, j, k};
-                    std::array<Index, 4> n;
-                    n[0] = node(i, j, k);
-                    for (int step = 0; step < 3; ++step) {
-                        ++at[path[step]];
-                        n[step + 1] = node(at[0], at[1], at[2]);
-                    }
-                    const auto& p = mesh.points;
-                    if ((p[n[1]] - p[n[0]]).cross(p[n[2]] - p[n[0]]).dot(p[n[3]] - p[n[0]]) < 0) std::swap(n[2], n[3]);
-                    mesh.add_cell(CellType::tetra, n, number++);
-                }
-    return mesh;
-}
-
-/// A plate of 2 nx ny triangles with corner `origin` and cube edges `x`, `y`, sharing nodes that are already there.
-void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int nx, int ny, FamilyIndex family = 0) {
-    const auto node = [&](int i, int j) {
-        const Vec3 at = origin + i * x + j * y;
-        for (std::size_t n = 0; n < mesh.points.size(); ++n)
-            if ((mesh.points[n] - at).norm() < 1e-12) return static_cast<Index>(n);
-        return mesh.add_node(at, mesh.largest_node_id() + 1);
-    };
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) {
-            const Index a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
-            mesh.add_cell(CellType::triangle, std::array{a, b, c}, mesh.largest_cell_id() + 1, family);
-            mesh.add_cell(CellType::triangle, std::array{a, c, d}, mesh.largest_cell_id() + 1, family);
-        }
-}
-
-FamilyIndex family_of(Mesh& mesh, const char* name, GroupKind kind) {
-    return mesh.families.with(0, mesh.add_group(name, kind));
-}
-
-Index number_near(const Mesh& mesh, const Vec3& at) {
-    for (std::size_t n = 0; n < mesh.points.size(); ++n)
-        if ((mesh.points[n] - at).norm() < 1e-9) return static_cast<Index>(n);
-    throw Error("no node there");
-}
-
-std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind) { return group_members(mesh, *mesh.find_group(name, kind)).ids; }
 
 /// Cuts edges near their middles: some nodes are moved onto it, some edges split.
 const CutPlane slanting{{3.4, 1, 1}, Vec3(0.6, 0.7, 0.4).normalized()};

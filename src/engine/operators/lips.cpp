@@ -25,6 +25,8 @@ public:
         for (int t = 0; t < band_.triangles.size(); ++t) out_.triangles[t] = band_.triangles[t];
         out_.lines.resize(static_cast<std::size_t>(band_.lines.size()));
         for (int l = 0; l < band_.lines.size(); ++l) out_.lines[l] = band_.lines[l];
+        out_.vertices.resize(static_cast<std::size_t>(band_.vertices.size()));
+        for (int p = 0; p < band_.vertices.size(); ++p) out_.vertices[p] = band_.vertices[p];
         find_open_faces();
         find_open_edges();
         for (const int v : out_.interface_nodes) part_node(v);
@@ -217,6 +219,20 @@ private:
         return std::ranges::any_of(nodes, [&](int v) { return doubled_.contains(v); });
     }
 
+    /// Number of elements at a node on the positive side less those on the negative.
+    int balance(int v) const {
+        int sum = 0;
+        for (const int t : band_.tetras.around(v)) sum += side(band_.tetras[t]);
+        for (const int t : band_.triangles.around(v))
+            if (is_shell(t)) sum += side(band_.triangles[t]);
+        return sum;
+    }
+
+    void move_to_positive(auto& nodes) const {
+        for (int& v : nodes)
+            if (const auto copy = positive_copy_.find(v); copy != positive_copy_.end()) v = copy->second;
+    }
+
     void place_attached() {
         for (int t = 0; t < band_.triangles.size(); ++t) {
             if (!band_.triangles.alive(t) || is_shell(t) || !any_doubled(band_.triangles[t])) continue;
@@ -225,14 +241,15 @@ private:
             out_.triangles[t] = found[0];
             for (std::size_t k = 1; k < found.size(); ++k) out_.triangle_twins.push_back({t, found[k]});
         }
-        int loose = 0, masses = 0;
+        int loose = 0, points = 0, points_positive = 0;
         for (int l = 0; l < band_.lines.size(); ++l) {
             if (!band_.lines.alive(l) || !any_doubled(band_.lines[l])) continue;
             if (f_.d.constraints.is_loose(band_.lines.origin(l))) {
                 // A beam or spring follows its other end's side.
-                if (side(band_.lines[l]) > 0)
-                    for (int& v : out_.lines[l])
-                        if (const auto copy = positive_copy_.find(v); copy != positive_copy_.end()) v = copy->second;
+                int where = side(band_.lines[l]);
+                if (where == 0)
+                    for (const int v : band_.lines[l]) where += balance(v);
+                if (where > 0) move_to_positive(out_.lines[l]);
                 ++loose;
                 continue;
             }
@@ -241,11 +258,18 @@ private:
             out_.lines[l] = found[0];
             for (std::size_t k = 1; k < found.size(); ++k) out_.line_twins.push_back({l, found[k]});
         }
-        for (int p = 0; p < band_.vertices.size(); ++p) masses += any_doubled(band_.vertices[p]);
+        for (int p = 0; p < band_.vertices.size(); ++p) {
+            if (!band_.vertices.alive(p) || !any_doubled(band_.vertices[p])) continue;
+            const bool positive = balance(band_.vertices[p][0]) > 0;
+            if (positive) move_to_positive(out_.vertices[p]);
+            ++points;
+            points_positive += positive;
+        }
         if (loose > 0)
             out_.warnings.push_back(std::to_string(loose) + " segment element(s) (beam, spring) end on doubled nodes; each stays on the side it lies on");
-        if (masses > 0)
-            out_.warnings.push_back(std::to_string(masses) + " point element(s) sit on doubled nodes; they stay on the negative side");
+        if (points > 0)
+            out_.warnings.push_back(std::to_string(points) + " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole on the side with more elements there: " +
+                                    std::to_string(points - points_positive) + " on the negative side, " + std::to_string(points_positive) + " on the positive");
         int flat = 0;
         for (int t = 0; t < band_.triangles.size(); ++t)
             flat += band_.triangles.alive(t) && is_shell(t) && side(band_.triangles[t]) == 0;

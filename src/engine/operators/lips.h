@@ -18,6 +18,7 @@ struct Lips {
     std::vector<std::array<int, 4>> tetras;
     std::vector<std::array<int, 3>> triangles;
     std::vector<std::array<int, 2>> lines;
+    std::vector<std::array<int, 1>> vertices;
 
     /// An element on the crack that needs a second copy, for the other side.
     template <std::size_t N>
@@ -50,6 +51,10 @@ struct Lips {
 /// whose nodes all lie on the tool. At each interface node the elements fall into parts that are joined
 /// by other faces and edges; the largest part on the negative side keeps the node, every other gets a
 /// copy. Nodes with one part (a front) stay single.
+///
+/// Discrete elements that end on a doubled node stay whole, on one side, and a warning says so: a beam or spring on
+/// the side its other end is on, a mass or spring to ground, and what has all its nodes on the tool, on the side with most
+/// elements there, the negative one if they are as many.
 Lips open_lips(const Interface& interface);
 
 }  // namespace femscalpel

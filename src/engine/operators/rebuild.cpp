@@ -27,6 +27,7 @@ public:
         write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
         write_cells(band_.triangles, lips_.triangles, band_.triangle_cells, triangle_cell_);
         write_cells(band_.lines, lips_.lines, band_.line_cells, line_cell_);
+        if (!lips_.vertices.empty()) write_cells(band_.vertices, lips_.vertices, band_.vertex_cells, vertex_cell_);
         write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
         write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
         write_lips(groups);
@@ -416,7 +417,7 @@ private:
     const Lips& lips_;
     Rebuilt out_;
     Index next_node_ = 1, next_cell_ = 1;
-    std::vector<Index> tetra_cell_, triangle_cell_, line_cell_;  // by slot: index in the new mesh
+    std::vector<Index> tetra_cell_, triangle_cell_, line_cell_, vertex_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
     struct MidNodes {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel::checks {
+
+/// A box of nx x ny x nz cubes of side 1 about the origin's octant, each of six tetrahedra around a diagonal.
+Mesh grid(int nx, int ny, int nz);
+
+/// A plate of 2 nx ny triangles with corner `origin` and cube edges `x`, `y`, sharing nodes that are already there.
+void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int nx, int ny, FamilyIndex family = 0);
+
+/// A new group's family.
+FamilyIndex family_of(Mesh& mesh, const char* name, GroupKind kind);
+
+/// Index of the node there.
+Index number_near(const Mesh& mesh, const Vec3& at);
+
+/// Numbers of a group's nodes or elements.
+std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind);
+
+}  // namespace femscalpel::checks
