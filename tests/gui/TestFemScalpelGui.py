@@ -4,3 +4,4 @@
 from test_crack_panel import CrackCommand, CrackMessages, CrackPicks  # noqa: F401
 from test_inspection import GroupInspector, MeshQuality  # noqa: F401
 from test_other_commands import CylindricalCrack, Export, Preferences  # noqa: F401
+from test_macro import Macro  # noqa: F401

@@ -13,7 +13,8 @@ import femmesh_bridge
 import femscalpel as fs
 from gui_testing import *  # noqa: F403
 from gui_testing import GuiTest
-from test_crack_panel import content, long_box, traces
+from mesh_content import content_of
+from test_crack_panel import long_box, traces
 
 
 class CylinderTest(GuiTest):
@@ -38,11 +39,11 @@ class CylindricalCrack(CylinderTest):
         press_ok()
         crack = self.doc.CylindricalCrack
         self.assertEqual(crack.NodesDoubled, expected.report.nodes_doubled)
-        made = content(crack)
+        made = content_of(crack)
         self.doc.undo()
         self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
         self.doc.redo()
-        self.assertEqual(content(self.doc.CylindricalCrack), made)
+        self.assertEqual(content_of(self.doc.CylindricalCrack), made)
         self.doc.CylindricalCrack.ViewObject.doubleClicked()
         self.wait_for_preview()
         self.assertAlmostEqual(value("radius"), 1.3)
