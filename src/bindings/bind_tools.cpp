@@ -6,8 +6,11 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "error.h"
+#include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
+#include "tools/sphere.h"
+#include "tools/torus.h"
 
 namespace py = pybind11;
 
@@ -45,6 +48,29 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("origin", [](const Cylinder& cylinder) { return triple(cylinder.origin()); })
         .def_property_readonly("unit_axis", [](const Cylinder& cylinder) { return triple(cylinder.unit_axis()); })
         .def_property_readonly("radius", &Cylinder::radius);
+    py::class_<Sphere, Tool>(module, "Sphere")
+        .def(py::init([](const Triple& center, double radius) { return Sphere(vector(center), radius); }), py::arg("center"), py::arg("radius"))
+        .def_property_readonly("center", [](const Sphere& sphere) { return triple(sphere.center()); })
+        .def_property_readonly("radius", &Sphere::radius);
+    py::class_<Torus, Tool>(module, "Torus")
+        .def(py::init([](const Triple& center, const Triple& axis, double major_radius, double minor_radius) {
+                 return Torus(vector(center), vector(axis), major_radius, minor_radius);
+             }),
+             py::arg("center"), py::arg("axis"), py::arg("major_radius"), py::arg("minor_radius"))
+        .def_property_readonly("center", [](const Torus& torus) { return triple(torus.center()); })
+        .def_property_readonly("unit_axis", [](const Torus& torus) { return triple(torus.unit_axis()); })
+        .def_property_readonly("major_radius", &Torus::major_radius)
+        .def_property_readonly("minor_radius", &Torus::minor_radius);
+    py::class_<Cone, Tool>(module, "Cone")
+        .def(py::init([](const Triple& origin, const Triple& axis, double radius, double half_angle) {
+                 return Cone(vector(origin), vector(axis), radius, half_angle);
+             }),
+             py::arg("origin"), py::arg("axis"), py::arg("radius"), py::arg("half_angle"))
+        .def_property_readonly("origin", [](const Cone& cone) { return triple(cone.origin()); })
+        .def_property_readonly("unit_axis", [](const Cone& cone) { return triple(cone.unit_axis()); })
+        .def_property_readonly("apex", [](const Cone& cone) { return triple(cone.apex()); })
+        .def_property_readonly("radius", &Cone::radius)
+        .def_property_readonly("half_angle", &Cone::half_angle);
 }
 
 }  // namespace femscalpel::bindings

@@ -13,7 +13,9 @@
 #include <random>
 
 #include "io/io.h"
+#include "operators/refine.h"
 #include "operators/scalpel.h"
+#include "tools/cylinder.h"
 #include "tools/plane.h"
 
 namespace {
@@ -87,6 +89,19 @@ void BM_session(benchmark::State& state, const std::string& name) {
     report(state, scalpel.mesh(), last);
 }
 
+/// A cylinder as thin as two edges of the 39 k mesh, refined to half its radius.
+void BM_refine(benchmark::State& state, const std::string& name) {
+    const auto mesh = mesh_of(name);
+    const Cylinder cylinder({6, 5, 5}, {0, 0, 1}, 0.6);
+    const DistanceField distance = distance_to(std::vector<const Tool*>{&cylinder});
+    RefineOptions options;
+    options.size = 0.3;
+    Report last;
+    for (auto _ : state) last = refine(*mesh, distance, options).report;
+    report(state, *mesh, last);
+    state.counters["new_elements"] = static_cast<double>(last.elements_added);
+}
+
 /// The reference mesh with so many more overlapping groups. Every other one holds the whole middle of the model,
 /// so that each element near the crack is in half of them; the rest are random boxes elsewhere. All borders are
 /// away from the crack: only the number of groups differs, not the geometry to be kept.
@@ -120,6 +135,7 @@ int main(int argc, char** argv) {
     for (const char* name : {"two_boxes_39k", "two_boxes_505k", "two_boxes_2500k"}) {
         if (!std::filesystem::exists(std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (std::string(name) + ".inp"))) continue;
         benchmark::RegisterBenchmark((std::string("crack/") + name).c_str(), BM_crack, name)->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("refine/") + name).c_str(), BM_refine, name)->Unit(benchmark::kMillisecond);
         benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)->Unit(benchmark::kMillisecond);
     }
     benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)->Arg(5)->Arg(500)->Unit(benchmark::kMillisecond);

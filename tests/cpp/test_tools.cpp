@@ -6,8 +6,11 @@
 
 #include "crack_checks.h"
 #include "error.h"
+#include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
+#include "tools/sphere.h"
+#include "tools/torus.h"
 
 namespace femscalpel {
 namespace {
@@ -50,6 +53,47 @@ TEST(Tools, Cylinder) {
     EXPECT_THROW(Cylinder({0, 0, 0}, {0, 0, 1}, -1), ToolError);
     EXPECT_THROW(Cylinder({0, 0, 0}, {0, 0, 1}, std::nan("")), ToolError);
     EXPECT_THROW(Cylinder({0, 0, INFINITY}, {0, 0, 1}, 1), ToolError);
+}
+
+TEST(Tools, Sphere) {
+    const Sphere sphere({0.1, 0.2, 0.3}, 0.7);
+    expect_consistent(sphere, 2);
+    EXPECT_DOUBLE_EQ(sphere.feature_size(), 0.7);
+    EXPECT_DOUBLE_EQ(Sphere({1, 1, 1}, 2).distance({1, 1, 1}), -2);
+    EXPECT_DOUBLE_EQ(Sphere({1, 1, 1}, 2).distance({1, 6, 1}), 3);
+    EXPECT_DOUBLE_EQ(sphere.normal(sphere.center()).norm(), 1);
+    EXPECT_THROW(Sphere({0, 0, 0}, 0), ToolError);
+    EXPECT_THROW(Sphere({0, 0, 0}, std::nan("")), ToolError);
+    EXPECT_THROW(Sphere({std::nan(""), 0, 0}, 1), ToolError);
+}
+
+TEST(Tools, Torus) {
+    expect_consistent(Torus({0.1, 0.2, 0.3}, {1, -2, 0.5}, 1, 0.3), 2);
+    const Torus flat({1, 0, 0}, {0, 0, 3}, 5, 2);
+    EXPECT_DOUBLE_EQ(flat.distance({6, 0, 0}), -2);
+    EXPECT_DOUBLE_EQ(flat.distance({1, 5, 6}), 4);
+    EXPECT_DOUBLE_EQ(flat.distance({1, 0, 0}), 3);
+    EXPECT_DOUBLE_EQ(flat.feature_size(), 2);
+    EXPECT_DOUBLE_EQ(Torus({0, 0, 0}, {0, 0, 1}, 5, 4).feature_size(), 1);
+    EXPECT_NEAR(flat.normal({6, 0, 0}).norm(), 1, 1e-15);
+    EXPECT_THROW(Torus({0, 0, 0}, {0, 0, 1}, 2, 2), ToolError);
+    EXPECT_THROW(Torus({0, 0, 0}, {0, 0, 1}, 0, 2), ToolError);
+    EXPECT_THROW(Torus({0, 0, 0}, {0, 0, 1}, 2, -1), ToolError);
+    EXPECT_THROW(Torus({0, 0, 0}, {0, 0, 0}, 2, 1), ToolError);
+}
+
+TEST(Tools, Cone) {
+    expect_consistent(Cone({0.1, 0.2, 0.3}, {1, -2, 0.5}, 0.7, 30), 2);
+    const Cone upright({0, 0, 0}, {0, 0, 2}, 2, 45);
+    EXPECT_NEAR((upright.apex() - Vec3(0, 0, -2)).norm(), 0, 1e-12);
+    EXPECT_NEAR(upright.distance({0, 0, 0}), -std::sqrt(2), 1e-12);
+    EXPECT_NEAR(upright.distance({3, 0, 1}), 0, 1e-12);
+    EXPECT_NEAR(upright.distance({0, 0, -5}), 3, 1e-12);
+    EXPECT_NEAR((upright.normal({0, 0, -5}) - Vec3(0, 0, -1)).norm(), 0, 1e-12);
+    EXPECT_NEAR(upright.feature_size(), 2 * std::sqrt(2), 1e-12);
+    for (const double angle : {0.0, 90.0, -10.0, std::nan("")}) EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 1, angle), ToolError);
+    EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 0, 30), ToolError);
+    EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 0}, 1, 30), ToolError);
 }
 
 }  // namespace

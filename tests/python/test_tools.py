@@ -47,6 +47,34 @@ def test_bad_cylinder(arguments, error, message):
         fs.Cylinder(*arguments)
 
 
+def test_sphere_torus_cone():
+    sphere = fs.Sphere((1, 2, 3), 2)
+    assert sphere.center == (1.0, 2.0, 3.0) and sphere.kind == "sphere" and sphere.feature_size == 2 and "radius=2.0" in repr(sphere)
+    np.testing.assert_allclose(sphere.distance([[1, 2, 3], [1, 2, 8]]), [-2, 3])
+    torus = fs.Torus(center=(0, 0, 0), axis=(0, 0, 2), major_radius=5, minor_radius=2)
+    assert torus.axis == (0.0, 0.0, 1.0) and torus.kind == "torus" and torus.feature_size == 2 and "minor_radius=2.0" in repr(torus)
+    np.testing.assert_allclose(torus.distance([[5, 0, 0], [0, 5, 3]]), [-2, 1])
+    cone = fs.Cone(origin=(0, 0, 0), axis=(0, 0, 1), radius=1, half_angle=45)
+    np.testing.assert_allclose(cone.apex, (0, 0, -1), atol=1e-12)
+    assert cone.kind == "cone" and "half_angle=45.0" in repr(cone)
+    np.testing.assert_allclose(cone.distance([[0, 0, 0], [3, 0, 2], [0, 0, -3]]), [-np.sqrt(0.5), 0, 2], atol=1e-12)
+
+
+@pytest.mark.parametrize("make, error, message", [
+    (lambda: fs.Sphere((0, 0, 0), 0), fs.ToolError, "sphere: radius is 0"),
+    (lambda: fs.Sphere((0, 0), 1), ValueError, "center must be three numbers"),
+    (lambda: fs.Torus((0, 0, 0), (0, 0, 0), 2, 1), fs.ToolError, "torus: axis is the zero vector"),
+    (lambda: fs.Torus((0, 0, 0), (0, 0, 1), 1, 2), fs.ToolError, "minor_radius is 2; it must be smaller than major_radius, 1"),
+    (lambda: fs.Torus((0, 0, 0), (0, 0, 1), 1, float("nan")), ValueError, "minor_radius must be a finite number"),
+    (lambda: fs.Cone((0, 0, 0), (0, 0, 1), 1, 90), fs.ToolError, "cone: half_angle is 90"),
+    (lambda: fs.Cone((0, 0, 0), (0, 0, 1), -1, 30), fs.ToolError, "cone: radius is -1"),
+    (lambda: fs.Cone((0, 0, 0), (0, 0, 1), 1, "30"), TypeError, "half_angle must be a number"),
+])
+def test_bad_sphere_torus_cone(make, error, message):
+    with pytest.raises(error, match=message):
+        make()
+
+
 def test_errors_have_one_base():
     for error in (fs.ReadError, fs.WriteError, fs.ToolError, fs.QualityError, fs.UnsupportedElementError):
         assert issubclass(error, fs.Error) and error.__module__ == "femscalpel" and error.__doc__

@@ -9,12 +9,14 @@ import numpy as np
 import femmesh_bridge
 from femscalpel.mesh import CELL_TYPES
 
+from .on_shape import element_of
+
 
 def put_into_analysis(obj, strict=True):
     """See ObjectsFemScalpel.putIntoAnalysis()."""
     analysis, replaced = _place_of_source(obj)
     if "Touched" in obj.State:
-        obj.recompute()
+        obj.recompute(True)
     if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
         raise ValueError(f"'{obj.Label}' has no mesh; mend what its error says first")
     problems = lost_references(obj, replaced, analysis)
@@ -43,8 +45,8 @@ def take_out_of_analysis(obj):
 def lost_references(obj, source, analysis):
     """What FreeCAD's search by geometry would not, or wrongly, find on the mesh of `obj`; sentences, none if all is well.
 
-    Only what an operator of FemScalpel can cause: nodes that could not be put back on the geometry, and a force on a
-    vertex or an edge that a crack has doubled (FreeCAD drops the one and counts the other twice).
+    Only what an operator of FemScalpel can cause: nodes that could not be put back on the geometry, a vertex that has lost
+    its node, and a force on a vertex or an edge that a crack has doubled (FreeCAD drops the one and counts the other twice).
     """
     problems = []
     mesh = obj
@@ -52,11 +54,14 @@ def lost_references(obj, source, analysis):
         problems += [f"{line} (from '{mesh.Label}')" for line in getattr(mesh, "OffShape", ())]
         mesh = getattr(mesh, "Source", None)
     for member in analysis.Group:
-        if member.isDerivedFrom("Fem::ConstraintForce"):
-            for part, names in member.References:
-                for name in names:
-                    if _is_doubled(obj.FemMesh, part.Shape.getElement(name)):
-                        problems.append(f"the tool doubles {part.Label}.{name}, which '{member.Label}' loads")
+        for part, names in getattr(member, "References", ()):
+            for name in names:
+                shape = element_of(part, name)
+                if shape.ShapeType == "Vertex" and len(source.FemMesh.getNodesByVertex(shape)) > \
+                        len(obj.FemMesh.getNodesByVertex(shape)):
+                    problems.append(f"'{obj.Label}' has no node at {part.Label}.{name}, which '{member.Label}' refers to")
+                elif member.isDerivedFrom("Fem::ConstraintForce") and _is_doubled(obj.FemMesh, shape):
+                    problems.append(f"the tool doubles {part.Label}.{name}, which '{member.Label}' loads")
     return problems
 
 

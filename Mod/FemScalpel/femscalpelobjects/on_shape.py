@@ -27,23 +27,31 @@ _POOR = 0.3  # mean ratio below which an element must not lose half of its own b
 
 
 def shapes_of(obj):
-    """The shapes the mesh of `obj` lies on, in global coordinates: of its linked geometry, or, if it has none, those that
-    the members of an analysis with `obj`, or with a mesh it is made from, refer to."""
-    for name in ("Part", "Shape"):
-        part = getattr(obj, name, None)
-        if getattr(part, "Shape", None) is not None:
-            return [part.Shape]
+    """The shapes the mesh of `obj` lies on, as [(name, shape)], in global coordinates.
+
+    The geometry it is made from, named "", and those faces, edges, vertices and solids of other objects, and vertices of the
+    geometry, that the members of an analysis with `obj` or with a mesh it is made from refer to.
+    """
+    geometry = next((part for part in (getattr(obj, name, None) for name in ("Part", "Shape"))
+                     if getattr(part, "Shape", None) is not None), None)
+    found = {"": geometry.Shape} if geometry is not None else {}
     chain = [obj]
     while getattr(chain[-1], "Source", None) is not None:
         chain.append(chain[-1].Source)
-    found = {}
     for analysis in obj.Document.findObjects("Fem::FemAnalysis"):
         if any(mesh in analysis.Group for mesh in chain):
             for member in analysis.Group:
-                for part, _ in getattr(member, "References", ()):
-                    if getattr(part, "Shape", None) is not None:
-                        found[part.Name] = part.Shape
-    return list(found.values())
+                for part, names in getattr(member, "References", ()):
+                    for name in names:
+                        if part != geometry or name.startswith("Vertex"):
+                            found[f"{part.Name}.{name}"] = element_of(part, name)
+    return list(found.items())
+
+
+def element_of(part, name):
+    """The face, edge, vertex or solid `name` of a document object, in global coordinates."""
+    from femtools.geomtools import get_element
+    return get_element(part, name)
 
 
 def nodes_around(mesh, tools, rings):
@@ -69,7 +77,8 @@ class OnShape:
     ----------
     mesh : femscalpel.Mesh
         Gets bookkeeping groups, which the operator carries along; put_back() takes them out of its result.
-    shapes : list of Part.Shape
+    shapes : list of (str, Part.Shape)
+        As from shapes_of().
     near : (n,) array of bool
         The nodes the operator may move or take as parents of new nodes. Only they are looked at.
     """
@@ -80,13 +89,13 @@ class OnShape:
         #: After put_back(): what FreeCAD will not find, as "Face4: 3 nodes are off it by up to 0.2".
         self.lost = []
         self._mesh = mesh
-        self._faces, self._edges = [], []
+        self._faces, self._edges, self._vertices = [], [], []
         if shapes and near.any():
             self._find_entities(mesh, shapes, near)
             self._mark_facets(mesh, near)
             self._mark_elements(mesh, near)
-            for edge in self._edges:
-                self._add_group(edge, "node", edge.nodes)
+            for entity in self._edges + self._vertices:
+                self._add_group(entity, "node", entity.nodes)
 
     # --- before the operator
 
@@ -94,13 +103,18 @@ class OnShape:
         finder = Fem.FemMesh()
         for number, point in zip(mesh.node_ids[near].tolist(), mesh.points[near].tolist()):
             finder.addNode(*point, number)
-        for s, shape in enumerate(shapes):
-            where = f" of shape {s + 1}" if len(shapes) > 1 else ""
-            faces = [_Face(f"Face{i + 1}{where}", face, shape) for i, face in enumerate(shape.Faces)]
+        for where, shape in shapes:
+            if shape.ShapeType == "Vertex":
+                # A group of one node: operators do not move it.
+                vertex = _Entity(where, shape)
+                vertex.nodes = finder.getNodesByVertex(shape)
+                self._vertices.append(vertex)
+                continue
+            faces = [_Face(_name(where, shape, "Face", i), face, shape) for i, face in enumerate(shape.Faces)]
             for face in faces:
                 face.nodes = finder.getNodesByFace(face.shape)
             for i, shape_edge in enumerate(shape.Edges):
-                edge = _Edge(f"Edge{i + 1}{where}", shape_edge, [f for f in faces if f.has(shape_edge)])
+                edge = _Edge(_name(where, shape, "Edge", i), shape_edge, [f for f in faces if f.has(shape_edge)])
                 # The seam of a closed face is no line the mesh has to keep.
                 if not (len(edge.faces) == 1 and shape_edge.isSeam(edge.faces[0].shape)):
                     edge.nodes = finder.getNodesByEdge(shape_edge)
@@ -255,6 +269,13 @@ class OnShape:
                     on.append(entity)
         for nodes, on in places.values():
             yield nodes, [e for e in on if isinstance(e, _Edge)][:1] or on
+
+
+def _name(where, shape, kind, index):
+    """What messages call a part of a shape: "Face4" of the geometry, "Box.Face4" of another object, "Box.Solid1 Face4"."""
+    if not where or shape.ShapeType == kind:
+        return where or f"{kind}{index + 1}"
+    return f"{where} {kind}{index + 1}"
 
 
 class _Entity:

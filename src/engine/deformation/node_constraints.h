@@ -79,6 +79,7 @@ public:
     std::optional<Vec3> surface_normal(const NodeConstraint& constraint, const Vec3& x) const;
 
     bool is_flat(int surface) const { return surfaces_[surface].flat; }
+    bool is_straight(int curve) const { return curves_[curve].straight; }
     bool is_internal(int surface) const { return surfaces_[surface].internal; }
 
     /// Whether a node is on the outside in the paper's sense (3.1.2): on a face of only one tetrahedron,

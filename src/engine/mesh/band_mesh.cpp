@@ -120,12 +120,13 @@ std::array<std::vector<Index>, cell_type_count> band_cells(const Mesh& mesh, con
 
 }  // namespace
 
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency) {
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency, bool simplices_only) {
     BandMesh band;
     const auto chosen = band_cells(mesh, level, adjacency);
     std::vector<int> local(mesh.points.size(), -1);
     for (const CellBlock& block : mesh.blocks()) {
         const CellTraits& t = traits(block.type);
+        if (simplices_only && !t.simplex) continue;
         const std::vector<Index>& cells = chosen[static_cast<int>(block.type)];
         for (const Index c : cells)
             for (int k = 0; k < t.corners; ++k) local[block.connectivity[c * t.nodes + k]] = 0;

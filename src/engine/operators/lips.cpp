@@ -335,4 +335,12 @@ private:
 
 Lips open_lips(const Interface& interface) { return Opener(interface).open(); }
 
+Lips closed_lips(const BandMesh& band) {
+    Lips lips;
+    for (int t = 0; t < band.tetras.size(); ++t) lips.tetras.push_back(band.tetras[t]);
+    for (int t = 0; t < band.triangles.size(); ++t) lips.triangles.push_back(band.triangles[t]);
+    for (int l = 0; l < band.lines.size(); ++l) lips.lines.push_back(band.lines[l]);
+    return lips;
+}
+
 }  // namespace femscalpel

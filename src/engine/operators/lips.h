@@ -43,6 +43,7 @@ struct Lips {
     std::vector<Face<2>> edges;
 
     std::vector<int> interface_nodes;  ///< nodes of open faces and edges, ascending
+    bool removes = false;              ///< elements were taken out, and their nodes may have to go
     std::vector<int> front_nodes;      ///< of them, those that stay single
     std::vector<std::string> warnings;
 };
@@ -56,5 +57,8 @@ struct Lips {
 /// the side its other end is on, a mass or spring to ground, and what has all its nodes on the tool, on the side with most
 /// elements there, the negative one if they are as many.
 Lips open_lips(const Interface& interface);
+
+/// The band as it is, nothing opened.
+Lips closed_lips(const BandMesh& band);
 
 }  // namespace femscalpel

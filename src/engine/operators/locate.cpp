@@ -92,18 +92,23 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
         if (&blade == blades.data()) out.distance = std::move(distance);
     }
 
+    spread_levels(mesh, out.level, levels, adjacency);
+    return out;
+}
+
+void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency) {
     std::vector<Index> front, next;
     if (adjacency)
-        for (std::size_t n = 0; n < out.level.size(); ++n)
-            if (out.level[n] == 0) front.push_back(static_cast<Index>(n));
-    for (int level = 1; level <= levels; ++level) {
+        for (std::size_t n = 0; n < levels.size(); ++n)
+            if (levels[n] == 0) front.push_back(static_cast<Index>(n));
+    for (int level = 1; level <= count; ++level) {
         if (!adjacency) {
             for_each_element(mesh, [&](const Index* n, int corners) {
                 bool near = false;
-                for (int k = 0; k < corners; ++k) near |= out.level[n[k]] == level - 1;
+                for (int k = 0; k < corners; ++k) near |= levels[n[k]] == level - 1;
                 if (!near) return;
                 for (int k = 0; k < corners; ++k)
-                    if (out.level[n[k]] < 0) out.level[n[k]] = static_cast<std::int8_t>(level);
+                    if (levels[n[k]] < 0) levels[n[k]] = static_cast<std::int8_t>(level);
             });
             continue;
         }
@@ -114,14 +119,13 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
                 if (t.dimension < 2) return;
                 const Index* n = mesh.block(type).nodes(cell).data();
                 for (int k = 0; k < t.corners; ++k) {
-                    if (out.level[n[k]] >= 0) continue;
-                    out.level[n[k]] = static_cast<std::int8_t>(level);
+                    if (levels[n[k]] >= 0) continue;
+                    levels[n[k]] = static_cast<std::int8_t>(level);
                     next.push_back(n[k]);
                 }
             });
         front.swap(next);
     }
-    return out;
 }
 
 }  // namespace femscalpel

@@ -26,4 +26,7 @@ struct Location {
 /// Throws ToolError when a tool misses the mesh: says how far away it is, and on which side.
 Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr);
 
+/// Gives nodes without a level (-1) that are k <= `count` edges away from those of level 0 the level k.
+void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency = nullptr);
+
 }  // namespace femscalpel

@@ -15,11 +15,11 @@ namespace {
 /// Code_Aster's limit for group names.
 constexpr std::size_t longest_name = 24;
 
-void check_name(const Mesh& mesh, const std::string& name, std::initializer_list<const char*> suffixes) {
+void check_name(const Mesh& mesh, const std::string& name, const std::vector<std::string>& suffixes) {
     if (name.empty()) throw ToolError("name is empty; the new groups need one");
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
         throw ToolError("name '" + name + "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
-    for (const char* suffix : suffixes) {
+    for (const std::string& suffix : suffixes) {
         const std::string group = name + suffix;
         if (group.size() > longest_name)
             throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " + std::to_string(group.size()) +
@@ -51,23 +51,6 @@ int bandwidth(const Location& location, const Mesh& mesh) {
     }
     if (edges == 0) return 2;
     return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
-}
-
-QualitySummary summarise(std::vector<ElementQuality> qualities) {
-    QualitySummary s;
-    s.count = static_cast<Index>(qualities.size());
-    double sum = 0;
-    for (const ElementQuality& q : qualities) {
-        s.minimum = std::min(s.minimum, q.mean_ratio);
-        sum += q.mean_ratio;
-        const int bar = std::clamp(static_cast<int>(q.mean_ratio * quality_bars), 0, quality_bars - 1);
-        ++s.histogram[bar];
-    }
-    if (s.count > 0) s.mean = sum / static_cast<double>(s.count);
-    const auto worst = qualities.begin() + std::min<std::ptrdiff_t>(10, static_cast<std::ptrdiff_t>(qualities.size()));
-    std::ranges::partial_sort(qualities, worst, {}, [](const ElementQuality& q) { return std::pair(q.mean_ratio, q.id); });
-    s.worst.assign(qualities.begin(), worst);
-    return s;
 }
 
 /// Elements of the band's moving part before and after; `inverted` collects those that were bad on arrival.
@@ -290,7 +273,7 @@ void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
 }  // namespace
 
 Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-                     std::initializer_list<const char*> suffixes)
+                     const std::vector<std::string>& suffixes)
     : input_(input), options_(options), prepared_(prepared) {
     report_.operation = kind;
     report_.name = options.name;
@@ -326,7 +309,7 @@ Interface Operation::begin(std::span<const Blade> blades) {
     constraint_options.kept_hidden = marks_.kept;
     constraint_options.pinned = marks_.pinned;
     const Tool& first = *blades.front().tool;
-    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}};
+    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}, {}};
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];
@@ -387,6 +370,9 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);
     recount_nodes_and_facets(after, rebuilt.mesh);
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
+    for (const GroupRecord& g : report_.groups)
+        if (g.status == "became empty")
+            report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
         report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
     describe_motion(f, mesh(), rebuilt, report_);

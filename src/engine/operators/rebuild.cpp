@@ -31,7 +31,7 @@ public:
         write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
         write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
         write_lips(groups);
-        straighten_bad_tetrahedra();
+        if (!f_.mid_side) straighten_bad_tetrahedra();
         write_facets();
         for (const CellRef& c : f_.deep_inside) note_removed(c);
         remove_cells();
@@ -49,7 +49,7 @@ private:
         out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
         for (int v = 0; v < band_.size(); ++v) {
             const BandNode& n = band_.nodes[v];
-            if (!band_.in_use(v)) continue;
+            if (n.global < 0 && !band_.in_use(v)) continue;
             if (n.global >= 0) {
                 out_.node[v] = n.global;
                 mesh.points[n.global] = n.at;
@@ -78,14 +78,23 @@ private:
         out_.changes.born.push_back(std::move(born));
     }
 
-    void gather_ancestors(int v, std::vector<Index>& out) const {
+    void gather_ancestors(int v, std::vector<Index>& out) {
         if (band_.nodes[v].global >= 0) {
             out.push_back(input_.node_ids[band_.nodes[v].global]);
             return;
         }
-        const auto& [a, b] = band_.births[v - band_.original_nodes()];
-        gather_ancestors(a, out);
-        gather_ancestors(b, out);
+        // Kept, because births of births of ... would be visited over and over.
+        if (!ancestors_.contains(v)) {
+            const auto& [a, b] = band_.births[v - band_.original_nodes()];
+            std::vector<Index> all;
+            gather_ancestors(a, all);
+            gather_ancestors(b, all);
+            std::ranges::sort(all);
+            all.erase(std::unique(all.begin(), all.end()), all.end());
+            ancestors_[v] = std::move(all);
+        }
+        const std::vector<Index>& all = ancestors_[v];
+        out.insert(out.end(), all.begin(), all.end());
     }
 
     /// Node family of a band node, also of one that was merged away after others were born on its edges.
@@ -149,6 +158,7 @@ private:
     }
 
     Vec3 half_way(int a, int b) const {
+        if (f_.mid_side) return f_.mid_side(a, b);
         const Vec3 chord = (band_.nodes[a].at + band_.nodes[b].at) / 2;
         Vec3 at = chord;
         const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
@@ -380,7 +390,7 @@ private:
 
     /// Drops the nodes that only removed elements had.
     void remove_nodes() {
-        if (removed_.empty()) return;
+        if (!lips_.removes) return;
         Mesh& mesh = out_.mesh;
         std::vector<char> orphan(mesh.points.size(), 0);
         bool any = false;
@@ -420,6 +430,7 @@ private:
     std::vector<Index> tetra_cell_, triangle_cell_, line_cell_, vertex_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
+    std::unordered_map<int, std::vector<Index>> ancestors_;  // by new band node
     struct MidNodes {
         std::array<int, 2> ends;
         std::vector<std::pair<std::uint64_t, Index>> nodes;  // (image edge, node), the owner first

@@ -34,7 +34,7 @@ struct Rebuilt {
 /// both ends; a copied node is in all groups of its original. New numbers start above the largest in use.
 ///
 /// Mid-side nodes follow their edges in the band: half way, on the surface or curve the edge is on; where
-/// that would spoil an element's Jacobian at its integration points, on the chord.
+/// that would spoil an element's Jacobian at its integration points, on the chord. Or where Interface::mid_side says.
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
                 const std::vector<std::vector<std::string>>& groups);
 

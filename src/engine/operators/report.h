@@ -30,6 +30,9 @@ struct QualitySummary {
     std::vector<ElementQuality> worst;  ///< at most ten, worst first
 };
 
+/// Summary of the given elements.
+QualitySummary summarise(std::vector<ElementQuality> qualities);
+
 /// What an operator did; the same for all operators.
 struct Report {
     std::string operation;  ///< "crack", "drill", ...

@@ -17,15 +17,16 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
-from .operators import Result, Scalpel, crack
+from .operators import Result, Scalpel, crack, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
-from .tools import Cylinder, Plane, Tool
+from .tools import Cone, Cylinder, Plane, Sphere, Tool, Torus
 
 __version__ = "0.1.0"
 
 __all__ = [
     "BoundaryPart",
+    "Cone",
     "Cylinder",
     "ElementaryGroup",
     "ElementQuality",
@@ -42,16 +43,20 @@ __all__ = [
     "Report",
     "Result",
     "Scalpel",
+    "Sphere",
     "Tool",
     "ToolError",
+    "Torus",
     "UnsupportedElementError",
     "VirtualBoundary",
     "WriteError",
     "crack",
+    "drill",
     "from_meshio",
     "mean_ratio",
     "measure",
     "read",
+    "refine",
     "scaled_jacobian",
     "smallest_angle",
     "to_meshio",

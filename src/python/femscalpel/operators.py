@@ -2,7 +2,9 @@
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
 from dataclasses import dataclass
-from typing import Iterable, Optional
+from typing import Iterable, Optional, Sequence, Union
+
+import numpy as np
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
@@ -25,7 +27,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _crack_options(name, method, transition, feature_angle, strict, preserve) -> tuple:
+def _common_options(name, method, transition, feature_angle, strict, preserve) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -103,7 +105,144 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      *_crack_options(name, method, transition, feature_angle, strict, preserve)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve)))
+
+
+def _tools(tools) -> list:
+    if isinstance(tools, Tool):
+        return [tools]
+    try:
+        tools = list(tools)
+    except TypeError:
+        raise TypeError(f"tools must be a tool such as femscalpel.Cylinder, or a sequence of tools, not {_arguments.describe(tools)}") from None
+    if not tools:
+        raise ValueError("tools is empty; give at least one tool")
+    return [check_tool(tool, f"tools[{k}]") for k, tool in enumerate(tools)]
+
+
+def _depth(depth) -> Optional[float]:
+    return None if depth is None else _arguments.real(depth, "depth")
+
+
+def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
+          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
+          depth: Optional[float] = None) -> Result:
+    """Drills one or several holes.
+
+    What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
+    carried; the walls lie on the tools. Elements away from the holes keep their numbers, coordinates and groups. A group
+    that loses all its members stays, empty, and the report warns. `mesh` itself is not changed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Triangles (shells) and tetrahedra, linear or quadratic, near the tools; anything elsewhere.
+    tools : Tool or sequence of Tool
+        For example :class:`Cylinder`. Holes may overlap.
+    name : str
+        Prefix of the new groups: ``name_WALL``, the faces (segments, in a shell mesh) on the tools, normals out of the
+        material; with several tools also one for each hole, ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
+    method : {"snap", "deform"}
+        "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
+    transition, feature_angle, strict, preserve
+        As for :func:`crack`.
+    depth : number, optional
+        Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
+        along its axis. Through holes when not given.
+
+    Returns
+    -------
+    Result
+        The report's node sets are IHN and EHN (nodes of the hole, interior and on the skin), ITN and ETN.
+
+    Raises
+    ------
+    ToolError
+        The name is bad or taken, or a tool misses the mesh, or would remove all of it.
+    UnsupportedElementError, QualityError, Error, TypeError, ValueError
+        As for :func:`crack`.
+
+    Examples
+    --------
+    >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
+    >>> result.mesh.groups["HOLE_WALL"].ids
+    """
+    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve),
+                                      _depth(depth)))
+
+
+def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
+           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False) -> Result:
+    """Bisects elements near a tool until their edges are short enough.
+
+    For a tool that is finer than the mesh, or for sharp stresses around it. No edge is longer afterwards than
+    ``size + gradation * max(0, d - reach)``, where d is its distance from the tool. Always the longest edge of an
+    element is bisected, with everything on it, so shapes stay good. Children inherit their parent's groups; a new
+    node is in the node groups both ends of its edge are in. Nothing of the input moves; curved second-order
+    elements are divided along their own geometry. `mesh` itself is not changed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Triangles and tetrahedra, linear or quadratic, where it is refined; anything elsewhere.
+    near : Tool, sequence of Tool, or array of shape (n, 3)
+        What to refine around: tools, or points.
+    size : float
+        Longest edge wanted there, in the mesh's unit.
+    gradation : float
+        How much longer edges may be per unit of distance; 0 refines the whole mesh to `size`.
+    reach : float
+        `size` holds up to this distance from the tool.
+    relax : bool
+        Moves new nodes inside the material, in flat faces and on straight edges for better shape.
+    max_elements : int
+        ToolError rather than a mesh of more elements: a size much too small is easily given.
+    feature_angle : float
+        Degrees; a skin edge sharper than this is a feature line.
+    strict : bool
+        As for :func:`crack`.
+
+    Returns
+    -------
+    Result
+        The report's quality is that of the elements that were divided. Without any it has a warning.
+
+    Raises
+    ------
+    ToolError
+        A parameter is out of range, or `max_elements` would be passed.
+    UnsupportedElementError
+        An edge to be bisected is one of a quadrangle, prism, pyramid or hexahedron.
+    QualityError
+        The mesh has flat or inverted elements near the tool.
+    """
+    engine_mesh = check_mesh(mesh)
+    tools, points = _near(near)
+    for name, value in (("relax", relax), ("strict", strict)):
+        if not isinstance(value, bool):
+            raise TypeError(f"{name} must be True or False, not {_arguments.describe(value)}")
+    return Result._wrap(_engine.refine(
+        engine_mesh, tools, points, _arguments.real(size, "size"), _arguments.real(gradation, "gradation"), _arguments.real(reach, "reach"),
+        relax, _arguments.whole(max_elements, "max_elements", 1), _arguments.real(feature_angle, "feature_angle"), strict))
+
+
+def _near(near) -> tuple:
+    """(tools, points) of refine()'s parameter."""
+    none = np.empty((0, 3))
+    message = f"near must be a tool, a sequence of tools or an array of points of shape (n, 3), not {_arguments.describe(near)}"
+    if isinstance(near, Tool):
+        return [near], none
+    if isinstance(near, (list, tuple)) and any(isinstance(t, Tool) for t in near):
+        return [check_tool(t, f"near[{k}]") for k, t in enumerate(near)], none
+    try:
+        points = np.array(near, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(message) from None
+    if points.shape == (3,):
+        points = points.reshape(1, 3)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise TypeError(message)
+    return [], points
 
 
 class Scalpel:
@@ -127,4 +266,10 @@ class Scalpel:
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), *_crack_options(name, method, transition, feature_angle, strict, preserve)))
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve)))
+
+    def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
+              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
+              depth: Optional[float] = None) -> Result:
+        """As :func:`femscalpel.drill`, on the session's mesh."""
+        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve), _depth(depth)))

@@ -121,7 +121,8 @@ class Report:
             ("seconds", f"{sum(self.seconds.values()):.3f}"
                         + (f" ({_counts({k: f'{s:.3f}' for k, s in self.seconds.items()})})" if self.seconds else "")),
         ]
-        lines = [f"{self.operation} {self.name}: method {self.method}, transition {self.transition}"]
+        title = f"{self.operation} {self.name}".rstrip()
+        lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]
         lines += [f"  {'warning':<12} {warning}" for warning in self.warnings] or [f"  {'warnings':<12} none"]
         return "\n".join(lines + ["", *self._group_table()]) + "\n"

@@ -86,6 +86,112 @@ class Cylinder(_engine.Cylinder):
         return f"Cylinder(origin={self.origin}, axis={self.axis}, radius={self.radius})"
 
 
+class Sphere(_engine.Sphere):
+    """A sphere; its positive side is outside.
+
+    Parameters
+    ----------
+    center : three numbers
+        In the mesh's unit.
+    radius : number
+        In the mesh's unit.
+
+    Raises :class:`femscalpel.ToolError` when the radius is not positive.
+    """
+
+    def __init__(self, center: Sequence[float], radius: float):
+        super().__init__(_arguments.vector(center, "center"), _arguments.real(radius, "radius"))
+
+    @property
+    def center(self) -> Tuple[float, float, float]:
+        """Its middle."""
+        return tuple(super().center)
+
+    distance = _distance
+
+    def __repr__(self) -> str:
+        return f"Sphere(center={self.center}, radius={self.radius})"
+
+
+class Torus(_engine.Torus):
+    """A ring torus: a tube around a circle; its positive side is outside the tube.
+
+    Parameters
+    ----------
+    center : three numbers
+        Middle of the circle, in the mesh's unit.
+    axis : three numbers
+        Normal of the circle's plane; any length.
+    major_radius, minor_radius : number
+        Radius of the circle and of the tube around it, in the mesh's unit.
+
+    Raises :class:`femscalpel.ToolError` when the axis is zero, a radius not positive, or the minor radius not smaller than
+    the major one.
+    """
+
+    def __init__(self, center: Sequence[float], axis: Sequence[float], major_radius: float, minor_radius: float):
+        super().__init__(_arguments.vector(center, "center"), _arguments.vector(axis, "axis"),
+                         _arguments.real(major_radius, "major_radius"), _arguments.real(minor_radius, "minor_radius"))
+
+    @property
+    def center(self) -> Tuple[float, float, float]:
+        """Middle of the circle."""
+        return tuple(super().center)
+
+    @property
+    def axis(self) -> Tuple[float, float, float]:
+        """Unit normal of the circle's plane."""
+        return tuple(self.unit_axis)
+
+    distance = _distance
+
+    def __repr__(self) -> str:
+        return f"Torus(center={self.center}, axis={self.axis}, major_radius={self.major_radius}, minor_radius={self.minor_radius})"
+
+
+class Cone(_engine.Cone):
+    """A circular cone, from its apex on without end; its positive side is outside.
+
+    Parameters
+    ----------
+    origin : three numbers
+        The point of the axis at which the cone has `radius`, in the mesh's unit.
+    axis : three numbers
+        Direction in which the cone gets wider; any length.
+    radius : number
+        In the mesh's unit.
+    half_angle : number
+        Degrees between the axis and the surface.
+
+    Raises :class:`femscalpel.ToolError` when the axis is zero, the radius not positive or the angle not between 0 and 90.
+    The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
+    """
+
+    def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float, half_angle: float):
+        super().__init__(_arguments.vector(origin, "origin"), _arguments.vector(axis, "axis"), _arguments.real(radius, "radius"),
+                         _arguments.real(half_angle, "half_angle"))
+
+    @property
+    def origin(self) -> Tuple[float, float, float]:
+        """The point of the axis it was made with."""
+        return tuple(super().origin)
+
+    @property
+    def axis(self) -> Tuple[float, float, float]:
+        """Unit vector along the axis, to the wide side."""
+        return tuple(self.unit_axis)
+
+    @property
+    def apex(self) -> Tuple[float, float, float]:
+        """The cone's tip."""
+        return tuple(super().apex)
+
+    distance = _distance
+
+    def __repr__(self) -> str:
+        return f"Cone(origin={self.origin}, axis={self.axis}, radius={self.radius}, half_angle={self.half_angle})"
+
+
 def check_tool(tool, name: str = "tool"):
     """`tool`; TypeError that names the parameter when it is something else."""
     if not isinstance(tool, Tool):

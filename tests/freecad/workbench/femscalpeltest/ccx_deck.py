@@ -65,28 +65,40 @@ class Deck:
                     add(node, force)
         return total
 
-    def faces_in(self, nodes):
-        """Area of the element faces (edges of shells: length) all of whose nodes are in `nodes`; doubled ones once."""
-        seen, measure = set(), 0.0
+    def magnitude(self):
+        """Sum of the magnitudes of all loads: of every line of *CLOAD, and of every element's share of a *DLOAD."""
+        total = sum(abs(value) for _, _, value in self.concentrated)
+        for target, kind, values in self.distributed:
+            for element in [int(target)] if target.isdigit() else self.elsets[target]:
+                total += np.linalg.norm(sum(force for _, force in self._distributed(element, kind, values)))
+        return total
+
+    def places(self, nodes):
+        """Number of different places that nodes are at."""
+        return len({tuple(np.round(self.points[n], 7)) for n in nodes})
+
+    def skin_in(self, nodes):
+        """Area of the solids' skin, or of shells, all of whose nodes are in `nodes`; length of shells' edges if there is
+        none. What coincides counts once."""
+        triangles = [n for kind, n in self.elements.values() if kind.startswith("S") and nodes.issuperset(n)]
+        if triangles:
+            corners = np.array([[self.points[n] for n in triangle[:3]] for triangle in triangles])
+            return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+        owners, shapes = {}, {}
         for kind, element in self.elements.values():
-            if kind.startswith("C3D"):
-                for face in TETRA_FACES:
-                    corners = [element[i] for i in face[:3]]
-                    if all(element[i] in nodes for i in face if i < len(element)):
-                        points = np.array([self.points[n] for n in corners])
-                        key = tuple(sorted(map(tuple, np.round(points, 7))))
-                        if key not in seen:
-                            seen.add(key)
-                            measure += np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0])) / 2
-            else:
-                for i, j in ((0, 1), (1, 2), (2, 0)):
-                    if element[i] in nodes and element[j] in nodes:
-                        points = np.array([self.points[element[i]], self.points[element[j]]])
-                        key = tuple(sorted(map(tuple, np.round(points, 7))))
-                        if key not in seen:
-                            seen.add(key)
-                            measure += np.linalg.norm(points[1] - points[0])
-        return measure
+            for face in TETRA_FACES if kind.startswith("C3D") else ((0, 1), (1, 2), (2, 0)):
+                face = [element[i] for i in face if i < len(element)]
+                if all(node in nodes for node in face):
+                    key = tuple(sorted(face))
+                    owners[key] = owners.get(key, 0) + 1
+                    shapes[key] = np.array([self.points[n] for n in face[:3]])
+        measures = {}
+        for key, points in shapes.items():
+            if owners[key] == 1 or len(points) == 2:
+                edges = points[1:] - points[0]
+                place = tuple(sorted(map(tuple, np.round(points, 7))))
+                measures[place] = np.linalg.norm(np.cross(*edges)) / 2 if len(edges) == 2 else np.linalg.norm(edges)
+        return sum(measures.values())
 
     def measure(self, elset):
         """Volume (shells: area) of an element set, by the elements' corners."""

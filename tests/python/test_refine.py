@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import numpy as np
+import pytest
+
+import femscalpel as fs
+from meshes import box_with_groups, grid_box, quadratic, tetra_volumes
+
+EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+
+
+def longest(mesh, near):
+    """Longest edge of a tetrahedron with a corner within 1e-9 of `near`."""
+    points, cells = mesh.points, mesh.cells[next(k for k in mesh.cells if k.startswith("tetra"))][:, :4]
+    edges = points[cells][:, [a for a, _ in EDGES]] - points[cells][:, [b for _, b in EDGES]]
+    touching = (np.linalg.norm(points[cells] - near, axis=2) < 1e-9).any(axis=1)
+    return np.linalg.norm(edges[touching], axis=2).max()
+
+
+@pytest.mark.parametrize("kind", ["tetra", "tetra10"])
+def test_around_a_point(kind):
+    mesh = box_with_groups() if kind == "tetra" else quadratic(grid_box())
+    points, ids = mesh.points.copy(), mesh.node_ids.copy()
+    corner = (0, 0, 0)
+    result = fs.refine(mesh, near=corner, size=0.3)
+    assert longest(mesh, corner) > 1 and longest(result.mesh, corner) <= 0.3
+    assert np.array_equal(mesh.points, points) and np.array_equal(result.mesh.points[:len(points)], points)
+    assert np.array_equal(result.mesh.node_ids[:len(ids)], ids) and (result.mesh.node_ids[len(ids):] > ids.max()).all()
+    assert fs.measure(result.mesh)[kind].sum() == pytest.approx(120, rel=1e-12)
+    assert tetra_volumes(result.mesh.points, result.mesh.cells[kind]).min() > 0
+    report = result.report
+    assert report.operation == "refine" and report.elements_added > 100 and not report.warnings
+    assert report.quality.after.minimum > 0.5 * report.quality.before.minimum
+    assert report.to_text().startswith("refine: method bisection")
+
+
+def test_groups_are_inherited():
+    mesh = box_with_groups()
+    result = fs.refine(mesh, fs.Plane((3, 0, 0), (1, 0, 0)), size=0.6)
+    volumes = dict(zip(result.mesh.cell_ids["tetra"].tolist(), fs.measure(result.mesh)["tetra"]))
+    for name, volume in (("LEFT", 60), ("RIGHT", 60), ("ALL", 120)):
+        assert sum(volumes[i] for i in result.mesh.groups[name].ids.tolist()) == pytest.approx(volume, rel=1e-12)
+    point = dict(zip(result.mesh.node_ids.tolist(), result.mesh.points))
+    for name, height in (("FIX", 0), ("TOP", 4)):
+        assert set(result.mesh.groups[name].ids.tolist()) == {n for n, x in point.items() if abs(x[2] - height) < 1e-12}
+    assert len(result.mesh.groups["EMPTY"].ids) == 0
+
+
+def test_near_takes_tools_and_points():
+    mesh = grid_box()
+    tools = [fs.Plane((1, 0, 0), (1, 0, 0)), fs.Cylinder((4, 2, 0), (0, 0, 1), 0.5)]
+    counts = [fs.refine(mesh, near, size=0.7).mesh.cell_count for near in (tools[0], tools[1], tools, np.zeros((2, 3)), [0, 0, 0])]
+    assert counts[2] > max(counts[:2]) and counts[3] == counts[4] > mesh.cell_count
+
+
+def test_gradation_and_reach():
+    mesh = grid_box()
+    def count(**kwargs):
+        return fs.refine(mesh, (0, 0, 0), size=0.5, **kwargs).mesh.cell_count
+    assert count(gradation=1.0) < count() < count(gradation=0.2) < count(gradation=0)
+    assert count() < count(reach=1.5)
+
+
+def test_relax_pays():
+    box = grid_box()
+    inside = ((box.points > 0) & (box.points < (6, 5, 4))).all(axis=1)
+    shift = np.random.default_rng(1).uniform(-0.2, 0.2, box.points.shape) * inside[:, None]
+    mesh = fs.Mesh(box.points + shift, box.cells)
+    relaxed, plain = (fs.refine(mesh, (3, 2.5, 2), size=0.3, relax=r).report.quality.after for r in (True, False))
+    assert relaxed.mean > plain.mean and relaxed.minimum > plain.minimum
+
+
+def test_nothing_to_do():
+    mesh = grid_box()
+    result = fs.refine(mesh, (0, 0, 0), size=5)
+    assert result.mesh.node_count == mesh.node_count and "nothing was refined" in result.report.warnings[0]
+
+
+@pytest.mark.parametrize("near, options, error, message", [
+    ((0, 0, 0), {"size": 0}, fs.ToolError, "size is 0"),
+    ((0, 0, 0), {"size": float("nan")}, ValueError, "size must be a finite number"),
+    ((0, 0, 0), {"size": "1"}, TypeError, "size must be a number"),
+    ((0, 0, 0), {"size": 1, "gradation": -1}, fs.ToolError, "gradation is -1"),
+    ((0, 0, 0), {"size": 1, "reach": -1}, fs.ToolError, "reach is -1"),
+    ((0, 0, 0), {"size": 0.01, "gradation": 0, "max_elements": 5000}, fs.ToolError, "more than 5000 elements"),
+    ((0, 0, 0), {"size": 1, "max_elements": 0}, ValueError, "max_elements must be at least 1"),
+    ((0, 0, 0), {"size": 1, "relax": 1}, TypeError, "relax must be True or False"),
+    ((0, 0), {"size": 1}, TypeError, "near must be a tool"),
+    ("here", {"size": 1}, TypeError, "near must be a tool"),
+    ([], {"size": 1}, TypeError, "near must be a tool"),
+    (np.zeros((0, 3)), {"size": 1}, fs.ToolError, "near is empty"),
+    ([(0, 0, float("inf"))], {"size": 1}, fs.ToolError, "near: point 0"),
+    ([fs.Plane((0, 0, 0), (0, 0, 1)), 3], {"size": 1}, TypeError, r"near\[1\] must be a tool"),
+])
+def test_bad_arguments(near, options, error, message):
+    with pytest.raises(error, match=message):
+        fs.refine(grid_box(), near, **options)
