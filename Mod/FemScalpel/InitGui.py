@@ -31,4 +31,5 @@ FreeCADGui.addLanguagePath(TRANSLATIONS)
 FreeCADGui.updateLocale()
 FreeCADGui.addIconPath(ICONS)
 FreeCADGui.addPreferencePage(PREFERENCES, "FemScalpel")
+FreeCAD.__unit_test__ += ["TestFemScalpelGui"]
 FreeCADGui.addWorkbench(FemScalpelWorkbench())

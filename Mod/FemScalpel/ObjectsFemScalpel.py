@@ -16,6 +16,7 @@ import femscalpel
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.cylindrical_crack import CylindricalCrack
+from femscalpelobjects.drill import Drill
 from femscalpelobjects.group_names import rename_group
 
 if FreeCAD.GuiUp:
@@ -75,6 +76,19 @@ def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, o
     """
     return _make(doc, source, name, CylindricalCrack, lambda: {"AxisPlacement": _placement(source, placement, origin, axis)},
                  Radius=radius, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle)
+
+
+def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None, radius=1.0, depth=None, method="snap",
+              transition=0, group_name="HOLE", feature_angle=30.0):
+    """Adds a parametric mesh object to `doc`: the mesh of `source` with a hole in it.
+
+    The axis is the z axis of `placement`, or goes through `origin` along `axis`; `radius` in mm. A blind hole ends `depth`
+    beyond the origin along the axis; None: through the whole part. The new group is ``group_name_WALL``, and
+    ``group_name_BOTTOM`` of a blind hole. The rest is as for makeCrack().
+    """
+    return _make(doc, source, name, Drill, lambda: {"AxisPlacement": _placement(source, placement, origin, axis)}, Radius=radius,
+                 Through=depth is None, Depth=depth or 0, Method=method, Transition=transition, GroupName=group_name,
+                 FeatureAngle=feature_angle)
 
 
 def putIntoAnalysis(obj, strict=True):

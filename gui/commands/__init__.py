@@ -5,12 +5,13 @@ import FreeCADGui
 
 from .crack import Crack
 from .cylindrical_crack import CylindricalCrack
+from .drill import Drill
 from .export import Export
 from .group_inspector import GroupInspector
 from .mesh_quality import MeshQuality
 
 #: In the order of menu and toolbar; None is a separator.
-COMMANDS = (Crack, CylindricalCrack, None, GroupInspector, MeshQuality, Export)
+COMMANDS = (Crack, CylindricalCrack, Drill, None, GroupInspector, MeshQuality, Export)
 
 
 def register():

@@ -7,6 +7,7 @@ from PySide import QtGui
 
 import femscalpel
 
+from ..macro import record_import
 from ..translate import QT_TRANSLATE_NOOP, translate
 from .base import Command, Unusable
 
@@ -29,8 +30,7 @@ class Export(Command):
     def write(mesh, path):
         """Writes the mesh of an object; raises Unusable with the reason when that is not possible."""
         document = "FreeCAD.ActiveDocument" if mesh.Document == FreeCAD.ActiveDocument else f"FreeCAD.getDocument({mesh.Document.Name!r})"
-        FreeCADGui.addModule("FreeCAD")
-        FreeCADGui.addModule("ObjectsFemScalpel")
+        record_import()
         try:
             FreeCADGui.doCommand(f"ObjectsFemScalpel.exportMesh({document}.getObject({mesh.Name!r}), {path!r})")
         except (femscalpel.Error, OSError, ValueError) as error:

@@ -19,11 +19,11 @@ class DrillPanel(CylinderPanel):
     def add_inputs(self):
         self.hole = FreeCADGui.PySideUic.loadUi(form("drill.ui"))
         self.options.rows.insertWidget(0, self.hole)
-        self._depth = fields.Number(self.hole.depth, self.update, self.geometry.size / 4)
+        self._depth = fields.Number(self.hole.holeDepth, self.update, self.geometry.size / 4)
         self.hole.through.toggled.connect(self._through)
 
     def _through(self, on):
-        self.hole.depth.setEnabled(not on)
+        self.hole.holeDepth.setEnabled(not on)
         self.update()
 
     def _depth_or_none(self):

@@ -8,6 +8,7 @@ from PySide import QtCore, QtGui
 import femscalpel
 
 from .. import preferences
+from ..macro import record_import
 from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.group_shape import group_shape
@@ -313,8 +314,7 @@ class ToolPanel(ViewPanel):
         document = self._text_of(None)
         arguments = [document, self._text_of(self.source_object), f"name={self.OBJECT_NAME!r}"]
         arguments += [f"{name}={text}" for name, text in self.arguments().items()]
-        FreeCADGui.addModule("FreeCAD")
-        FreeCADGui.addModule("ObjectsFemScalpel")
+        record_import()
         before = set(self.document.Objects)
         FreeCADGui.doCommand(f"ObjectsFemScalpel.{self.MAKE}({', '.join(arguments)})")
         obj = next(o for o in self.document.Objects if o not in before)
@@ -325,7 +325,7 @@ class ToolPanel(ViewPanel):
         return obj
 
     def _change_object(self):
-        FreeCADGui.addModule("FreeCAD")
+        record_import()
         text = self._text_of(self.edited)
         for name, value in self.settings().items():
             FreeCADGui.doCommand(f"{text}.{name} = {value}")

@@ -12,6 +12,7 @@ from ..translate import icon, translate
 PANELS = {
     "FemScalpel::Crack": ("FemScalpel_Crack", "crack", "CrackPanel"),
     "FemScalpel::CylindricalCrack": ("FemScalpel_CylindricalCrack", "cylindrical_crack", "CylindricalCrackPanel"),
+    "FemScalpel::Drill": ("FemScalpel_Drill", "drill", "DrillPanel"),
 }
 
 

@@ -199,6 +199,10 @@
       <translation>Bohrung</translation>
     </message>
     <message>
+      <source>Drills a hole into the FEM mesh and keeps its groups</source>
+      <translation>Bohrt ein Loch in das FEM-Netz und erhält seine Gruppen</translation>
+    </message>
+    <message>
       <source>Edit</source>
       <translation>Bearbeiten</translation>
     </message>

@@ -199,6 +199,10 @@
       <translation>Perçage</translation>
     </message>
     <message>
+      <source>Drills a hole into the FEM mesh and keeps its groups</source>
+      <translation>Perce un trou dans le maillage EF en gardant ses groupes</translation>
+    </message>
+    <message>
       <source>Edit</source>
       <translation>Modifier</translation>
     </message>

@@ -11,16 +11,18 @@ from PySide import QtCore, QtGui
 
 import femmesh_bridge
 import femscalpel as fs
-from gui_testing import *  # noqa: F403
-from gui_testing import GuiTest
-from mesh_content import content_of
-from test_crack_panel import long_box, traces
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest
+from .mesh_content import content_of
+from .test_crack_panel import long_box, traces
 
 
 class CylinderTest(GuiTest):
+    PARTS = 1
+
     def setUp(self):
         super().setUp()
-        self.mesh = self.add_mesh(long_box())
+        self.mesh = self.add_mesh(long_box(self.PARTS))
 
     def enter_axis(self, origin, axis, radius):
         for name, number in zip(("originX", "originY", "originZ", "normalX", "normalY", "normalZ", "radius"), (*origin, *axis, radius)):
@@ -100,6 +102,78 @@ class CylindricalCrack(CylinderTest):
         self.assertAlmostEqual(value("radius"), 1.7, delta=0.1)
         self.assertAlmostEqual(value("originX"), 7)
         screenshot("cylinder_handles")
+
+
+class Drill(CylinderTest):
+    PARTS = 2
+
+    def test_mesh_too_coarse(self):
+        self.add_mesh(long_box(), "Coarse")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Coarse")
+        self.run_command("FemScalpel_Drill")
+        spin(0.2)
+        self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
+        self.assertIn("too coarse", self.wait_for_message("geometryError"))
+        screenshot("drill_too_coarse")
+
+    def test_through_then_blind(self):
+        self.run_command("FemScalpel_Drill")
+        spin(0.2)
+        self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        expected = fs.drill(source, fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3))
+        wait_until(lambda: f" {expected.report.elements_removed} " in widget("status").text(), "the preview")
+        self.assertGreater(faces_drawn("FemScalpelRemoved"), 0)
+        self.assertGreater(faces_drawn("FemScalpelBand"), 0)
+        self.assertGreater(lines_drawn("FemScalpelOutline"), 0)
+        screenshot("drill_1_preview")
+        choose("look", "whole")
+        screenshot("drill_whole")
+        press_ok()
+        drill = self.doc.Drill
+        self.assertEqual(drill.FemMesh.NodeCount, expected.mesh.node_count)
+        screenshot("drill_2_made")
+        self.assertEqual(self.doc.UndoNames, ["Drill"])
+        drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        click("through")
+        type_into("holeDepth", "2 mm")
+        self.wait_for_preview()
+        blind = fs.drill(source, fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3), depth=2)
+        wait_until(lambda: f" {blind.report.elements_removed} " in widget("status").text(), "the preview of the blind hole")
+        names = [widget("groups").item(row, 0).text() for row in range(widget("groups").rowCount())]
+        self.assertIn("HOLE_BOTTOM", names)
+        screenshot("drill_blind")
+        press_ok()
+        self.assertEqual(drill.FemMesh.NodeCount, blind.mesh.node_count)
+        self.assertFalse(drill.Through)
+        self.doc.undo()
+        self.assertTrue(drill.Through)
+        self.assertEqual(drill.FemMesh.NodeCount, expected.mesh.node_count)
+
+    def test_chain_of_crack_and_drill(self):
+        import ObjectsFemScalpel
+        crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(3.1, 2.5, 2), normal=(1, 0.1, 0))
+        self.doc.recompute()
+        FreeCADGui.Selection.addSelection(self.doc.Name, crack.Name)
+        self.run_command("FemScalpel_Drill")
+        spin(0.2)
+        self.enter_axis((9.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual(self.doc.Drill.Source, crack)
+        before = content_of(self.doc.Drill)
+        crack.PlanePlacement = FreeCAD.Placement(FreeCAD.Vector(4.2, 2.5, 2), crack.PlanePlacement.Rotation)
+        self.doc.recompute()
+        self.assertNotEqual(content_of(self.doc.Drill), before)
+        # A link that leads nowhere marks the object.
+        self.doc.removeObject(crack.Name)
+        self.doc.recompute()
+        self.assertIn("Invalid", self.doc.Drill.State)
+        self.assertEqual(self.doc.Drill.FemMesh.NodeCount, 0)
+        spin(0.3)
+        self.assertIn("Source is not set", report_view()[self.reported:])
+        self.reported = len(report_view())  # FreeCAD reports an error in a recompute with a traceback
 
 
 class Export(GuiTest):

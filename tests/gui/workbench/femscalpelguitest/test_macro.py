@@ -12,16 +12,16 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from gui_testing import *  # noqa: F403
-from gui_testing import GuiTest, QTest
-from mesh_content import content_of
-from test_crack_panel import enter_plane, long_box
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest, QTest
+from .mesh_content import content_of
+from .test_crack_panel import enter_plane, long_box
 
 _REPLAY = """
 import json, sys
 import FreeCAD
 sys.path[:0] = {path!r}
-from mesh_content import content_of
+from femscalpelguitest.mesh_content import content_of
 doc = FreeCAD.openDocument({document!r})
 exec(compile(open({macro!r}).read(), {macro!r}, "exec"), {{"__name__": "__main__"}})
 with open({out!r}, "w") as file:

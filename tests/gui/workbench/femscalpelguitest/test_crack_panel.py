@@ -12,15 +12,15 @@ from PySide import QtCore, QtGui
 import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
-from gui_testing import *  # noqa: F403
-from gui_testing import GuiTest, QTest
-from mesh_content import content_of
-from meshes import grid_box
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest, QTest
+from .mesh_content import content_of
+from femscalpeltest.meshes import grid_box
 
 
-def long_box():
-    """A box 14 x 5 x 4 with overlapping groups."""
-    plain = grid_box((14, 5, 4), (14.0, 5.0, 4.0))
+def long_box(parts=1):
+    """A box 14 x 5 x 4 of bricks of 1 / parts, cut into tetrahedra, with overlapping groups."""
+    plain = grid_box((14 * parts, 5 * parts, 4 * parts), (14.0, 5.0, 4.0))
     node_ids, cell_ids = 10 * np.arange(1, plain.node_count + 1) + 7, 3 * np.arange(1, plain.cell_count + 1) + 100
     middle = plain.points[plain.cells["tetra"]].mean(axis=1)
     groups = {"LEFT": ("element", cell_ids[middle[:, 0] < 5]), "RIGHT": ("element", cell_ids[middle[:, 0] > 5]),
