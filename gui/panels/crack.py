@@ -24,7 +24,7 @@ class CrackPanel(ToolPanel):
         return femscalpel.Plane(self.geometry.origin(), self.geometry.direction())
 
     def operation(self, tool, options):
-        return lambda scalpel: scalpel.crack(tool, **options)
+        return lambda scalpel: scalpel.crack(tool, band_only=True, **options)
 
     def read(self, obj):
         super().read(obj)

@@ -15,4 +15,4 @@ class CylindricalCrackPanel(CylinderPanel):
     GROUP_NAME, OBJECT_NAME, MAKE = "CRACK", "CylindricalCrack", "makeCylindricalCrack"
 
     def operation(self, tool, options):
-        return lambda scalpel: scalpel.crack(tool, **options)
+        return lambda scalpel: scalpel.crack(tool, band_only=True, **options)

@@ -34,7 +34,7 @@ class DrillPanel(CylinderPanel):
 
     def operation(self, tool, options):
         depth = self._depth_or_none()
-        return lambda scalpel: scalpel.drill(tool, depth=depth, **options)
+        return lambda scalpel: scalpel.drill(tool, depth=depth, band_only=True, **options)
 
     def read(self, obj):
         super().read(obj)

@@ -1,23 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Document object: a FEM mesh, cracked along a cylinder."""
 
-import FreeCAD
-
 import femscalpel
 
 from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
-
-#: Input properties of operators with a cylinder.
-CYLINDER_INPUTS = (
-    ("App::PropertyPlacement", "AxisPlacement", "The cylinder's axis: z axis of this placement"),
-    ("App::PropertyLength", "Radius", "Radius of the cylinder"),
-)
-
-
-def cylinder(obj):
-    """The femscalpel.Cylinder the properties CYLINDER_INPUTS say."""
-    placement = obj.AxisPlacement
-    return femscalpel.Cylinder(placement.Base, placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), obj.Radius.Value)
+from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, direction_of
 
 
 class CylindricalCrack(MeshOperation):
@@ -26,14 +13,14 @@ class CylindricalCrack(MeshOperation):
     Type = "FemScalpel::CylindricalCrack"
 
     INPUTS = (
-        *CYLINDER_INPUTS,
+        *AXIS_INPUTS,
         *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P (outside) and NAME_N (inside) are the lips"),
+        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips, P outside"),
     )
-    DEFAULTS = {**SURFACE_DEFAULTS, "Radius": (1,), "GroupName": ("CRACK",)}
+    DEFAULTS = {**AXIS_DEFAULTS, **SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
 
     def tools(self, obj):
-        return [cylinder(obj)]
+        return [femscalpel.Cylinder(obj.AxisPlacement.Base, direction_of(obj.AxisPlacement), obj.Radius.Value)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], **surface_options(obj))
+        return femscalpel.crack(mesh, tools[0], **surface_options(obj, mesh))
