@@ -113,7 +113,7 @@ class Edge(Entity):
 
 def nearest(start, entities, tools, size):
     """The point near `start` on all entities and tools, or None: an edge alone, or faces by Newton's method."""
-    if isinstance(entities[0], Edge):
+    if entities and isinstance(entities[0], Edge):
         place = entities[0].nearest(start, tools[0] if tools else None)
     else:
         place = start.copy()

@@ -171,14 +171,18 @@ class OnShape:
 
         size = np.ptp(points, axis=0).max()
         changed = np.zeros(mesh.node_count, bool)
+        on_tool = np.array([np.abs(tool.distance(points)) < 1e-9 * size for tool in tools]).reshape(len(tools), -1)
         for nodes, places in self._off(points, entities):
-            start = points[nodes[0]]
-            kept = [tool for tool in tools if abs(tool.distance(start)[0]) < 1e-9 * size]
-            place = nearest(start, places, kept, size)
+            kept = [tool for tool, on in zip(tools, on_tool) if on[nodes[0]]]
+            place = nearest(points[nodes[0]], places, kept, size)
             if place is not None:
                 points[nodes] = place
                 changed[nodes] = True
-        carry_mid_sides(mesh, points, changed)
+        known, moved, _ = self._compared(mesh)
+        for node in carry_mid_sides(mesh, points, changed, ~known | moved):
+            kept = [tool for tool, on in zip(tools, on_tool) if on[node]]
+            place = nearest(points[node], [], kept, size) if kept else None
+            points[node] = points[node] if place is None else place
         while True:
             spoilt = spoilt_by(mesh, points, changed)
             if not len(spoilt):
