@@ -23,7 +23,8 @@ def rounded_box():
 SHAPES = {
     "cylinder": lambda: Part.makeCylinder(10, 30),
     "tube": lambda: Part.makeCylinder(12, 25).cut(Part.makeCylinder(7, 25)),
-    "cone": lambda: Part.makeCone(12, 6, 25),
+    "cone": lambda: Part.makeCone(12, 3, 25),
+    "sphere and box": lambda: Part.makeSphere(11).fuse(Part.makeBox(14, 14, 14)),
     "torus": lambda: Part.makeTorus(20, 6),
     "rounded box": rounded_box,
     "two solids": lambda: Part.makeCylinder(10, 12).generalFuse([Part.makeCylinder(10, 12, FreeCAD.Vector(0, 0, 12))])[0],
