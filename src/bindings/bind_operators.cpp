@@ -3,10 +3,10 @@
 
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "arrays.h"
 #include "bindings.h"
-#include "operators/crack.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 
@@ -76,14 +76,15 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-CrackOptions options(const std::string& name, const std::string& method, std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
-    CrackOptions out;
-    out.name = name;
+/// (name, method, transition, feature_angle, preserve, strict), as _common_options() in operators.py makes it.
+using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool>;
+
+template <class Options>
+Options options(const CommonOptions& common) {
+    Options out;
+    std::string method;
+    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict) = common;
     out.method = method_from_name(method);
-    out.transition = transition;
-    out.feature_angle = feature_angle;
-    out.preserve = std::move(preserve);
-    out.strict = strict;
     return out;
 }
 
@@ -104,10 +105,17 @@ py::tuple run(Operation operation) {
 }  // namespace
 
 void bind_operators(py::module_& module) {
-    module.def("crack", [](const Mesh& mesh, const Tool& tool, const std::string& name, const std::string& method,
-                           std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
-        const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
-        return run([&] { return crack(mesh, tool, o); });
+    using Tools = std::vector<const Tool*>;
+    const auto drill_options = [](const CommonOptions& common, std::optional<double> depth) {
+        auto out = options<DrillOptions>(common);
+        out.depth = depth;
+        return out;
+    };
+    module.def("crack", [](const Mesh& mesh, const Tool& tool, const CommonOptions& common) {
+        return run([&, o = options<CrackOptions>(common)] { return crack(mesh, tool, o); });
+    });
+    module.def("drill", [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
+        return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
     });
 
     module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
@@ -130,10 +138,11 @@ void bind_operators(py::module_& module) {
         .def(py::init([](const Mesh& mesh) { return Scalpel(std::make_shared<const Mesh>(mesh)); }),
              py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
-        .def("crack", [](const Scalpel& scalpel, const Tool& tool, const std::string& name, const std::string& method,
-                         std::optional<int> transition, double feature_angle, std::optional<std::vector<std::string>> preserve, bool strict) {
-            const CrackOptions o = options(name, method, transition, feature_angle, std::move(preserve), strict);
-            return run([&] { return scalpel.crack(tool, o); });
+        .def("crack", [](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common) {
+            return run([&, o = options<CrackOptions>(common)] { return scalpel.crack(tool, o); });
+        })
+        .def("drill", [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
+            return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
         });
 }
 

@@ -157,7 +157,7 @@ int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
 
 Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools) const {
     const NodeConstraint constraint = constraints.on_edge(band, a, b);
-    if (constraint.freedom == NodeFreedom::free) return at;
+    if (constraint.freedom == NodeFreedom::free && !tools) return at;
     Vec3 fitted = at;
     if (!constraints.project(constraint, tools, fitted) || fitted == at) return at;
     const auto worst_child = [&](const Vec3& p) {

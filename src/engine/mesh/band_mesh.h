@@ -24,7 +24,7 @@ public:
 
     int size() const { return static_cast<int>(nodes_.size()); }
     const Nodes& operator[](int s) const { return nodes_[s]; }
-    /// False for a simplex that merge() removed; its nodes must not be used any more.
+    /// False for a simplex that merge() or remove() took out; its nodes must not be used any more.
     bool alive(int s) const { return origin_[s] >= 0; }
     int origin(int s) const { return origin_[s]; }
     int tag(int s) const { return tag_[s]; }
@@ -96,6 +96,12 @@ public:
         around_.clear(p);
     }
 
+    /// Takes a simplex out for good.
+    void remove(int s) {
+        for (const int v : nodes_[s]) around_.remove(v, s);
+        origin_[s] = -1;
+    }
+
     /// Slot of a simplex with exactly these nodes in any order, or -1.
     int find(const Nodes& wanted) const {
         for (const int s : around_[wanted[0]])
@@ -122,6 +128,7 @@ struct BandNode {
     Vec3 start;          ///< where it was in the input, or where it was born
     Index global = -1;   ///< index in the input mesh; -1 for a node born here
     int level = 0;       ///< how many edges away from the tool's elements; -1 for the fixed outer ring
+    bool gone = false;   ///< all its elements were removed
     bool movable() const { return level >= 0; }
 };
 
@@ -161,8 +168,9 @@ public:
 
     int size() const { return static_cast<int>(nodes.size()); }
 
-    /// False for a node born here that was merged away again.
+    /// False for a node born here that was merged away again, and for one without elements left.
     bool in_use(int node) const {
+        if (nodes[node].gone) return false;
         return !is_new(node) || !tetras.around(node).empty() || !triangles.around(node).empty();
     }
     int original_nodes() const { return size() - static_cast<int>(births.size()); }

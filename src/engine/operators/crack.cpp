@@ -17,7 +17,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (lips.copy_of.empty())
         throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
                         " into the material");
-    return operation.finish(f, lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT"});
+    return operation.finish(f, lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 
 }  // namespace femscalpel

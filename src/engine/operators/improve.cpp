@@ -117,11 +117,10 @@ private:
         }
         // The same on surfaces and creases, whose own links are smaller.
         for (const int w : common_) {
-            const bool skin_p = joined(band_.skin, p, w), skin_t = joined(band_.skin, t, w);
-            if (skin_p && skin_t && joined(band_.skin, p, t) && band_.skin.find({p, t, w}) < 0) return false;
-            if (joined(band_.creases, p, w) && joined(band_.creases, t, w)) return false;
-            if (joined(band_.cut_faces, p, w) && joined(band_.cut_faces, t, w) && joined(band_.cut_faces, p, t) && band_.cut_faces.find({p, t, w}) < 0)
+            const auto on_surface = [&](int a, int b) { return joined(band_.skin, a, b) || joined(band_.cut_faces, a, b); };
+            if (on_surface(p, w) && on_surface(t, w) && on_surface(p, t) && band_.skin.find({p, t, w}) < 0 && band_.cut_faces.find({p, t, w}) < 0)
                 return false;
+            if (joined(band_.creases, p, w) && joined(band_.creases, t, w)) return false;
             if (joined(band_.cut_edges, p, w) && joined(band_.cut_edges, t, w)) return false;
         }
         return true;

@@ -101,6 +101,27 @@ constexpr double flat = 1e-6;
 
 }  // namespace
 
+double Interface::off_tools(int node) const {
+    double off = 0;
+    for (const Tool* t : d.contact[node].tools()) off = std::max(off, std::abs(t->distance(d.band.nodes[node].at)));
+    return off;
+}
+
+void check_contacts(const Interface& f) {
+    int count = 0;
+    double worst = 0;
+    for (const int v : f.nodes) {
+        const double off = f.off_tools(v);
+        count += off > 10 * f.tolerance;
+        worst = std::max(worst, off);
+    }
+    if (count == 0) return;
+    std::ostringstream message;
+    message << count << " node(s) cannot be brought onto the " << f.tool->kind() << " (off by up to " << worst
+            << "): the mesh is too coarse for it there. Refine the mesh near the tool first";
+    throw QualityError(message.str());
+}
+
 void check_input_shape(Interface& f, const Mesh& mesh) {
     const std::vector<Bad> bad = worse_than(flat, f, mesh);
     if (!bad.empty())

@@ -47,7 +47,25 @@ struct Interface {
     std::vector<std::pair<std::string, double>> seconds;
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side;
+
+    /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
+    /// the side its elements are on.
+    double value(int node, const Tool& t) const {
+        if (d.contact[node].has(&t)) return 0;
+        return &t == tool ? distance[node] : t.distance(d.band.nodes[node].at);
+    }
+
+    /// How far a node is off the tools it is in contact with.
+    double off_tools(int node) const;
 };
+
+/// Makes element faces (edges of shells) lie on a blade, where it is wanted: nodes near it are moved onto it along their
+/// constraints, nearest first; edges that still cross are bisected on it, longest first. Elements are not relaxed.
+void cut_along(Interface& interface, const Blade& blade);
+
+/// Collects the node sets, then improves the shape of the band's elements: deform(), improve(), and new nodes brought onto
+/// their curved surfaces.
+void relax_band(Interface& interface);
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.
@@ -84,5 +102,8 @@ void check_input_shape(Interface& interface, const Mesh& mesh);
 
 /// Throws QualityError that names the elements when one of the band is flat or inverted.
 void check_shape(const Interface& interface, const Mesh& mesh);
+
+/// Throws QualityError when a node in contact with a tool is off it by more than 1e-9 of the mesh's size.
+void check_contacts(const Interface& interface);
 
 }  // namespace femscalpel

@@ -43,6 +43,7 @@ struct Lips {
     std::vector<Face<2>> edges;
 
     std::vector<int> interface_nodes;  ///< nodes of open faces and edges, ascending
+    bool removes = false;              ///< elements were taken out, and their nodes may have to go
     std::vector<int> front_nodes;      ///< of them, those that stay single
     std::vector<std::string> warnings;
 };

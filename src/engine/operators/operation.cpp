@@ -15,11 +15,11 @@ namespace {
 /// Code_Aster's limit for group names.
 constexpr std::size_t longest_name = 24;
 
-void check_name(const Mesh& mesh, const std::string& name, std::initializer_list<const char*> suffixes) {
+void check_name(const Mesh& mesh, const std::string& name, const std::vector<std::string>& suffixes) {
     if (name.empty()) throw ToolError("name is empty; the new groups need one");
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
         throw ToolError("name '" + name + "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
-    for (const char* suffix : suffixes) {
+    for (const std::string& suffix : suffixes) {
         const std::string group = name + suffix;
         if (group.size() > longest_name)
             throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " + std::to_string(group.size()) +
@@ -273,7 +273,7 @@ void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
 }  // namespace
 
 Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-                     std::initializer_list<const char*> suffixes)
+                     const std::vector<std::string>& suffixes)
     : input_(input), options_(options), prepared_(prepared) {
     report_.operation = kind;
     report_.name = options.name;
@@ -370,6 +370,9 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);
     recount_nodes_and_facets(after, rebuilt.mesh);
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
+    for (const GroupRecord& g : report_.groups)
+        if (g.status == "became empty")
+            report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
         report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
     describe_motion(f, mesh(), rebuilt, report_);

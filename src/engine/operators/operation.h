@@ -3,7 +3,6 @@
 
 #include <array>
 #include <future>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,7 +51,7 @@ class Operation {
 public:
     /// Checks the options; `suffixes` are those of the groups the operator makes. Throws ToolError.
     Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-              std::initializer_list<const char*> suffixes);
+              const std::vector<std::string>& suffixes);
 
     /// The input, with the solver's input marked.
     const Mesh& mesh() const { return marks_.mesh ? *marks_.mesh : input_; }

@@ -49,7 +49,7 @@ private:
         out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
         for (int v = 0; v < band_.size(); ++v) {
             const BandNode& n = band_.nodes[v];
-            if (!band_.in_use(v)) continue;
+            if (n.global < 0 && !band_.in_use(v)) continue;
             if (n.global >= 0) {
                 out_.node[v] = n.global;
                 mesh.points[n.global] = n.at;
@@ -390,7 +390,7 @@ private:
 
     /// Drops the nodes that only removed elements had.
     void remove_nodes() {
-        if (removed_.empty()) return;
+        if (!lips_.removes) return;
         Mesh& mesh = out_.mesh;
         std::vector<char> orphan(mesh.points.size(), 0);
         bool any = false;

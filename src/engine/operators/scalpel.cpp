@@ -28,4 +28,8 @@ Result Scalpel::crack(const Tool& tool, const CrackOptions& options) const {
     return femscalpel::crack(*state_->mesh, tool, options, state_->prepared());
 }
 
+Result Scalpel::drill(std::span<const Tool* const> tools, const DrillOptions& options) const {
+    return femscalpel::drill(*state_->mesh, tools, options, state_->prepared());
+}
+
 }  // namespace femscalpel

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "operators/crack.h"
+#include "operators/drill.h"
 
 namespace femscalpel {
 
@@ -20,6 +21,9 @@ public:
 
     /// As femscalpel::crack().
     Result crack(const Tool& tool, const CrackOptions& options = {}) const;
+
+    /// As femscalpel::drill().
+    Result drill(std::span<const Tool* const> tools, const DrillOptions& options = {}) const;
 
 private:
     struct State;

@@ -19,10 +19,42 @@ constexpr double improvement_goal = 0.45;
 /// A node on a corner or a crease may be off the tool by this many edge lengths and still be put on it:
 /// far below what a measure of a group would notice.
 constexpr double forced_reach = 1e-7;
+/// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
+constexpr double dip = 0.15;
 
 class Snapper {
 public:
-    Snapper(Interface& interface, const Tool& tool) : f_(interface), d_(interface.d), band_(interface.d.band), tool_(tool) {}
+    /// `value`: signed distances to the blade's tool by band node, exactly 0 in contact.
+    Snapper(Interface& interface, const Blade& blade, std::vector<double>& value)
+        : f_(interface), d_(interface.d), band_(interface.d.band), blade_(blade), tool_(*blade.tool), value_(value) {
+        find_region();
+    }
+
+    /// Nodes that already lie on the tool, where it is wanted.
+    void touch_nodes() {
+        for (int v = 0; v < band_.size(); ++v) {
+            if (std::abs(value_[v]) > f_.tolerance || d_.contact[v].has(&tool_) || d_.contact[v].full() || !in_region(v)) continue;
+            d_.contact[v] = d_.contact[v].with(&tool_);
+            value_[v] = 0;
+        }
+    }
+
+    /// Halves edges that dip through a curved tool between two ends on the same side.
+    void split_dipping_edges() {
+        if (!std::isfinite(tool_.feature_size())) return;
+        std::vector<Edge> edges = region_edges([&](int a, int b) {
+            if (value_[a] * value_[b] <= 0) return false;
+            const Vec3 middle = (band_.nodes[a].at + band_.nodes[b].at) / 2;
+            const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
+            if (std::min(std::abs(value_[a]), std::abs(value_[b])) > length) return false;
+            return tool_.distance(middle) * (value_[a] > 0 ? -1 : 1) > dip * length;
+        });
+        for (const Edge& e : edges) {
+            const Contact tools = d_.edge_contact(e.a, e.b);
+            split(e.a, e.b, d_.fitted_split(e.a, e.b, (band_.nodes[e.a].at + band_.nodes[e.b].at) / 2, tools), tools);
+        }
+        if (!edges.empty()) find_region();
+    }
 
     void snap_nodes() {
         struct Candidate {
@@ -32,9 +64,9 @@ public:
         };
         std::vector<Candidate> candidates;
         for (int v = 0; v < band_.size(); ++v) {
-            if (d_.contact[v] || band_.nodes[v].level != 0 || !crosses(v)) continue;
+            if (d_.contact[v].has(&tool_) || d_.contact[v].full() || band_.nodes[v].level != 0 || !crosses(v)) continue;
             const double length = band_.mean_edge_length(v);
-            const double ratio = std::abs(f_.distance[v]) / length;
+            const double ratio = std::abs(value_[v]) / length;
             if (ratio < snap_reach) candidates.push_back({ratio, v, length});
         }
         std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) {
@@ -45,66 +77,113 @@ public:
     }
 
     void split_edges() {
-        struct Edge {
-            double length;
-            int a, b;
-        };
-        std::vector<Edge> edges;
-        for (int v = 0; v < band_.size(); ++v) {
-            if (f_.distance[v] >= 0) continue;
-            band_.neighbours(v, neighbours_);
-            for (const int w : neighbours_)
-                if (f_.distance[w] > 0 && divides(v, w)) edges.push_back({(band_.nodes[v].at - band_.nodes[w].at).norm(), v, w});
-        }
-        std::ranges::sort(edges, [](const Edge& x, const Edge& y) {
-            return x.length != y.length ? x.length > y.length : std::pair(x.a, x.b) < std::pair(y.a, y.b);
-        });
-        for (const Edge& e : edges) {
-            const Vec3 at = crossing(e.a, e.b);
-            d_.split_edge(e.a, e.b, at, &tool_);
-            f_.distance.push_back(0);
+        for (const Edge& e : region_edges([&](int a, int b) { return value_[a] * value_[b] < 0; })) {
+            const Contact tools = d_.edge_contact(e.a, e.b).with(&tool_);
+            split(e.a, e.b, crossing(e.a, e.b, tools), tools);
         }
     }
 
 private:
-    /// Whether an edge to cut joins the two nodes: one of a triangle or tetrahedron.
-    bool divides(int v, int w) const {
-        const auto holds = [&](const auto& list) {
-            return std::ranges::any_of(list.around(v), [&](int s) { return std::ranges::find(list[s], w) != list[s].end(); });
+    struct Edge {
+        double length;
+        int a, b;
+    };
+
+    /// The elements in which the blade is wanted.
+    void find_region() {
+        everywhere_ = !blade_.bound && blade_.inside.empty();
+        if (everywhere_) return;
+        std::vector<double> bound(static_cast<std::size_t>(band_.size()), -std::numeric_limits<double>::infinity());
+        if (blade_.bound)
+            for (int v = 0; v < band_.size(); ++v) bound[v] = blade_.bound(band_.nodes[v].at);
+        std::vector<char> outside(static_cast<std::size_t>(band_.size()), 0);
+        for (const Tool* t : blade_.inside)
+            for (int v = 0; v < band_.size(); ++v) outside[v] = outside[v] || f_.value(v, *t) > f_.tolerance;
+        const auto choose = [&](const auto& list, std::vector<char>& in) {
+            in.assign(static_cast<std::size_t>(list.size()), 0);
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                double least = std::numeric_limits<double>::infinity(), longest = 0;
+                bool out = false;
+                for (const int v : list[s]) {
+                    out = out || outside[v];
+                    least = std::min(least, bound[v]);
+                    for (const int w : list[s]) longest = std::max(longest, (band_.nodes[v].at - band_.nodes[w].at).squaredNorm());
+                }
+                in[s] = !out && least <= blade_margin * std::sqrt(longest);
+            }
         };
-        return holds(band_.tetras) || holds(band_.triangles);
+        choose(band_.tetras, tetra_in_);
+        choose(band_.triangles, triangle_in_);
+    }
+
+    bool any_around(int v, auto holds) const {
+        for (const int s : band_.tetras.around(v))
+            if ((everywhere_ || tetra_in_[s]) && holds(band_.tetras[s])) return true;
+        for (const int s : band_.triangles.around(v))
+            if ((everywhere_ || triangle_in_[s]) && holds(band_.triangles[s])) return true;
+        return false;
+    }
+
+    bool in_region(int v) const {
+        return everywhere_ || any_around(v, [](const auto&) { return true; });
     }
 
     bool crosses(int v) const {
-        const double side = f_.distance[v];
-        const auto opposite = [&](const auto& list) {
-            return std::ranges::any_of(list.around(v), [&](int s) {
-                return std::ranges::any_of(list[s], [&](int w) { return f_.distance[w] * side < 0; });
+        const double side = value_[v];
+        return any_around(v, [&](const auto& nodes) {
+            return std::ranges::any_of(nodes, [&](int w) { return value_[w] * side < 0; });
+        });
+    }
+
+    /// The edges of triangles and tetrahedra of the region that `wanted` takes, longest first.
+    std::vector<Edge> region_edges(auto wanted) {
+        std::vector<Edge> edges;
+        for (int v = 0; v < band_.size(); ++v) {
+            neighbours_.clear();
+            any_around(v, [&](const auto& nodes) {
+                for (const int w : nodes)
+                    if (w > v && wanted(v, w)) neighbours_.push_back(w);
+                return false;
             });
-        };
-        return opposite(band_.tetras) || opposite(band_.triangles);
+            std::ranges::sort(neighbours_);
+            neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+            for (const int w : neighbours_) edges.push_back({(band_.nodes[v].at - band_.nodes[w].at).norm(), v, w});
+        }
+        std::ranges::sort(edges, [](const Edge& x, const Edge& y) {
+            return x.length != y.length ? x.length > y.length : std::pair(x.a, x.b) < std::pair(y.a, y.b);
+        });
+        return edges;
+    }
+
+    void split(int a, int b, const Vec3& at, const Contact& tools) {
+        d_.split_edge(a, b, at, tools);
+        if (&value_ != &f_.distance) value_.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
+        f_.distance.push_back(tools.has(f_.tool) ? 0 : f_.tool->distance(at));
     }
 
     void snap(int v, double length, double ratio) {
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
-        if (!d_.constraints.project(v, &tool_, target)) {
-            if (ratio > forced_reach) return;
+        const Contact tools = d_.contact[v].with(&tool_);
+        if (!d_.constraints.project(v, tools, target)) {
+            if (ratio > forced_reach || d_.contact[v]) return;
             target = tool_.project(node.at);
         }
-        if ((target - node.at).norm() > std::min(snap_slide * length, d_.constraints.leash(v))) return;
+        if ((target - node.at).norm() > snap_slide * length) return;
+        if ((target - node.start).norm() > d_.constraints.leash(v)) return;
         const double before = quality_around(d_, v, node.at);
         const double after = quality_around(d_, v, target);
         if (!(after >= std::min(0.1, before / 4)) || !(after > 0)) return;
         node.at = target;
-        d_.contact[v] = &tool_;
-        f_.distance[v] = 0;
+        d_.contact[v] = tools;
+        value_[v] = 0;
     }
 
     /// The point of the edge a-b on the tool, moved along the tool onto the surface or curve the edge is on.
-    Vec3 crossing(int a, int b) const {
+    Vec3 crossing(int a, int b, const Contact& tools) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
-        double ta = 0, tb = 1, da = f_.distance[a], db = f_.distance[b];
+        double ta = 0, tb = 1, da = value_[a], db = value_[b];
         Vec3 at = pa;
         // Regula falsi, Illinois variant; exact in one step for a plane.
         for (int i = 0; i < 60; ++i) {
@@ -122,24 +201,28 @@ private:
                 da /= 2;
             }
         }
-        return d_.fitted_split(a, b, at, &tool_);
+        return d_.fitted_split(a, b, at, tools);
     }
 
     Interface& f_;
     Deformable& d_;
     BandMesh& band_;
+    const Blade& blade_;
     const Tool& tool_;
+    std::vector<double>& value_;
+    bool everywhere_ = true;
+    std::vector<char> tetra_in_, triangle_in_;  // by slot
     std::vector<int> neighbours_;
 };
 
-/// Nodes born on a curved skin where the curve would have spoiled an element lie on the chord at first. Now
+/// Nodes born on a curved skin or tool where the curve would have spoiled an element lie on the chord at first. Now
 /// that the band is relaxed, brings them onto their surface or curve; true if any moved.
-bool fit_to_shapes(Deformable& d) {
+bool fit_to_shapes(const Interface& f, Deformable& d) {
     bool any = false;
     for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
-        if (!d.band.in_use(v) || d.constraints[v].freedom == NodeFreedom::free) continue;
+        if (!d.band.in_use(v) || (d.constraints[v].freedom == NodeFreedom::free && !d.contact[v])) continue;
         Vec3 x = d.band.nodes[v].at;
-        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v)) continue;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && f.off_tools(v) <= f.tolerance) continue;
         if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
@@ -164,21 +247,29 @@ void warn_of_misfits(Interface& f) {
 
 }  // namespace
 
-void snap_to_tool(Interface& f, const Tool& tool) {
+void cut_along(Interface& f, const Blade& blade) {
     Stopwatch watch(f.seconds);
-    Snapper snapper(f, tool);
+    std::vector<double> own;
+    if (blade.tool != f.tool) {
+        own.resize(static_cast<std::size_t>(f.d.band.size()));
+        for (int v = 0; v < f.d.band.size(); ++v) own[v] = f.value(v, *blade.tool);
+    }
+    Snapper snapper(f, blade, blade.tool == f.tool ? f.distance : own);
+    snapper.touch_nodes();
+    snapper.split_dipping_edges();
     snapper.snap_nodes();
     watch.lap("snap");
     snapper.split_edges();
     watch.lap("split");
-    f.d.barrier = &tool;
-    for (int v = 0; v < f.d.band.size(); ++v)
-        f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
+}
+
+void relax_band(Interface& f) {
+    Stopwatch watch(f.seconds);
     find_node_sets(f);
     deform(f.d, f.nodes, f.transition);
     watch.lap("deform");
-    improve(f, tool, improvement_goal);
-    for (int round = 0; round < 3 && fit_to_shapes(f.d); ++round) {
+    improve(f, *f.tool, improvement_goal);
+    for (int round = 0; round < 3 && fit_to_shapes(f, f.d); ++round) {
         find_node_sets(f);
         std::vector<int> movable = f.nodes;
         movable.insert(movable.end(), f.transition.begin(), f.transition.end());
@@ -186,6 +277,14 @@ void snap_to_tool(Interface& f, const Tool& tool) {
     }
     warn_of_misfits(f);
     watch.lap("improve");
+}
+
+void snap_to_tool(Interface& f, const Tool& tool) {
+    cut_along(f, {&tool, {}, {}});
+    f.d.barrier = &tool;
+    for (int v = 0; v < f.d.band.size(); ++v)
+        f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
+    relax_band(f);
 }
 
 }  // namespace femscalpel

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -8,7 +9,7 @@
 
 namespace femscalpel {
 
-/// Records the seconds of consecutive steps by name.
+/// Records the seconds of consecutive steps by name; those of one name are added up.
 class Stopwatch {
 public:
     explicit Stopwatch(std::vector<std::pair<std::string, double>>& laps) : laps_(laps) {}
@@ -18,7 +19,10 @@ public:
 
     void lap(const char* step) {
         const auto now = std::chrono::steady_clock::now();
-        laps_.emplace_back(step, std::chrono::duration<double>(now - last_).count());
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        const auto known = std::ranges::find(laps_, step, &std::pair<std::string, double>::first);
+        if (known == laps_.end()) laps_.emplace_back(step, seconds);
+        else known->second += seconds;
         last_ = now;
     }
 

@@ -27,7 +27,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _crack_options(name, method, transition, feature_angle, strict, preserve) -> tuple:
+def _common_options(name, method, transition, feature_angle, strict, preserve) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -105,7 +105,70 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      *_crack_options(name, method, transition, feature_angle, strict, preserve)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve)))
+
+
+def _tools(tools) -> list:
+    if isinstance(tools, Tool):
+        return [tools]
+    try:
+        tools = list(tools)
+    except TypeError:
+        raise TypeError(f"tools must be a tool such as femscalpel.Cylinder, or a sequence of tools, not {_arguments.describe(tools)}") from None
+    if not tools:
+        raise ValueError("tools is empty; give at least one tool")
+    return [check_tool(tool, f"tools[{k}]") for k, tool in enumerate(tools)]
+
+
+def _depth(depth) -> Optional[float]:
+    return None if depth is None else _arguments.real(depth, "depth")
+
+
+def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
+          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
+          depth: Optional[float] = None) -> Result:
+    """Drills one or several holes.
+
+    What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
+    carried; the walls lie on the tools. Elements away from the holes keep their numbers, coordinates and groups. A group
+    that loses all its members stays, empty, and the report warns. `mesh` itself is not changed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Triangles (shells) and tetrahedra, linear or quadratic, near the tools; anything elsewhere.
+    tools : Tool or sequence of Tool
+        For example :class:`Cylinder`. Holes may overlap.
+    name : str
+        Prefix of the new groups: ``name_WALL``, the faces (segments, in a shell mesh) on the tools, normals out of the
+        material; with several tools also one for each hole, ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
+    method : {"snap", "deform"}
+        "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
+    transition, feature_angle, strict, preserve
+        As for :func:`crack`.
+    depth : number, optional
+        Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
+        along its axis. Through holes when not given.
+
+    Returns
+    -------
+    Result
+        The report's node sets are IHN and EHN (nodes of the hole, interior and on the skin), ITN and ETN.
+
+    Raises
+    ------
+    ToolError
+        The name is bad or taken, or a tool misses the mesh, or would remove all of it.
+    UnsupportedElementError, QualityError, Error, TypeError, ValueError
+        As for :func:`crack`.
+
+    Examples
+    --------
+    >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
+    >>> result.mesh.groups["HOLE_WALL"].ids
+    """
+    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve),
+                                      _depth(depth)))
 
 
 def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
@@ -203,4 +266,10 @@ class Scalpel:
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), *_crack_options(name, method, transition, feature_angle, strict, preserve)))
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve)))
+
+    def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
+              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
+              depth: Optional[float] = None) -> Result:
+        """As :func:`femscalpel.drill`, on the session's mesh."""
+        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve), _depth(depth)))

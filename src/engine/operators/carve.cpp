@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/carve.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "operators/removal.h"
+
+namespace femscalpel {
+namespace {
+
+/// Elements that stay may bulge so deep into a hole, in its radii.
+constexpr double deepest_bulge = 0.25;
+
+/// The surfaces of a body, each bounded by the others, in the order they are cut.
+std::vector<Blade> blades_of(const Body& body) {
+    std::vector<Blade> blades;
+    for (std::size_t k = 0; k < body.walls.size(); ++k) {
+        Blade blade{body.walls[k].tool, {}, {}};
+        if (body.walls.size() > 1)
+            blade.bound = [&body, k](const Vec3& x) {
+                double depth = -std::numeric_limits<double>::infinity();
+                for (std::size_t j = 0; j < body.walls.size(); ++j)
+                    if (j != k) depth = std::max(depth, body.walls[j].tool->distance(x));
+                return depth;
+            };
+        for (std::size_t j = 0; j < k; ++j) blade.inside.push_back(body.walls[j].tool);
+        blades.push_back(std::move(blade));
+    }
+    return blades;
+}
+
+/// Elements that stay must not reach deep into what was removed: then the mesh is too coarse to show the hole's shape.
+void check_resolution(const Interface& f, std::span<const Body> bodies) {
+    const BandMesh& band = f.d.band;
+    for (const Body& body : bodies) {
+        double radius = std::numeric_limits<double>::infinity();
+        for (const Body::Wall& w : body.walls) radius = std::min(radius, w.tool->feature_size());
+        if (!std::isfinite(radius)) continue;
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                Vec3 middle = Vec3::Zero();
+                for (const int v : list[s]) middle += band.nodes[v].at / static_cast<double>(list[s].size());
+                if (body.depth(middle) > -deepest_bulge * radius) continue;
+                std::ostringstream message;
+                message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius " << radius << " near (" << middle.transpose()
+                        << "): elements would reach deep into it. Refine the mesh there first, to edges of at most " << radius;
+                throw ToolError(message.str());
+            }
+        };
+        look(band.tetras);
+        look(band.triangles);
+    }
+}
+
+Index solid_count(const Mesh& mesh) {
+    Index count = 0;
+    for (const CellBlock& b : mesh.blocks())
+        if (traits(b.type).dimension == mesh.dimension()) count += b.size();
+    return count;
+}
+
+}  // namespace
+
+double Body::depth(const Vec3& x) const {
+    double depth = -std::numeric_limits<double>::infinity();
+    for (const Wall& w : walls) depth = std::max(depth, w.tool->distance(x));
+    return depth;
+}
+
+Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options, const std::array<const char*, 4>& sets,
+             const Prepared& prepared) {
+    std::vector<Blade> blades;
+    std::vector<const Tool*> tool_of_tag;
+    std::vector<std::function<double(const Vec3&)>> depths;
+    std::set<std::string> suffixes;
+    Naming naming;
+    naming.sets = sets;
+    for (const Body& body : bodies) {
+        std::ranges::move(blades_of(body), std::back_inserter(blades));
+        depths.push_back([&body](const Vec3& x) { return body.depth(x); });
+        for (const Body::Wall& wall : body.walls) {
+            tool_of_tag.push_back(wall.tool);
+            naming.groups.emplace_back();
+            for (const std::string& suffix : wall.suffixes) {
+                naming.groups.back().push_back(options.name + suffix);
+                suffixes.insert(suffix);
+            }
+        }
+    }
+    if (blades.empty()) throw ToolError("there is no tool: give at least one");
+    if (options.method == Method::deform && blades.size() > 1)
+        throw ToolError("method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and several holes");
+    Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()});
+    const Mesh& mesh = operation.mesh();
+    Interface f = operation.begin(blades);
+    f.deep_inside = deep_inside(mesh, operation.location().level, depths);
+    Index removed = static_cast<Index>(f.deep_inside.size());
+    std::size_t blade = 0;
+    for (const Body& body : bodies) {
+        std::vector<const Tool*> tools;
+        const int first_tag = static_cast<int>(blade);
+        for (const Body::Wall& wall : body.walls) {
+            tools.push_back(wall.tool);
+            if (options.method == Method::deform) deform_to_tool(f, *wall.tool, mesh);
+            else cut_along(f, blades[blade]);
+            ++blade;
+        }
+        removed += remove_inside(f, tools, first_tag);
+    }
+    if (removed == 0)
+        throw ToolError("the " + blades.front().tool->kind() + " removes nothing: what it would take off is thinner than the elements there. Move the " +
+                        blades.front().tool->kind() + " into the material");
+    const bool left = [&] {
+        for (int t = 0; t < f.d.band.tetras.size(); ++t)
+            if (f.d.band.tetras.alive(t)) return true;
+        for (int t = 0; t < f.d.band.triangles.size(); ++t)
+            if (f.d.band.triangles.alive(t)) return true;
+        return false;
+    }();
+    if (!left && removed >= solid_count(mesh))
+        throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: it is larger than the part");
+    release_all_but_walls(f, tool_of_tag);
+    if (options.method == Method::snap) relax_band(f);
+    operation.take_laps(f.seconds);
+    check_resolution(f, bodies);
+    check_shape(f, mesh);
+    find_node_sets(f);
+    check_contacts(f);
+    return operation.finish(f, open_walls(f), naming);
+}
+
+}  // namespace femscalpel
