@@ -73,8 +73,9 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("radius", &Cone::radius)
         .def_property_readonly("half_angle", &Cone::half_angle);
     py::class_<Face, Tool>(module, "Face")
-        .def(py::init([](const std::string& path) { return Face::read(path); }))
+        // In this order: bytes would pass for a path too.
         .def(py::init([](const py::bytes& brep) { return Face::from_brep(brep); }))
+        .def(py::init([](const std::string& path) { return Face::read(path); }))
         .def_property_readonly("face_count", &Face::face_count)
         .def("beyond", [](const Face& face, const RealArray& points) {
             if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");

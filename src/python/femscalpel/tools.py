@@ -210,18 +210,18 @@ class Face(_engine.Face):
 
     def __init__(self, source):
         if hasattr(source, "exportBrepToString"):
-            self._source = "shape"
             super().__init__(source.exportBrepToString().encode())
         elif isinstance(source, (str, os.PathLike)):
-            self._source = os.fspath(source)
-            super().__init__(self._source)
+            super().__init__(os.fspath(source))
         else:
             raise TypeError(f"source must be a path or a FreeCAD shape, not {_arguments.describe(source)}")
+        # Kept, so that debuggers can show an object whose construction failed.
+        self._text = f"Face({_arguments.describe(source)}, {self.face_count} face(s))"
 
     distance = _distance
 
     def __repr__(self) -> str:
-        return f"Face({self._source!r}, {self.face_count} face(s))"
+        return getattr(self, "_text", "Face()")
 
 
 def check_tool(tool, name: str = "tool"):
