@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Draws figure_9.png and figure_12.png: what cracks do to groups, as femscalpel computes it.
+"""Draws figure_9.png and figure_12.png: what operators do to groups, as femscalpel computes it.
 
     PYTHONPATH=build/release/Mod/FemScalpel python3 resources/docs/group_borders.py [folder]
 
@@ -20,7 +20,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 import femscalpel as fs
 
@@ -47,53 +46,40 @@ def two_boxes():
         return fs.read(path)
 
 
-def faces(mesh):
-    """Corner indices (n, 3) and in how many tetrahedra of LEFT, and of others, each face of the mesh is."""
+def skin_on_top(mesh):
+    """Corners (n, 3) of the faces on top of the box, and whether they belong to tetrahedra of LEFT."""
     cells = mesh.cells["tetra"]
     left = np.isin(mesh.cell_ids["tetra"], mesh.groups["LEFT", "element"].ids)
-    corners = np.sort(np.concatenate([np.delete(cells, k, axis=1) for k in range(4)]), axis=1)
-    unique, inverse = np.unique(corners, axis=0, return_inverse=True)
-    inverse = inverse.ravel()
-    count = [np.bincount(inverse, np.tile(side, 4), len(unique)).astype(int) for side in (left, ~left)]
-    return unique, *count
+    corners = np.concatenate([np.delete(cells, k, axis=1) for k in range(4)])
+    on_top = (mesh.points[corners][:, :, 2] > 6 - 1e-9).all(axis=1)
+    return mesh.points[corners[on_top]], np.tile(left, 4)[on_top]
 
 
 def draw_figure_12(path):
     mesh = two_boxes()
     plane = fs.Plane(origin=(6.1, 3, 3), normal=(0.9, 0.45, 0.2))
-    figure = plt.figure(figsize=(12.5, 9.6), dpi=100)
-    for column, (preserve, title) in enumerate(((None, "preserved (the default)"), ((), "preserve=()"))):
-        result = fs.crack(mesh, plane, preserve=preserve)
-        after = result.mesh
-        corners, left, right = faces(after)
-        points = after.points
-        record = next(g for g in result.report.groups if (g.name, g.kind) == ("LEFT", "element"))
-
-        axes = figure.add_axes((0.03 + 0.49 * column, 0.45, 0.45, 0.44))
-        top = (points[corners][:, :, 2] > 6 - 1e-9).all(axis=1)
-        for side, colour in ((left, LEFT), (right, RIGHT)):
-            chosen = corners[top & (side == 1)]
-            axes.add_collection(PolyCollection(points[chosen][:, :, :2], facecolors=colour, edgecolors="#777777", linewidths=0.6))
-        y = np.array([0.0, 6.0])
-        x = 6.1 - (0.45 * (y - 3) + 0.2 * 3) / 0.9
-        axes.plot(x, y, color=CRACK, linewidth=2.2)
-        axes.set_xlim(2.2, 9.8)
-        axes.set_ylim(-0.1, 6.1)
-        axes.set_aspect("equal")
-        axes.set_axis_off()
-        axes.set_title(f"{title}\nvolume of LEFT {record.measure_before:.6f} → {record.measure_after:.6f}, border drift "
-                       f"{record.boundary_drift:.2g}", fontsize=12)
-
-        axes = figure.add_axes((0.05 + 0.49 * column, 0.02, 0.42, 0.42), projection="3d")
-        border = points[corners[(left == 1) & (right == 1)]]
-        offset = border.mean(axis=1)[:, 0] - 6
-        colours = plt.get_cmap("coolwarm")(0.5 + 0.5 * offset / 0.5)
-        axes.add_collection3d(Poly3DCollection(border, facecolors=colours, edgecolors="#444444", linewidths=0.5))
-        axes.set(xlim=(4.5, 7.5), ylim=(0, 6), zlim=(0, 6), xticks=(5, 6, 7), yticks=(0, 3, 6), zticks=(0, 3, 6))
-        axes.set_box_aspect((3, 6, 6), zoom=1.15)
-        axes.view_init(elev=18, azim=-68)
-        axes.set_xlabel("x")
-    figure.text(0.5, 0.97, "A crack (red) across the border of two groups: the box from above, and the border alone", ha="center", fontsize=13)
+    hole = fs.Cylinder(origin=(6.8, 3, 0), axis=(0, 0, 1), radius=1.2)
+    figure, axes = plt.subplots(2, 2, figsize=(12.5, 10.4), dpi=100)
+    for row, (operator, tool) in enumerate(((fs.crack, plane), (fs.drill, hole))):
+        for column, (preserve, title) in enumerate(((None, "preserved (the default)"), ((), "preserve=()"))):
+            result = operator(mesh, tool, preserve=preserve)
+            record = next(g for g in result.report.groups if (g.name, g.kind) == ("LEFT", "element"))
+            corners, left = skin_on_top(result.mesh)
+            at = axes[row, column]
+            for side, colour in ((left, LEFT), (~left, RIGHT)):
+                at.add_collection(PolyCollection(corners[side][:, :, :2], facecolors=colour, edgecolors="#777777", linewidths=0.7))
+            if operator is fs.crack:
+                y = np.array([0.0, 6.0])
+                at.plot(6.1 - (0.45 * (y - 3) + 0.2 * 3) / 0.9, y, color=CRACK, linewidth=2.4)
+            at.axvline(6, color="black", linewidth=1.0, linestyle=":")
+            at.set_xlim(2.2, 9.8)
+            at.set_ylim(-0.1, 6.1)
+            at.set_aspect("equal")
+            at.set_axis_off()
+            at.set_title(f"{title}: border drift {record.boundary_drift:.2g}\nvolume of LEFT {record.measure_before:.6f} → "
+                         f"{record.measure_after:.6f}", fontsize=12)
+    figure.suptitle("A crack (red) and a hole across the border of two groups of tetrahedra, from above", fontsize=13)
+    figure.subplots_adjust(left=0.02, right=0.98, top=0.89, bottom=0.02, hspace=0.18, wspace=0.05)
     figure.savefig(path, facecolor="white")
 
 
