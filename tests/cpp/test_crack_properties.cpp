@@ -25,7 +25,7 @@ namespace {
 using namespace checks;
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int snap_planes = 25, deform_planes = 8;
+constexpr int snap_planes = 10, deform_planes = 4;
 #else
 constexpr int snap_planes = 500, deform_planes = 100;
 #endif
