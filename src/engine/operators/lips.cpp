@@ -12,6 +12,9 @@
 namespace femscalpel {
 namespace {
 
+/// Sine of the angle between a triangle and the tool up to which the triangle lies along it.
+constexpr double along_tool = 0.5;
+
 constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 class Opener {
@@ -44,7 +47,18 @@ private:
     int side(const std::array<int, N>& nodes) const {
         for (const int v : nodes)
             if (!on_tool(v)) return f_.distance[v] > 0 ? 1 : -1;
-        return 0;
+        if constexpr (N < 3) return 0;
+        // All corners lie on a curved tool: the element fills a bulge of it, and its middle tells on which side. A
+        // triangle may also lie along the tool.
+        Vec3 middle = Vec3::Zero();
+        for (const int v : nodes) middle += band_.nodes[v].at / static_cast<double>(N);
+        const double distance = f_.tool->distance(middle);
+        if (std::abs(distance) <= f_.tolerance) return 0;
+        if constexpr (N == 3) {
+            const Vec3 &a = band_.nodes[nodes[0]].at, &b = band_.nodes[nodes[1]].at, &c = band_.nodes[nodes[2]].at;
+            if ((b - a).cross(c - a).normalized().cross(f_.tool->normal(middle)).norm() < along_tool) return 0;
+        }
+        return distance > 0 ? 1 : -1;
     }
 
     void find_open_faces() {
