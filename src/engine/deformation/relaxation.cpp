@@ -198,8 +198,9 @@ Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, co
         const double worst_fitted = fitted == at ? worst : worst_child(fitted);
         if (worst_fitted > 0.2 * worst) return {fitted, true, worst_fitted};
     }
-    if (constraint.freedom == NodeFreedom::free) return {at, true, worst};
-    return {at, constraints.distance(constraint, at) <= 1e-6 * (band.nodes[a].at - band.nodes[b].at).norm(), worst};
+    const double close = 1e-9 * (band.nodes[a].at - band.nodes[b].at).norm();
+    const bool on_tools = std::ranges::all_of(tools.tools(), [&](const Tool* t) { return std::abs(t->distance(at)) <= close; });
+    return {at, on_tools && constraints.distance(constraint, at) <= 1e3 * close, worst};
 }
 
 Contact Deformable::edge_contact(int a, int b) const {

@@ -30,7 +30,7 @@ constexpr double dip = 0.15;
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
 /// How often cutting a curved mesh is tried, each time with more nodes left alone.
-constexpr int attempts = 8;
+constexpr int attempts = 12;
 /// Elements of a curved mesh below this mean ratio are refined before another try, of which there are so many.
 constexpr double poor_quality = 0.1;
 constexpr int polishings = 3;
@@ -276,13 +276,15 @@ struct Slots {
     }
 };
 
-/// Those in which new nodes are off the curved skin they were born on, or parts came out as folded second-order elements.
+/// Those in which new nodes are off their tools or the curved skin they were born on, or parts came out as folded second-order elements.
 Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     Slots found;
     for (const int t : folded_elements(f, least_curved)) found.tetras.push_back(band.tetras.origin(t));
     for (int v = band.original_nodes(); v < band.size(); ++v) {
-        if (!band.in_use(v) || f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) <= largest_misfit * band.mean_edge_length(v)) continue;
+        if (!band.in_use(v)) continue;
+        const bool on_shape = f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) <= largest_misfit * band.mean_edge_length(v);
+        if (on_shape && f.off_tools(v) <= 10 * f.tolerance) continue;
         for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
         for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
     }
