@@ -118,6 +118,19 @@ void bind_operators(py::module_& module) {
         return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
     });
 
+    // Two tools, or a plane and a width.
+    const auto cut_options = [](const CommonOptions& common, const Tool* bottom) {
+        auto out = options<CutOptions>(common);
+        out.bottom = bottom;
+        return out;
+    };
+    module.def("cut", [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common, const Tool* bottom) {
+        return run([&, o = cut_options(common, bottom)] { return cut(mesh, positive, negative, o); });
+    });
+    module.def("cut", [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+        return run([&, o = cut_options(common, bottom)] { return cut(mesh, plane, width, o); });
+    });
+
     module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
                             double reach, bool relax, Index max_elements, double feature_angle, bool strict) {
         RefineOptions o;
@@ -143,6 +156,12 @@ void bind_operators(py::module_& module) {
         })
         .def("drill", [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
             return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
+        })
+        .def("cut", [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common, const Tool* bottom) {
+            return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
+        })
+        .def("cut", [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+            return run([&, o = cut_options(common, bottom)] { return scalpel.cut(plane, width, o); });
         });
 }
 

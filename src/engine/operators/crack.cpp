@@ -5,7 +5,7 @@ namespace femscalpel {
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
     Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
-    const Blade blade{&tool, {}, {}};
+    const Blade blade{&tool, {}, {}, -1};
     Interface f = operation.begin({&blade, 1});
     if (operation.location().crossed > 0) {
         if (options.method == Method::snap) snap_to_tool(f, tool);

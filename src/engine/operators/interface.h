@@ -28,6 +28,9 @@ struct Blade {
     std::function<double(const Vec3&)> bound;
     /// Of tools that were cut along before: it is wanted on their negative side only.
     std::vector<const Tool*> inside;
+    /// Faces made to lie on it are collected in BandMesh::cut_faces (edges of shells in cut_edges) under this tag; not
+    /// if negative.
+    int tag = -1;
 };
 
 /// Elements farther than this from where a blade is wanted, in their longest edges, are not cut by it.

@@ -17,7 +17,7 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
-from .operators import Result, Scalpel, crack, drill, refine
+from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Cone, Cylinder, Plane, Sphere, Tool, Torus
@@ -51,6 +51,7 @@ __all__ = [
     "VirtualBoundary",
     "WriteError",
     "crack",
+    "cut",
     "drill",
     "from_meshio",
     "mean_ratio",
