@@ -13,14 +13,18 @@ import FreeCAD
 
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
+from femscalpelobjects.curved_crack import CurvedCrack
+from femscalpelobjects.cylindrical_crack import CylindricalCrack
+from femscalpelobjects.drill import Drill
 from femscalpelobjects.group_names import rename_group
+from femscalpelobjects.refine import Refine
 
 if FreeCAD.GuiUp:
     from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
 
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
-              group_name="CRACK", feature_angle=30.0):
+              group_name="CRACK", feature_angle=30.0, preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
@@ -46,6 +50,8 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         on a mesh with some face elements only).
     feature_angle : float
         Degrees; skin edges sharper than this keep their shape.
+    preserve : names of mesh groups, optional
+        The groups whose border keeps its shape; all when not given. Borders of others may drift.
 
     Returns
     -------
@@ -59,26 +65,83 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         `source` is not a FEM mesh object of `doc`, the plane is given twice or has a zero normal, or an option is
         not one the property takes. Nothing is added then.
     """
-    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
-        raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
-    if source.Document != doc:
-        raise ValueError(f"source '{source.Label}' is in another document")
-    plane = _plane_placement(source, placement, origin, normal)
-    obj = doc.addObject("Fem::FemMeshObjectPython", name)
-    try:
-        Crack(obj)
-        obj.PlanePlacement = plane
-        obj.Method = method
-        obj.Transition = transition
-        obj.GroupName = group_name
-        obj.FeatureAngle = feature_angle
-        obj.Source = source
-    except Exception:
-        doc.removeObject(obj.Name)
-        raise
-    if FreeCAD.GuiUp:
-        ViewProviderMeshOperation(obj.ViewObject)
-    return obj
+    _check_source(doc, source)
+    plane = _placement(source, placement, origin, normal, "normal")
+    return _make(doc, Crack, source, name, PlanePlacement=plane, Method=method, Transition=transition, GroupName=group_name,
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+
+
+def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, origin=None, axis=None, radius=1.0, method="snap",
+                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder.
+
+    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the length `radius` in mm. The lip ``_P`` is
+    outside. Everything else is as for makeCrack().
+    """
+    _check_source(doc, source)
+    placement = _placement(source, placement, origin, axis, "axis")
+    return _make(doc, CylindricalCrack, source, name, AxisPlacement=placement, Radius=radius, Method=method, Transition=transition,
+                 GroupName=group_name, FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+
+
+def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=None, origin=None, axis=None, radius=1.0,
+                    tube_radius=0.25, half_angle=30.0, method="snap", transition=0, group_name="CRACK", feature_angle=30.0,
+                    preserve=None):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a curved tool.
+
+    `tool` is "Cylinder", "Sphere", "Torus" or "Cone"; see the classes of that name in femscalpel. Its centre and axis are
+    `origin` and `axis`, or origin and z axis of `placement`. `radius` is that of a cylinder or sphere, of a torus' ring, of
+    a cone at its origin; `tube_radius` that of a torus' tube; `half_angle`, in degrees, is a cone's. The lip ``_P`` is
+    outside. Everything else is as for makeCrack().
+    """
+    _check_source(doc, source)
+    placement = _placement(source, placement, origin, axis, "axis")
+    return _make(doc, CurvedCrack, source, name, ToolShape=tool, AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
+                 HalfAngle=half_angle, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle,
+                 PreservedGroups=_preserved(preserve))
+
+
+def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None, radius=1.0, depth=None, positions=(),
+              method="snap", transition=0, group_name="HOLE", feature_angle=30.0, preserve=None):
+    """Adds a parametric mesh object to `doc`: the mesh of `source` with one or several parallel holes.
+
+    Parameters
+    ----------
+    doc, source, name, method, transition, feature_angle, preserve
+        As for makeCrack().
+    placement : App.Placement, optional
+        A hole's axis is z of this placement.
+    origin, axis : App.Vector or three numbers, optional
+        The axis in another form; not together with `placement`. Both default to the middle of the mesh and z.
+    radius : float
+        In mm.
+    depth : float, optional
+        The holes end flat, this far beyond the placement's origin along its z; through holes when not given.
+    positions : sequence of App.Vector or three numbers
+        For several holes: where they are, in the placement's own axes.
+    group_name : str
+        Prefix of the new mesh groups: ``_WALL``, and ``_BOTTOM`` of blind holes; see femscalpel.drill.
+
+    Returns and raises as makeCrack().
+    """
+    _check_source(doc, source)
+    placement = _placement(source, placement, origin, axis, "axis")
+    return _make(doc, Drill, source, name, AxisPlacement=placement, Radius=radius, Positions=[FreeCAD.Vector(*p) for p in positions],
+                 Through=depth is None, Depth=depth or 0, Method=method, Transition=transition, GroupName=group_name,
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+
+
+def makeRefine(doc, source, name="Refine", tool="Cylinder", placement=None, origin=None, axis=None, radius=1.0, tube_radius=0.25,
+               half_angle=30.0, size=1.0, reach=0.0, gradation=0.5, feature_angle=30.0):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, with edges no longer than `size` mm around a tool.
+
+    The tool is as for makeCurvedCrack(), or "Plane", with `axis` as its normal. `size` holds up to the distance `reach`;
+    beyond, edges may be longer by `gradation` per unit of distance. See femscalpel.refine.
+    """
+    _check_source(doc, source)
+    placement = _placement(source, placement, origin, axis, "axis")
+    return _make(doc, Refine, source, name, ToolShape=tool, AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
+                 HalfAngle=half_angle, Size=size, Reach=reach, Gradation=gradation, FeatureAngle=feature_angle)
 
 
 def putIntoAnalysis(obj, strict=True):
@@ -114,13 +177,41 @@ def renameGroup(obj, old, new, kind=None):
     rename_group(obj, old, new, kind)
 
 
-def _plane_placement(source, placement, origin, normal):
+def _check_source(doc, source):
+    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
+        raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
+    if source.Document != doc:
+        raise ValueError(f"source '{source.Label}' is in another document")
+
+
+def _make(doc, operation, source, name, **properties):
+    """The new object; nothing is left behind when a property does not take its value."""
+    obj = doc.addObject("Fem::FemMeshObjectPython", name)
+    try:
+        operation(obj)
+        for key, value in properties.items():
+            setattr(obj, key, value)
+        obj.Source = source
+    except Exception:
+        doc.removeObject(obj.Name)
+        raise
+    if FreeCAD.GuiUp:
+        ViewProviderMeshOperation(obj.ViewObject)
+    return obj
+
+
+def _preserved(preserve):
+    return ["*"] if preserve is None else list(preserve)
+
+
+def _placement(source, placement, origin, direction, name):
+    """`placement`, or one whose z axis is `direction` through `origin`; `name` is what the caller calls the direction."""
     if placement is not None:
-        if origin is not None or normal is not None:
-            raise ValueError("give the plane as placement, or as origin and normal, not both")
+        if origin is not None or direction is not None:
+            raise ValueError(f"give placement, or origin and {name}, not both")
         return FreeCAD.Placement(placement)
     base = source.FemMesh.BoundBox.Center if origin is None else FreeCAD.Vector(*origin)
-    direction = FreeCAD.Vector(0, 0, 1) if normal is None else FreeCAD.Vector(*normal)
+    direction = FreeCAD.Vector(0, 0, 1) if direction is None else FreeCAD.Vector(*direction)
     if not direction.Length > 0:
-        raise ValueError("normal is the zero vector; give a direction")
+        raise ValueError(f"{name} is the zero vector; give a direction")
     return FreeCAD.Placement(base, FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), direction))

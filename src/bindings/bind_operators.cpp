@@ -76,14 +76,14 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-/// (name, method, transition, feature_angle, preserve, strict), as _common_options() in operators.py makes it.
-using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool>;
+/// (name, method, transition, feature_angle, preserve, strict, band_only), as _common_options() in operators.py makes it.
+using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool, bool>;
 
 template <class Options>
 Options options(const CommonOptions& common) {
     Options out;
     std::string method;
-    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict) = common;
+    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only) = common;
     out.method = method_from_name(method);
     return out;
 }

@@ -89,6 +89,20 @@ void BM_session(benchmark::State& state, const std::string& name) {
     report(state, scalpel.mesh(), last);
 }
 
+/// The same, making only what a preview shows.
+void BM_preview(benchmark::State& state, const std::string& name) {
+    const Scalpel scalpel(mesh_of(name));
+    CrackOptions options;
+    options.band_only = true;
+    Report last;
+    double offset = 0;
+    for (auto _ : state) {
+        offset += 0.01;
+        last = scalpel.crack(Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2}), options).report;
+    }
+    report(state, scalpel.mesh(), last);
+}
+
 /// A cylinder as thin as two edges of the 39 k mesh, refined to half its radius.
 void BM_refine(benchmark::State& state, const std::string& name) {
     const auto mesh = mesh_of(name);
@@ -137,6 +151,7 @@ int main(int argc, char** argv) {
         benchmark::RegisterBenchmark((std::string("crack/") + name).c_str(), BM_crack, name)->Unit(benchmark::kMillisecond);
         benchmark::RegisterBenchmark((std::string("refine/") + name).c_str(), BM_refine, name)->Unit(benchmark::kMillisecond);
         benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("preview/") + name).c_str(), BM_preview, name)->Unit(benchmark::kMillisecond);
     }
     benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)->Arg(5)->Arg(500)->Unit(benchmark::kMillisecond);
     benchmark::Initialize(&argc, argv);

@@ -7,7 +7,9 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "crack_checks.h"
@@ -219,6 +221,73 @@ TEST_P(PlaneProperties, SessionAndSingleCallGiveTheSame) {
             EXPECT_TRUE(identical(once.mesh, again.mesh)) << describe(k, plane);
             ++compared;
         } catch (const Error&) {
+        }
+    }
+    EXPECT_GT(compared, 2);
+}
+
+/// Everything about an element, by numbers and names, so that it can be compared between meshes.
+std::map<Index, std::string> described_elements(const Mesh& mesh) {
+    const auto groups = [&](FamilyIndex family) {
+        std::string text;
+        for (const GroupIndex g : mesh.families.groups(family)) text += " " + mesh.groups[g].name;
+        return text;
+    };
+    std::map<Index, std::string> out;
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c) {
+            std::ostringstream text;
+            text << std::hexfloat << static_cast<int>(b.type) << groups(b.families[c]);
+            for (const Index n : b.nodes(c))
+                text << " | " << mesh.node_ids[n] << " " << mesh.points[n].x() << " " << mesh.points[n].y() << " " << mesh.points[n].z() << groups(mesh.node_families[n]);
+            out.emplace(b.ids[c], text.str());
+        }
+    for (const Facet& f : mesh.facets) out[mesh.block(f.type).ids[f.cell]] += " face " + std::to_string(f.face) + groups(f.family);
+    return out;
+}
+
+TEST_P(PlaneProperties, BandAloneIsThatOfTheWholeResult) {
+    Random random(6);
+    CrackOptions band_only;
+    band_only.band_only = true;
+    const auto input = described_elements(model_.mesh);
+    int compared = 0;
+    for (int k = 0; k < 6; ++k) {
+        const CutPlane cut = random_plane(random);
+        const Plane plane(cut.origin, cut.normal);
+        std::optional<Result> whole;
+        try {
+            whole = session_.crack(plane);
+        } catch (const Error& e) {
+            EXPECT_THROW(session_.crack(plane, band_only), Error) << describe(k, cut) << ": " << e.what();
+            continue;
+        }
+        ++compared;
+        const Result band = session_.crack(plane, band_only);
+        EXPECT_TRUE(identical(band.mesh, crack(model_.mesh, plane, band_only).mesh)) << describe(k, cut);
+        EXPECT_NO_THROW(band.mesh.validate());
+        const auto wanted = described_elements(whole->mesh), got = described_elements(band.mesh);
+        int differ = 0, missing = 0;
+        for (const auto& [id, text] : got) differ += !wanted.contains(id) || wanted.at(id) != text;
+        for (const auto& [id, text] : wanted) missing += !got.contains(id) && (!input.contains(id) || input.at(id) != text);
+        EXPECT_EQ(differ, 0) << describe(k, cut) << ": elements of the band that are not the whole result's";
+        EXPECT_EQ(missing, 0) << describe(k, cut) << ": changed elements that are not in the band";
+        EXPECT_LT(got.size(), wanted.size());
+        const Report &a = whole->report, &b = band.report;
+        EXPECT_EQ(a.node_sets, b.node_sets);
+        EXPECT_EQ(a.constraints, b.constraints);
+        EXPECT_EQ(a.warnings, b.warnings);
+        EXPECT_EQ(a.quality_after.histogram, b.quality_after.histogram);
+        EXPECT_EQ(a.quality_after.minimum, b.quality_after.minimum);
+        EXPECT_EQ(std::tuple(a.nodes_added, a.nodes_moved, a.elements_added, a.elements_removed, a.max_displacement),
+                  std::tuple(b.nodes_added, b.nodes_moved, b.elements_added, b.elements_removed, b.max_displacement));
+        ASSERT_EQ(a.groups.size(), b.groups.size());
+        for (std::size_t g = 0; g < a.groups.size(); ++g) {
+            const GroupRecord &x = a.groups[g], &y = b.groups[g];
+            EXPECT_EQ(std::tuple(x.name, x.status, x.count_before, x.count_after, x.nodes_moved, x.boundary_drift, x.measure_before),
+                      std::tuple(y.name, y.status, y.count_before, y.count_after, y.nodes_moved, y.boundary_drift, y.measure_before))
+                << x.name;
+            EXPECT_NEAR(x.measure_after, y.measure_after, 1e-12 * std::abs(x.measure_after)) << x.name;
         }
     }
     EXPECT_GT(compared, 2);

@@ -680,6 +680,158 @@ TEST_F(DeckSemantics, CardsThatNameNothingTouchedKeepTheirText) {
     EXPECT_EQ(result.mesh.solver_input, mesh.solver_input);
 }
 
+/// Area of an element surface, all of it checked to lie where `holds` says; each face counts once.
+double surface_area(const Mesh& mesh, const std::string& name, const std::function<bool(const Vec3&)>& holds) {
+    const GroupIndex g = *mesh.find_group(name, GroupKind::facet);
+    double area = 0;
+    for (const Facet& f : mesh.facets) {
+        if (!mesh.families.contains(f.family, g)) continue;
+        const auto n = mesh.block(f.type).nodes(f.cell);
+        std::array<Vec3, 3> p;
+        for (int k = 0; k < 3; ++k) {
+            p[k] = mesh.points[n[faces_of[f.face - 1][k]]];
+            EXPECT_TRUE(holds(p[k])) << name << " has a wrong face of element " << mesh.block(f.type).ids[f.cell];
+        }
+        area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    }
+    return area;
+}
+
+/// Text of all cards with a keyword.
+std::string text_of(const Mesh& mesh, const std::string& keyword) {
+    std::string out;
+    for (const Card& card : mesh.solver_input->cards())
+        if (card.keyword == keyword)
+            for (const DeckText& t : card.text) out += t.text;
+    return out;
+}
+
+TEST_F(DeckSemantics, SurfacesOfTiesContactAndLoadsFollow) {
+    const auto on_top = [](const Vec3& p) { return p.z() == nz; };
+    const auto on_end = [](const Vec3& p) { return p.x() == nx; };
+    std::string top = "*SURFACE, NAME=TOP, TYPE=ELEMENT\n", end = "*SURFACE, NAME=END\n", nodes = "*SURFACE, NAME=BOTTOM, TYPE=NODE\n", set;
+    for (const auto& [e, f] : top_faces()) top += std::to_string(e) + ", S" + std::to_string(f) + "\n";
+    const Block b = block();
+    for (std::size_t e = 0; e < b.tetras.size(); ++e)
+        for (int f = 0; f < 4; ++f)
+            if (std::ranges::all_of(faces_of[f], [&](int v) { return b.tetras[e][v] % (nx + 1) == 0; }))
+                end += std::to_string(e + 1) + ", S" + std::to_string(f + 1) + "\n";
+    for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) {
+            nodes += std::to_string(node_at(i, j, 0)) + "\n";
+            set += std::to_string(node_at(i, j, 2)) + ",\n";
+        }
+    const std::string naming =
+        "*TIE, NAME=T1, POSITION TOLERANCE=.01\nBOTTOM, TOP\n*SURFACE INTERACTION, NAME=SI\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
+        "*CONTACT PAIR, INTERACTION=SI, TYPE=NODE TO SURFACE\nHELD, TOP\n*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE\nTOP, END\n"
+        "*COUPLING, CONSTRAINT NAME=C1, SURFACE=TOP, REF NODE=900\n*KINEMATIC\n1, 3\n"
+        "*STEP\n*STATIC\n*DSLOAD\nEND, P, 2.\n*SECTION PRINT, SURFACE=END, NAME=SP\nSOF\n*FACE PRINT, SURFACE=END\nSOF\n*CONTACT PRINT\nCDIS\n*END STEP\n";
+    const Mesh mesh = block_with("*NODE\n900, 9., 9., 9.\n" + top + end + nodes + "*NSET, NSET=HELD_N\n" + set + "*SURFACE, NAME=HELD, TYPE=NODE\nHELD_N\n" + naming);
+    ASSERT_NEAR(surface_area(mesh, "TOP", on_top), nx * ny, 1e-12);
+    for (const double x : {1.5, 2.0, 2.3})
+        for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(1, .3, .4), Vec3(.3, 1, .2)}) {
+            SCOPED_TRACE(x);
+            const Mesh after = crack_at(mesh, x, "CRACK", normal, true);  // strict: all of this is understood
+            EXPECT_THAT(warnings_, Not(Contains(HasSubstr("deck.inp"))));
+            EXPECT_NEAR(surface_area(after, "TOP", on_top), nx * ny, 1e-12);
+            EXPECT_NEAR(surface_area(after, "END", on_end), ny * nz, 1e-12);
+            for (const auto& [name, z] : {std::pair("BOTTOM", 0), std::pair("HELD", nz), std::pair("HELD_N", nz)}) {
+                const auto found = node_set(after, name);
+                EXPECT_EQ(std::set<Index>(found.begin(), found.end()), nodes_where(after, [&](const Vec3& p) { return p.z() == z; })) << name;
+            }
+            // The cards that name them say what they said.
+            for (const char* keyword : {"TIE", "CONTACTPAIR", "COUPLING", "KINEMATIC", "DSLOAD", "SECTIONPRINT", "FACEPRINT", "CONTACTPRINT"})
+                EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
+        }
+}
+
+TEST_F(DeckSemantics, DiscreteElementsStayWholeInTheirSetsAndAreReported) {
+    // Two of each at nodes that are doubled: masses, springs to ground and between nodes, dashpots, gaps.
+    const auto at = [](int j, int k) { return std::to_string(node_at(2, j, k)); };
+    const std::string right = std::to_string(node_at(4, 2, 0)), left = std::to_string(node_at(0, 2, 0));
+    const Mesh mesh = block_with(
+        "*ELEMENT, TYPE=MASS, ELSET=M\n901, " + at(0, 0) + "\n902, " + at(2, 2) + "\n*MASS, ELSET=M\n1.\n"
+        "*ELEMENT, TYPE=SPRING1, ELSET=G\n903, " + at(0, 1) + "\n904, " + at(1, 1) + "\n*SPRING, ELSET=G\n1\n5.\n"
+        "*ELEMENT, TYPE=SPRINGA, ELSET=S\n905, " + at(0, 2) + ", " + right + "\n906, " + left + ", " + at(1, 2) + "\n*SPRING, ELSET=S\n\n5.\n"
+        "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n907, " + right + ", " + at(2, 0) + "\n908, " + at(1, 0) + ", " + left + "\n*DASHPOT, ELSET=D\n\n5.\n"
+        "*ELEMENT, TYPE=GAPUNI, ELSET=U\n909, " + at(2, 1) + ", " + right + "\n910, " + at(0, 0) + ", " + left + "\n*GAP, ELSET=U\n0., 1., 0., 0.\n");
+    const Mesh after = crack_at(mesh, 2, "CRACK", Vec3(1, 0, 0), true);
+    for (const auto& [name, first] : {std::pair("M", 901), std::pair("G", 903), std::pair("S", 905), std::pair("D", 907), std::pair("U", 909)})
+        EXPECT_THAT(element_set(after, name), ElementsAre(first, first + 1)) << name;
+    for (const char* keyword : {"MASS", "SPRING", "DASHPOT", "GAP"}) EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword));
+    // On which side a node is: where the solid elements that have it lie.
+    std::map<Index, double> middle;
+    const CellBlock& tetras = after.block(CellType::tetra);
+    for (Index c = 0; c < tetras.size(); ++c)
+        for (const Index n : tetras.nodes(c))
+            for (const Index m : tetras.nodes(c)) middle[after.node_ids[n]] += after.points[m].x() - 2;
+    const NumberIndex numbers(after), old_numbers(mesh);
+    for (Index e = 901; e <= 910; ++e) {
+        const CellRef now = *numbers.cell(e), before = *old_numbers.cell(e);
+        const auto n = after.block(now.type).nodes(now.cell), o = mesh.block(before.type).nodes(before.cell);
+        std::set<bool> sides;
+        for (std::size_t k = 0; k < n.size(); ++k) {
+            EXPECT_EQ(after.points[n[k]], mesh.points[o[k]]) << "element " << e;
+            sides.insert(middle.at(after.node_ids[n[k]]) > 0);
+        }
+        EXPECT_EQ(sides.size(), 1u) << "element " << e << " bridges the crack";
+    }
+    EXPECT_THAT(warnings_, Contains(HasSubstr("4 point element(s)")));
+    EXPECT_THAT(warnings_, Contains(HasSubstr("6 segment element(s)")));
+}
+
+TEST_F(DeckSemantics, SetsOfTransformsRigidBodiesAndRequestsTakeInNewNodes) {
+    std::string set = "*NSET, NSET=BOTTOM\n", velocity, displacement;
+    for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) {
+            const std::string node = std::to_string(node_at(i, j, 0));
+            set += node + ",\n";
+            velocity += node + ", 2, " + std::to_string(i) + ".\n";
+            displacement += node + ", 1, 0.25\n";
+        }
+    const std::string cards =
+        "*TRANSFORM, NSET=BOTTOM, TYPE=C\n0.,0.,0.,0.,0.,1.\n*RIGID BODY, NSET=BOTTOM, REF NODE=900\n"
+        "*STEP\n*STATIC\n*BOUNDARY\nBOTTOM, 1, 3\n*NODE PRINT, NSET=BOTTOM, TOTALS=YES\nRF\n*EL PRINT, ELSET=EALL, TOTALS=ONLY\nELSE\n"
+        "*NODE FILE, NSET=BOTTOM\nU\n*EL FILE\nS\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS\n*END STEP\n";
+    const Mesh mesh = block_with("*NODE\n900, 9., 9., 9.\n" + set + "*INITIAL CONDITIONS, TYPE=VELOCITY\n" + velocity +
+                                 "*INITIAL CONDITIONS, TYPE=DISPLACEMENT\n" + displacement + cards);
+    const Mesh after = crack_at(mesh, 1.6, "CRACK", Vec3(1, .3, .1), true);
+    const auto wanted = nodes_where(after, [](const Vec3& p) { return p.z() == 0; });
+    ASSERT_GT(wanted.size(), 15u);
+    const auto found = node_set(after, "BOTTOM");
+    EXPECT_EQ(std::set<Index>(found.begin(), found.end()), wanted);
+    EXPECT_EQ(element_set(after, "EALL").size(), static_cast<std::size_t>(after.block(CellType::tetra).size()));
+    for (const char* keyword : {"TRANSFORM", "RIGIDBODY", "BOUNDARY", "NODEPRINT", "ELPRINT", "NODEFILE", "ELFILE", "NODEOUTPUT", "ELEMENTOUTPUT"})
+        EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
+    // Initial velocities 1 per unit of x, and displacements, at every node that is there now.
+    std::map<Index, double> v, u;
+    for (const Row& r : rows(after, "INITIALCONDITIONS")) (r[1] == "2" ? v : u)[std::stoll(r[0])] = std::stod(r[2]);
+    EXPECT_EQ(v.size(), wanted.size());
+    EXPECT_EQ(u.size(), wanted.size());
+    for (const auto& [node, value] : v) EXPECT_NEAR(value, place(after, node).x(), 1e-9);
+    for (const auto& [node, value] : u) EXPECT_EQ(value, 0.25);
+}
+
+TEST_F(DeckSemantics, StrictRefusesEveryCardThatCannotFollow) {
+    const std::string node = std::to_string(node_at(2, 1, 2)), other = std::to_string(node_at(0, 1, 2));
+    const std::pair<const char*, std::string> cards[] = {
+        {"EQUATION", "*EQUATION\n2\n" + node + ", 1, 1., " + other + ", 1, -1.\n"},
+        {"MPC", "*MPC\nBEAM, " + node + ", " + other + "\n"},
+        {"RIGID BODY", "*NSET, NSET=R\n1\n*RIGID BODY, NSET=R, REF NODE=" + node + "\n"},
+        {"COUPLING", "*SURFACE, NAME=S, TYPE=ELEMENT\n1, S1\n*COUPLING, CONSTRAINT NAME=C, SURFACE=S, REF NODE=" + node + "\n*KINEMATIC\n1, 3\n"},
+        {"DISTRIBUTING COUPLING", "*DISTRIBUTING COUPLING, ELSET=EALL\n" + node + ", 1.\n"},
+        {"RESTART", "*STEP\n*STATIC\n*RESTART, READ\n*END STEP\n"},
+        {"an unknown card", "*NOTACARD\n" + node + ", 1\n"},
+    };
+    for (const auto& [name, text] : cards) {
+        SCOPED_TRACE(name);
+        const Mesh mesh = block_with(text);
+        crack_at(mesh, 2);
+        EXPECT_THAT(warnings_, Contains(HasSubstr("deck.inp:")));
+        EXPECT_THROW(crack_at(mesh, 2, "CRACK", Vec3(1, 0, 0), true), Error);
+    }
+}
+
 TEST(LoadLabels, AreTakenApart) {
     EXPECT_EQ(LoadLabel("P3").number, 3);
     EXPECT_EQ(LoadLabel("p2nu").suffix, "NU");

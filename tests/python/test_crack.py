@@ -121,6 +121,19 @@ def test_session_gives_the_same_and_is_not_reached_by_later_changes():
     assert "LATER" not in session.mesh.groups and "LATER" not in result.mesh.groups
 
 
+def test_band_only_gives_the_elements_near_the_tool():
+    mesh = grid_box((12, 12, 12), (6, 5, 4))
+    plane = fs.Plane((3.3, 2.5, 2), (0.9, 0.3, 0.2))
+    whole, band = fs.crack(mesh, plane), fs.Scalpel(mesh).crack(plane, band_only=True)
+    assert len(band.mesh.cells["tetra"]) < 0.8 * len(whole.mesh.cells["tetra"])
+    of_whole = dict(zip(whole.mesh.cell_ids["tetra"].tolist(), whole.mesh.node_ids[whole.mesh.cells["tetra"]].tolist()))
+    for number, nodes in zip(band.mesh.cell_ids["tetra"].tolist(), band.mesh.node_ids[band.mesh.cells["tetra"]].tolist()):
+        assert of_whole[number] == nodes
+    assert band.mesh.groups["CRACK_P"].ids.tolist() == whole.mesh.groups["CRACK_P"].ids.tolist()
+    assert band.report.nodes_added == whole.report.nodes_added
+    assert band.report.quality.after.minimum == whole.report.quality.after.minimum
+
+
 def test_result_outlives_everything():
     points = fs.crack(box_with_groups(), PLANE).mesh.points
     assert np.isfinite(points).all() and points.max() <= 6
@@ -155,6 +168,7 @@ def test_other_threads_run_meanwhile():
     ({"transition": 0}, ValueError, "transition must be at least 1"),
     ({"feature_angle": "30"}, TypeError, "feature_angle must be a number"),
     ({"feature_angle": 180}, ValueError, "feature_angle must be between"),
+    ({"band_only": 1}, TypeError, "band_only must be True or False"),
     ({"tool": fs.Plane((99, 0, 0), (1, 0, 0))}, fs.ToolError, ""),
     ({"name": "A_NAME_FAR_TOO_LONG_FOR_CODE_ASTER"}, fs.ToolError, "24"),
     ({"name": ""}, fs.ToolError, ""),

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+import csv
+
 import numpy as np
 import pytest
 
@@ -100,3 +102,45 @@ def test_errors():
         fs.virtual_boundary(mesh, "FIX", "nodes")
     with pytest.raises(TypeError, match="mesh must be"):
         fs.virtual_boundary("mesh", "FIX")
+
+
+def test_preserve():
+    mesh = box_with_groups()
+    plane = fs.Plane((3.3, 2.5, 2), (0.9, 0.3, 0.2))
+    result = fs.crack(mesh, plane)
+    records = {(g.name, g.kind): g for g in result.report.groups}
+    assert all(g.boundary_kept for g in result.report.groups)
+    free = fs.crack(mesh, plane, preserve=())
+    assert not any(g.boundary_kept for g in free.report.groups if g.status != "new")
+    some = fs.Scalpel(mesh).crack(plane, preserve=iter(["LEFT"]))
+    assert {g.name for g in some.report.groups if g.boundary_kept and g.status != "new"} == {"LEFT"}
+    left = next(g for g in free.report.groups if g.name == "LEFT")
+    assert left.boundary_drift > 1e-3 and abs(left.measure_after - left.measure_before) > 1e-6
+    assert records["LEFT", "element"].boundary_drift < 1e-9
+    assert "free" in free.report.to_text() and " free" not in result.report.to_text().split("\n\n")[1]
+    with pytest.raises(fs.ToolError, match="preserve names 'LEFFT'"):
+        fs.crack(mesh, plane, preserve=["LEFFT"])
+    with pytest.raises(TypeError, match="preserve must be a list"):
+        fs.crack(mesh, plane, preserve="LEFT")
+    with pytest.raises(TypeError, match="preserve"):
+        fs.crack(mesh, plane, preserve=[3])
+
+
+def test_constraints_by_group_in_every_form(tmp_path):
+    mesh = box_with_groups()
+    report = fs.crack(mesh, fs.Plane((3.3, 2.5, 2), (0.9, 0.3, 0.2))).report
+    counts = report.constraints_by_group
+    assert counts.keys() == {g.name for g in report.groups}
+    left = next(g for g in report.groups if (g.name, g.kind) == ("LEFT", "element"))
+    assert left.nodes_on_surface > 10 and left.nodes_on_line > 3
+    assert counts["LEFT"] == {"surface": left.nodes_on_surface, "line": left.nodes_on_line, "fixed": left.nodes_fixed}
+    line = next(row for row in report.to_text().splitlines() if row.startswith("LEFT "))
+    assert line.split()[-1] == f"{left.nodes_on_surface}/{left.nodes_on_line}/{left.nodes_fixed}"
+    report.to_csv(tmp_path / "groups.csv")
+    with (tmp_path / "groups.csv").open(newline="") as file:
+        rows_of = {(row["name"], row["kind"]): row for row in csv.DictReader(file)}
+    assert len(rows_of) == len(report.groups)
+    for g in report.groups:
+        row = rows_of[g.name, g.kind]
+        assert [int(row[k]) for k in ("nodes_on_surface", "nodes_on_line", "nodes_fixed")] == [g.nodes_on_surface, g.nodes_on_line, g.nodes_fixed]
+        assert row["boundary_kept"] == "True" and float(row["measure_after"]) == g.measure_after and row["status"] == g.status

@@ -5,11 +5,12 @@ import dataclasses
 
 import FreeCAD
 import Fem
+import numpy as np
 
 import femmesh_bridge
 import femscalpel
 
-from .on_shape import OnShape, nodes_around, shapes_of
+from .on_shape import OnShape, bookkeeping_groups, nodes_around, shapes_of
 
 # Attribute bits of addProperty.
 OUTPUT = 8  # setting it does not ask for a recompute
@@ -127,8 +128,7 @@ class MeshOperation:
             source = self._source_mesh(obj)
             mesh = femmesh_bridge.from_femmesh(source)
             tools = self.tools(obj)
-            on_shape = OnShape(mesh, shapes_of(obj), self.where_nodes_may_move(obj, mesh, tools))
-            result = self.operate(obj, mesh, tools)
+            result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
             points = on_shape.put_back(result.mesh, tools)
             report = self._completed(result.report, on_shape)
             self._check_names(obj, report)
@@ -142,6 +142,14 @@ class MeshOperation:
             obj.Placement = FreeCAD.Placement()
         obj.FemMesh = femmesh
         self._show(obj, report, on_shape.lost)
+
+    def _result(self, obj, mesh, tools, near):
+        marked = mesh.copy()
+        on_shape = OnShape(marked, shapes_of(obj), near)
+        result = self.operate(obj, marked, tools)
+        if not on_shape.covers(result.mesh):
+            return self._result(obj, mesh, tools, np.ones(mesh.node_count, bool))
+        return result, on_shape
 
     @staticmethod
     def _source_mesh(obj):
@@ -236,14 +244,22 @@ SURFACE_INPUTS = (
     ("App::PropertyEnumeration", "Method", "snap: move and split, always succeeds; deform: only move nodes"),
     ("App::PropertyIntegerConstraint", "Transition", "Rings of elements around the tool that may move; 0: automatic"),
     ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
+    ("App::PropertyStringList", "PreservedGroups", "Mesh groups whose border keeps its shape; *: all. The borders of others "
+     "may drift, those of all if the list is empty"),
 )
 SURFACE_DEFAULTS = {
     "Method": (list(femscalpel.operators.METHODS), "snap"),
     "Transition": ((0, 0, 1000, 1),),
     "FeatureAngle": (30,),
+    "PreservedGroups": (["*"],),
 }
 
 
-def surface_options(obj):
-    """The properties SURFACE_INPUTS and GroupName as keyword arguments of femscalpel's operators."""
-    return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value)
+def surface_options(obj, mesh):
+    """The properties SURFACE_INPUTS and GroupName as keyword arguments of femscalpel's operators on `mesh`.
+
+    The geometry is kept whatever PreservedGroups says: FreeCAD finds what it needs by it.
+    """
+    preserve = None if "*" in obj.PreservedGroups else [*obj.PreservedGroups, *bookkeeping_groups(mesh)]
+    return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value,
+                preserve=preserve)

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Document object: a FEM mesh, cracked along a plane."""
 
-import FreeCAD
-
 import femscalpel
 
 from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
+from .tool_properties import plane_of
 
 
 class Crack(MeshOperation):
@@ -21,8 +20,7 @@ class Crack(MeshOperation):
     DEFAULTS = {**SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
 
     def tools(self, obj):
-        placement = obj.PlanePlacement
-        return [femscalpel.Plane(placement.Base, placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)))]
+        return [plane_of(obj.PlanePlacement)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], **surface_options(obj))
+        return femscalpel.crack(mesh, tools[0], **surface_options(obj, mesh))

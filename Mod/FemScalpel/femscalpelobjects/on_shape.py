@@ -13,6 +13,7 @@ import numpy as np
 import Part
 
 import femscalpel
+from femscalpel.mesh import CELL_TYPES
 
 # Faces of a tetrahedron as CalculiX numbers them: corners, then the places of the mid-side nodes among all ten.
 _TETRA_FACES = np.array(((0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6)))
@@ -62,12 +63,33 @@ def nodes_around(mesh, tools, rings):
         for nodes in mesh.cells.values():
             above = side[nodes]
             near[nodes[above.any(axis=1) & ~above.all(axis=1)]] = True
+    return _with_rings(mesh, near, rings)
+
+
+def nodes_of_long_edges(mesh, tools, size, gradation, reach, rings):
+    """Boolean array: nodes of the elements that femscalpel.refine() divides first, and of `rings` layers around them."""
+    distance = np.min([np.abs(tool.distance(mesh.points)) for tool in tools], axis=0)
+    allowed = size + gradation * np.maximum(0, distance - reach)
+    near = np.zeros(mesh.node_count, bool)
+    for name, nodes in mesh.cells.items():
+        corners = mesh.points[nodes[:, :CELL_TYPES[name][2]]]
+        width = np.linalg.norm(np.ptp(corners, axis=1), axis=1)  # no edge is longer
+        near[nodes[width > allowed[nodes].min(axis=1)]] = True
+    return _with_rings(mesh, near, rings)
+
+
+def _with_rings(mesh, near, rings):
     for _ in range(rings):
         touched = near.copy()
         for nodes in mesh.cells.values():
             touched[nodes[near[nodes].any(axis=1)]] = True
         near = touched
     return near
+
+
+def bookkeeping_groups(mesh):
+    """Names of the groups of `mesh` that an OnShape has made."""
+    return [name for name in mesh.groups if name.startswith(_GROUP)]
 
 
 class OnShape:
@@ -88,7 +110,7 @@ class OnShape:
         self.group_names = set()
         #: After put_back(): what FreeCAD will not find, as "Face4: 3 nodes are off it by up to 0.2".
         self.lost = []
-        self._mesh = mesh
+        self._mesh, self._near, self._shapes = mesh, near, shapes
         self._faces, self._edges, self._vertices = [], [], []
         if shapes and near.any():
             self._find_entities(mesh, shapes, near)
@@ -181,6 +203,28 @@ class OnShape:
 
     # --- after the operator
 
+    def covers(self, mesh):
+        """Whether all nodes that the operator's result has moved, and all around its new nodes, were looked at."""
+        if not self._shapes:
+            return True
+        known, moved, near = self._compared(mesh)
+        if (moved & ~near).any():
+            return False
+        for nodes in mesh.cells.values():
+            around_new = nodes[~known[nodes].all(axis=1)]
+            if (known[around_new] & ~near[around_new]).any():
+                return False
+        return True
+
+    def _compared(self, mesh):
+        """Boolean arrays for the nodes of the operator's result: was there before, has moved, was looked at before."""
+        order = np.argsort(self._mesh.node_ids)
+        old_ids = self._mesh.node_ids[order]
+        at = order[np.minimum(np.searchsorted(old_ids, mesh.node_ids), len(old_ids) - 1)]
+        known = self._mesh.node_ids[at] == mesh.node_ids
+        moved = known & (self._mesh.points[at] != mesh.points).any(axis=1)
+        return known, moved, known & self._near[at]
+
     def put_back(self, mesh, tools):
         """Coordinates for the nodes of the operator's result: on the shapes, and on the tools, where they belong.
 
@@ -222,10 +266,8 @@ class OnShape:
 
     def _new_members(self, mesh):
         """[(face or edge, indices of the nodes on it that are new or have moved and are not at once seen to be right)]."""
-        order = np.argsort(self._mesh.node_ids)
-        old_ids = self._mesh.node_ids[order]
-        at = np.minimum(np.searchsorted(old_ids, mesh.node_ids), len(old_ids) - 1)
-        fresh = (old_ids[at] != mesh.node_ids) | (self._mesh.points[order[at]] != mesh.points).any(axis=1)
+        known, moved, _ = self._compared(mesh)
+        fresh = ~known | moved
 
         on_face = {}
         for face in self._faces:

@@ -30,8 +30,8 @@ struct Term {
         if (!(measure > 0)) return infinity;
         const double squares = edges * x.squaredNorm() - 2 * x.dot(corner_sum) + constant;
         if (exponent == 1) return scale * squares / measure;
-        const double root = std::cbrt(measure);
-        return scale * squares / (root * root);
+        const double root = inverse_cube_root(measure);
+        return scale * squares * root * root;
     }
 };
 
@@ -200,6 +200,12 @@ double tetra_quality(const Deformable& d, int tetra) {
     return mean_ratio(n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at);
 }
 
+bool tetra_is_below(double limit, const Deformable& d, int tetra) {
+    const auto& v = d.band.tetras[tetra];
+    const auto& n = d.band.nodes;
+    return mean_ratio_below(limit, n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at);
+}
+
 double shell_quality(const Deformable& d, int triangle) {
     const auto& v = d.band.triangles[triangle];
     const Vec3 &a = d.band.nodes[v[0]].at, &b = d.band.nodes[v[1]].at, &c = d.band.nodes[v[2]].at;
@@ -217,16 +223,18 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
     BandMesh& band = d.band;
     std::vector<char> may_move(static_cast<std::size_t>(band.size()), 0);
     for (const int v : movable) may_move[v] = 1;
-    std::vector<double> tetra_q(static_cast<std::size_t>(band.tetras.size())), shell_q(static_cast<std::size_t>(band.triangles.size()), 1.0);
+    // Elements worse than the target; only they give their nodes a reason to move.
+    std::vector<char> poor_tetra(static_cast<std::size_t>(band.tetras.size())), poor_shell(static_cast<std::size_t>(band.triangles.size()));
+    const auto look_at_shell = [&](int t) {
+        poor_shell[t] = d.constraints.is_shell(band.triangles.origin(t)) && shell_quality(d, t) < options.target;
+    };
     for (int t = 0; t < band.tetras.size(); ++t)
-        if (band.tetras.alive(t)) tetra_q[t] = tetra_quality(d, t);
+        if (band.tetras.alive(t)) poor_tetra[t] = tetra_is_below(options.target, d, t);
     for (int t = 0; t < band.triangles.size(); ++t)
-        if (band.triangles.alive(t) && d.constraints.is_shell(band.triangles.origin(t))) shell_q[t] = shell_quality(d, t);
-    const auto worst_around = [&](int v) {
-        double worst = 1;
-        for (const int t : band.tetras.around(v)) worst = std::min(worst, tetra_q[t]);
-        for (const int t : band.triangles.around(v)) worst = std::min(worst, shell_q[t]);
-        return worst;
+        if (band.triangles.alive(t)) look_at_shell(t);
+    const auto is_poor = [&](int v) {
+        return std::ranges::any_of(band.tetras.around(v), [&](int t) { return poor_tetra[t] != 0; }) ||
+               std::ranges::any_of(band.triangles.around(v), [&](int t) { return poor_shell[t] != 0; });
     };
     std::vector<char> dirty(static_cast<std::size_t>(band.size()), 0);
     std::vector<int> active, next;
@@ -240,7 +248,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
         next.clear();
         for (const int v : active) dirty[v] = 0;
         for (const int v : active) {
-            if (worst_around(v) >= options.target) continue;
+            if (!is_poor(v)) continue;
             BandNode& node = band.nodes[v];
             const Contact& tools = d.contact[v];
             Eigen::Matrix3d basis;
@@ -282,9 +290,8 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
             }
             if (node.at == before) continue;
             ++moves;
-            for (const int t : band.tetras.around(v)) tetra_q[t] = tetra_quality(d, t);
-            for (const int t : band.triangles.around(v))
-                if (d.constraints.is_shell(band.triangles.origin(t))) shell_q[t] = shell_quality(d, t);
+            for (const int t : band.tetras.around(v)) poor_tetra[t] = tetra_is_below(options.target, d, t);
+            for (const int t : band.triangles.around(v)) look_at_shell(t);
             const double reach = band.mean_edge_length(v);
             if ((node.at - before).norm() < 1e-3 * reach) continue;
             const auto wake = [&](const auto& list) {

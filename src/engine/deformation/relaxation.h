@@ -45,6 +45,9 @@ struct Deformable {
 double tetra_quality(const Deformable& d, int tetra);
 double shell_quality(const Deformable& d, int triangle);
 
+/// tetra_quality(d, tetra) < limit, at less cost.
+bool tetra_is_below(double limit, const Deformable& d, int tetra);
+
 /// Smallest quality of the elements around a node, were it at `x`.
 double quality_around(const Deformable& d, int node, const Vec3& x);
 

@@ -51,19 +51,45 @@ constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}
 
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
-/// The faces of the band's tetrahedra that have a movable node, in rows by their smallest node: a row is short and
-/// in one place, which beats a hash table.
+/// Marks the nodes on faces of only one tetrahedron of the band (its rim included), without matching faces. Every
+/// face has a random number, and a node the exclusive or of those of its faces, counted once per tetrahedron: those of
+/// faces between two tetrahedra cancel. (That others do by accident has a chance of 2^-64.)
+void mark_outer_nodes(const BandMesh& band, std::vector<char>& marked) {
+    const auto scramble = [](std::uint64_t x) {
+        x = (x ^ (x >> 31)) * 0x7fb5d329728ea185u;
+        x = (x ^ (x >> 27)) * 0x81dadef4bc2dd44du;
+        return x ^ (x >> 33);
+    };
+    std::vector<std::uint64_t> random(static_cast<std::size_t>(band.size())), rest(random.size(), 0);
+    for (std::size_t v = 0; v < random.size(); ++v) random[v] = scramble(v + 0x9e3779b97f4a7c15u);
+    for (int t = 0; t < band.tetras.size(); ++t) {
+        if (!band.tetras.alive(t)) continue;
+        const auto& v = band.tetras[t];
+        const std::uint64_t sum = random[v[0]] + random[v[1]] + random[v[2]] + random[v[3]];
+        std::array<std::uint64_t, 4> face;  // opposite each corner
+        for (int k = 0; k < 4; ++k) face[k] = scramble(sum - random[v[k]]);
+        const std::uint64_t all = face[0] ^ face[1] ^ face[2] ^ face[3];
+        for (int k = 0; k < 4; ++k) rest[v[k]] ^= all ^ face[k];
+    }
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        if (rest[v] != 0) marked[v] = 1;
+}
+
+/// The faces of the band's tetrahedra that have a movable node and only nodes that count, in rows by their smallest
+/// node: a row is short and in one place, which beats a hash table.
 class TetraFaces {
 public:
-    explicit TetraFaces(const BandMesh& band) : start_(static_cast<std::size_t>(band.size()) + 1, 0) {
+    TetraFaces(const BandMesh& band, const std::vector<char>& counts) : start_(static_cast<std::size_t>(band.size()) + 1, 0) {
         std::vector<char> movable(static_cast<std::size_t>(band.size()));
         for (int v = 0; v < band.size(); ++v) movable[v] = band.nodes[v].movable();
         const auto for_each = [&](auto visit) {
             for (int t = 0; t < band.tetras.size(); ++t) {
                 if (!band.tetras.alive(t)) continue;
                 const auto& v = band.tetras[t];
+                if (counts[v[0]] + counts[v[1]] + counts[v[2]] + counts[v[3]] < 3) continue;
                 for (const auto& f : outward_faces) {
                     const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
+                    if (!(counts[nodes[0]] && counts[nodes[1]] && counts[nodes[2]])) continue;
                     if (movable[nodes[0]] || movable[nodes[1]] || movable[nodes[2]]) visit(t, nodes);
                 }
             }
@@ -145,8 +171,30 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     };
     const auto in_all = [&](const std::array<int, 3>& f) { return sets.both(sets.both(in[f[0]], in[f[1]]), in[f[2]]); };
 
-    // 1. All faces of tetrahedra, and what lies on them.
-    TetraFaces index(band);
+    // 1. The faces of tetrahedra that can matter, and what lies on them: those of nodes on the outside, of nodes of
+    // face elements, and of nodes whose tetrahedra differ in their groups or in those of their nodes.
+    std::vector<int> volume_kind(static_cast<std::size_t>(band.tetras.size()), 0);
+    std::vector<char> counts(in.size(), 0);
+    std::vector<int> first_kind(in.size(), -1);
+    for (int t = 0; t < band.tetras.size(); ++t) {
+        if (!band.tetras.alive(t)) continue;
+        const auto& v = band.tetras[t];
+        volume_kind[t] = of_cell(band.tetra_cells[band.tetras.origin(t)]);
+        const bool mixed = in[v[0]] != in[v[1]] || in[v[0]] != in[v[2]] || in[v[0]] != in[v[3]];
+        for (const int w : v) {
+            if (first_kind[w] < 0) first_kind[w] = volume_kind[t];
+            if (mixed || first_kind[w] != volume_kind[t]) counts[w] = 1;
+        }
+    }
+    const auto count_nodes = [&](const auto& list) {
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s))
+                for (const int v : list[s]) counts[v] = 1;
+    };
+    count_nodes(band.triangles);
+    count_nodes(band.facet_faces);
+    mark_outer_nodes(band, counts);
+    TetraFaces index(band, counts);
     std::vector<Face>& faces = index.faces;
     for (int f = 0; f < band.facet_faces.size(); ++f) {
         if (!band.facet_faces.alive(f) || !movable(band.facet_faces[f])) continue;
@@ -185,7 +233,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     };
     for (std::size_t k = 0; k < faces.size(); ++k) {
         Face& f = faces[k];
-        const auto volume = [&](int t) { return t < 0 ? 0 : of_cell(band.tetra_cells[band.tetras.origin(t)]); };
+        const auto volume = [&](int t) { return t < 0 ? 0 : volume_kind[t]; };
         f.kind = sets.either(f.kind, sets.differ(volume(f.tetra[0]), volume(f.tetra[1])));
         kept_anyway[k] = f.is_skin() || f.element || f.kind != 0;
         if (kept_anyway[k]) note_kept(f);
@@ -240,7 +288,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
                 // The face with the fourth node left out holds the edge.
                 for (const auto& f : outward_faces) {
                     const std::array<int, 3> nodes{v[f[0]], v[f[1]], v[f[2]]};
-                    if (!holds(nodes, v[k]) && kept_anyway[index.find(nodes)]) through = false;
+                    if (holds(nodes, v[k])) continue;
+                    if (const int at = index.find(nodes); at >= 0 && kept_anyway[at]) through = false;
                 }
             }
         }
@@ -257,6 +306,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         for (int s = 0; s < list.size(); ++s) {
             if (!list.alive(s)) continue;
             const auto& v = list[s];
+            // Inside an area nothing is left of any edge.
+            if (v.size() > 2 && std::ranges::all_of(v, [&](int w) { return in[w] == in[v[0]]; })) continue;
             for (std::size_t i = 0; i < v.size(); ++i)
                 for (std::size_t j = i + 1; j < v.size(); ++j) {
                     int rest = sets.both(in[v[i]], in[v[j]]);

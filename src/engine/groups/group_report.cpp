@@ -87,17 +87,21 @@ void count_cells(FamilyTotals& totals, const Mesh& mesh, std::span<const CellRef
     }
 }
 
-void recount_nodes_and_facets(FamilyTotals& totals, const Mesh& mesh) {
+void count_nodes_and_facets(FamilyTotals& totals, const Mesh& mesh, int sign) {
     fit(totals, mesh);
+    for (FamilyIndex f : mesh.node_families) totals.by_family[f].nodes += sign;
+    for (const Facet& f : mesh.facets) {
+        totals.by_family[f.family].facets += sign;
+        totals.by_family[f.family].facet_area += sign * facet_measure(mesh, f);
+    }
+}
+
+void recount_nodes_and_facets(FamilyTotals& totals, const Mesh& mesh) {
     for (FamilyTotals::Entry& e : totals.by_family) {
         e.nodes = e.facets = 0;
         e.facet_area = 0;
     }
-    for (FamilyIndex f : mesh.node_families) ++totals.by_family[f].nodes;
-    for (const Facet& f : mesh.facets) {
-        ++totals.by_family[f.family].facets;
-        totals.by_family[f.family].facet_area += facet_measure(mesh, f);
-    }
+    count_nodes_and_facets(totals, mesh, +1);
 }
 
 std::vector<GroupRecord> compare_groups(const Mesh& before, const FamilyTotals& totals_before, const Mesh& after,

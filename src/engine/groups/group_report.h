@@ -52,6 +52,9 @@ FamilyTotals family_totals(const Mesh& mesh);
 /// Adds (sign +1) or takes away (sign -1) the given elements of `mesh`.
 void count_cells(FamilyTotals& totals, const Mesh& mesh, std::span<const CellRef> cells, int sign);
 
+/// Adds (sign +1) or takes away (sign -1) all nodes and facets of `mesh`.
+void count_nodes_and_facets(FamilyTotals& totals, const Mesh& mesh, int sign);
+
 /// Recounts nodes and facets, which cost little, from `mesh`.
 void recount_nodes_and_facets(FamilyTotals& totals, const Mesh& mesh);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,5 +27,11 @@ private:
     std::vector<Index> start_;
     std::vector<std::int64_t> cells_;
 };
+
+/// Indices of elements, ascending, by type.
+using CellLists = std::array<std::vector<Index>, cell_type_count>;
+
+/// The elements with a corner node where level[node] >= 0. One pass over the elements, unless their `adjacency` is given.
+CellLists elements_near(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency);
 
 }  // namespace femscalpel

@@ -195,13 +195,29 @@ double pyramid_volume(const std::array<Vec3, 5>& p) {
 
 }  // namespace
 
+namespace {
+
+double squared_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return (b - a).squaredNorm() + (c - a).squaredNorm() + (d - a).squaredNorm() + (c - b).squaredNorm() + (d - b).squaredNorm() +
+           (d - c).squaredNorm();
+}
+
+}  // namespace
+
 double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const double volume = signed_volume(a, b, c, d);
-    const double sum = (b - a).squaredNorm() + (c - a).squaredNorm() + (d - a).squaredNorm() + (c - b).squaredNorm() +
-                       (d - b).squaredNorm() + (d - c).squaredNorm();
+    const double sum = squared_edges(a, b, c, d);
     if (!(sum > 0)) return 0;
-    const double root = std::cbrt(3 * volume);
-    return std::copysign(12 * root * root / sum, volume);
+    const double size = std::abs(3 * volume);
+    return std::copysign(12 * size * inverse_cube_root(size) / sum, volume);
+}
+
+bool mean_ratio_below(double limit, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const double six = (b - a).cross(c - a).dot(d - a);
+    // Cubed, the mean ratio is 432 (6V)^2 / sum^3. What is clearly above needs no root.
+    const double bound = limit * (1 + 1e-9) * squared_edges(a, b, c, d);
+    if (six > 0 && 432 * six * six > bound * bound * bound) return false;
+    return !(mean_ratio(a, b, c, d) >= limit);
 }
 
 double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {

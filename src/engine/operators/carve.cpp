@@ -95,9 +95,8 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     if (options.method == Method::deform && blades.size() > 1)
         throw ToolError("method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and several holes");
     Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()});
+    Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) { return deep_inside(whole, level, depths); });
     const Mesh& mesh = operation.mesh();
-    Interface f = operation.begin(blades);
-    f.deep_inside = deep_inside(mesh, operation.location().level, depths);
     Index removed = static_cast<Index>(f.deep_inside.size());
     std::size_t blade = 0;
     for (const Body& body : bodies) {
@@ -121,7 +120,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             if (f.d.band.triangles.alive(t)) return true;
         return false;
     }();
-    if (!left && removed >= solid_count(mesh))
+    if (!left && removed >= solid_count(operation.whole()))
         throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: it is larger than the part");
     release_all_but_walls(f, tool_of_tag);
     if (options.method == Method::snap) relax_band(f);

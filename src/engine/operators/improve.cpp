@@ -67,8 +67,7 @@ private:
     std::vector<Element> bad_elements(double goal) const {
         std::vector<Element> bad;
         for (int t = 0; t < band_.tetras.size(); ++t)
-            if (band_.tetras.alive(t))
-                if (const double q = tetra_quality(d_, t); q < goal) bad.push_back({q, band_.tetras[t]});
+            if (band_.tetras.alive(t) && tetra_is_below(goal, d_, t)) bad.push_back({tetra_quality(d_, t), band_.tetras[t]});
         for (int t = 0; t < band_.triangles.size(); ++t)
             if (band_.triangles.alive(t) && d_.constraints.is_shell(band_.triangles.origin(t)))
                 if (const double q = shell_quality(d_, t); q < goal) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/interface.h"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 namespace femscalpel {
@@ -75,15 +77,14 @@ struct Bad {
 /// Elements of the band worse than `limit`, by number.
 std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) {
     std::vector<Bad> bad;
-    const auto note = [&](const CellRef& c, double q) {
-        if (!(q > limit)) bad.push_back({mesh.block(c.type).ids[c.cell], q});
-    };
+    const auto note = [&](const CellRef& c, double q) { bad.push_back({mesh.block(c.type).ids[c.cell], q}); };
     const BandMesh& band = f.d.band;
     for (int t = 0; t < band.tetras.size(); ++t)
-        if (band.tetras.alive(t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
-    for (int t = 0; t < band.triangles.size(); ++t)
-        if (band.triangles.alive(t) && f.d.constraints.is_shell(band.triangles.origin(t)))
-            note(band.triangle_cells[band.triangles.origin(t)], shell_quality(f.d, t));
+        if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
+    for (int t = 0; t < band.triangles.size(); ++t) {
+        if (!band.triangles.alive(t) || !f.d.constraints.is_shell(band.triangles.origin(t))) continue;
+        if (const double q = shell_quality(f.d, t); !(q >= limit)) note(band.triangle_cells[band.triangles.origin(t)], q);
+    }
     std::ranges::sort(bad, {}, [](const Bad& b) { return std::pair(b.id, b.quality); });
     return bad;
 }
@@ -123,11 +124,12 @@ void check_contacts(const Interface& f) {
 }
 
 void check_input_shape(Interface& f, const Mesh& mesh) {
-    const std::vector<Bad> bad = worse_than(flat, f, mesh);
+    const std::vector<Bad> poor = worse_than(0.1, f, mesh);
+    std::vector<Bad> bad;
+    std::ranges::copy_if(poor, std::back_inserter(bad), [](const Bad& b) { return !(b.quality >= flat); });
     if (!bad.empty())
         throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
                            name_them(bad) + "); repair them first");
-    const std::vector<Bad> poor = worse_than(0.1, f, mesh);
     if (!poor.empty())
         f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) + " element(s) with mean ratio below 0.1 near the tool (" +
                              name_them(poor) + ")");

@@ -16,7 +16,9 @@ constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}
 
 class Opener {
 public:
-    explicit Opener(const Interface& f) : f_(f), band_(f.d.band) {}
+    explicit Opener(const Interface& f)
+        : f_(f), band_(f.d.band), is_interface_(static_cast<std::size_t>(band_.size()), 0), doubled_(is_interface_.size(), 0),
+          first_item_(3 * is_interface_.size()) {}
 
     Lips open() {
         out_.tetras.resize(static_cast<std::size_t>(band_.tetras.size()));
@@ -46,11 +48,12 @@ private:
     }
 
     void find_open_faces() {
-        struct Behind {
-            int tetra[2]{-1, -1};
-            std::array<int, 3> nodes[2];
+        struct Seen {
+            std::array<int, 3> key;  // sorted
+            int tetra;
+            std::array<int, 3> nodes;
         };
-        std::map<std::array<int, 3>, Behind> faces;
+        std::vector<Seen> faces;
         for (int v = 0; v < band_.size(); ++v) {
             if (!on_tool(v)) continue;
             for (const int t : band_.tetras.around(v)) {
@@ -61,19 +64,18 @@ private:
                     std::array<int, 3> key = nodes;
                     std::ranges::sort(key);
                     if (key[0] != v) continue;  // each face once, from its smallest node
-                    Behind& b = faces[key];
-                    const int k = b.tetra[0] < 0 ? 0 : 1;
-                    b.tetra[k] = t;
-                    b.nodes[k] = nodes;
+                    faces.push_back({key, t, nodes});
                 }
             }
         }
-        for (const auto& [key, b] : faces) {
-            if (b.tetra[1] < 0 || side(band_.tetras[b.tetra[0]]) * side(band_.tetras[b.tetra[1]]) >= 0) continue;
-            for (int k = 0; k < 2; ++k) open_faces_.push_back({b.nodes[k], b.tetra[k]});
-            for (int k = 0; k < 3; ++k) open_edges_.insert(edge_key(key[k], key[(k + 1) % 3]));
-            face_keys_.insert(key);
-            interface_.insert(key.begin(), key.end());
+        std::ranges::stable_sort(faces, {}, &Seen::key);
+        for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
+            const Seen &one = faces[i], &other = faces[i + 1];
+            if (one.key != other.key || side(band_.tetras[one.tetra]) * side(band_.tetras[other.tetra]) >= 0) continue;
+            for (const Seen* s : {&one, &other}) open_faces_.push_back({s->nodes, s->tetra});
+            for (int k = 0; k < 3; ++k) open_edges_.insert(edge_key(one.key[k], one.key[(k + 1) % 3]));
+            face_keys_.push_back(one.key);
+            for (const int v : one.key) is_interface_[v] = 1;
         }
     }
 
@@ -94,10 +96,11 @@ private:
                 if (!positive || !negative) continue;
                 open_edges_.insert(edge_key(v, w));
                 shell_edges_.push_back({v, w});
-                interface_.insert({v, w});
+                is_interface_[v] = is_interface_[w] = 1;
             }
         }
-        out_.interface_nodes.assign(interface_.begin(), interface_.end());
+        for (int v = 0; v < band_.size(); ++v)
+            if (is_interface_[v]) out_.interface_nodes.push_back(v);
     }
 
     bool is_shell(int t) const { return f_.d.constraints.is_shell(band_.triangles.origin(t)); }
@@ -119,8 +122,6 @@ private:
             return i;
         };
         std::vector<char> touches(static_cast<std::size_t>(count), 0);
-        // First item met with each (neighbour, side or 0); a short list, searched from the start.
-        std::vector<std::pair<std::pair<int, int>, int>> first;
         for (int i = 0; i < count; ++i) {
             const auto visit = [&](const auto& nodes) {
                 item_side[i] = side(nodes) > 0 ? 1 : -1;
@@ -130,12 +131,12 @@ private:
                     // are on different sides of it.
                     const bool open = on_tool(w) && open_edges_.contains(edge_key(v, w));
                     if (open) touches[i] = 1;
-                    const std::pair key(w, open ? item_side[i] : 0);
-                    const auto it = std::ranges::find(first, key, [](const auto& entry) { return entry.first; });
-                    if (it == first.end()) {
-                        first.push_back({key, i});
+                    // First item met with this neighbour, on this side if the edge is open.
+                    FirstItem& first = first_item_[3 * static_cast<std::size_t>(w) + (open ? item_side[i] + 1 : 1)];
+                    if (first.around != v) {
+                        first = {v, i};
                     } else {
-                        const int a = find(i), b = find(it->second);
+                        const int a = find(i), b = find(first.item);
                         part[std::max(a, b)] = std::min(a, b);
                     }
                 }
@@ -181,7 +182,7 @@ private:
             out_.front_nodes.push_back(v);
             return;
         }
-        doubled_.insert(v);
+        doubled_[v] = 1;
         for (int i = 0; i < count; ++i) {
             const auto it = copy.find(goes_to[find(i)]);
             if (it == copy.end()) continue;
@@ -216,7 +217,7 @@ private:
 
     template <std::size_t N>
     bool any_doubled(const std::array<int, N>& nodes) const {
-        return std::ranges::any_of(nodes, [&](int v) { return doubled_.contains(v); });
+        return std::ranges::any_of(nodes, [&](int v) { return doubled_[v] != 0; });
     }
 
     /// Number of elements at a node on the positive side less those on the negative.
@@ -281,7 +282,7 @@ private:
         // Elements that already lie on a lip join its group; the first one met per place.
         std::map<std::array<int, 3>, int> triangle_at;
         for (int t = 0; t < band_.triangles.size(); ++t)
-            if (band_.triangles.alive(t) && face_keys_.contains(sorted(band_.triangles[t]))) triangle_at.emplace(sorted(out_.triangles[t]), t);
+            if (band_.triangles.alive(t) && std::ranges::binary_search(face_keys_, sorted(band_.triangles[t]))) triangle_at.emplace(sorted(out_.triangles[t]), t);
         for (std::size_t k = 0; k < out_.triangle_twins.size(); ++k)
             triangle_at.emplace(sorted(out_.triangle_twins[k].nodes), -1 - static_cast<int>(k));
         for (const auto& [nodes, tetra] : open_faces_) {
@@ -325,9 +326,13 @@ private:
     std::vector<std::pair<std::array<int, 3>, int>> open_faces_;  // both sides of each: nodes outwards, tetrahedron
     std::vector<std::array<int, 2>> shell_edges_;
     std::unordered_set<std::uint64_t> open_edges_;
-    std::set<std::array<int, 3>> face_keys_;
-    std::set<int> interface_;
-    std::set<int> doubled_;
+    std::vector<std::array<int, 3>> face_keys_;  // ascending
+    std::vector<char> is_interface_, doubled_;   // by node
+    struct FirstItem {
+        int around = -1;
+        int item = -1;
+    };
+    std::vector<FirstItem> first_item_;  // of part_node(), by neighbour and side
     std::unordered_map<int, int> positive_copy_;
 };
 

@@ -120,10 +120,9 @@ void warn_of_grazing(Interface& f, const Tool& tool) {
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
-        const double gap = std::abs(tool.distance(band.nodes[v].at));
-        if (gap > 0.15 * band.mean_edge_length(v)) continue;
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
-        if (normal && normal->cross(tool.normal(band.nodes[v].at)).norm() < 0.15) ++near;
+        if (!normal || normal->cross(tool.normal(band.nodes[v].at)).norm() >= 0.15) continue;
+        if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v)) ++near;
     }
     if (near > 0)
         f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
@@ -284,17 +283,46 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
     watch_.skip();
-    marks_ = mark_deck(input);
+    if (!prepared.marks) own_marks_ = mark_deck(input);
+    marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
-    if (marks_.mesh) prepared_.totals = nullptr;  // other families
+    numbering_ = next_numbers(whole());
     if (input.solver_input) watch_.lap("mark deck");
 }
 
-Interface Operation::begin(std::span<const Blade> blades) {
+/// Goes on with the elements of the band and those `removed` alone; these are given their places among them.
+void Operation::crop_to_band(std::vector<CellRef>& removed) {
+    CellLists cells = elements_near(whole(), location_.level, prepared_.adjacency);
+    for (const CellRef& c : removed) cells[static_cast<int>(c.type)].push_back(c.cell);
+    for (std::vector<Index>& list : cells) std::ranges::sort(list);
+    for (CellRef& c : removed) {
+        const std::vector<Index>& list = cells[static_cast<int>(c.type)];
+        c.cell = std::ranges::lower_bound(list, c.cell) - list.begin();
+    }
+    part_ = crop(whole(), cells);
+    prepared_.adjacency = nullptr;
+    Location part{{}, {}, location_.tolerance, location_.crossed};
+    for (const Index n : part_->nodes) {
+        part.distance.push_back(location_.distance[n]);
+        part.level.push_back(location_.level[n]);
+    }
+    location_ = std::move(part);
+}
+
+std::vector<Index> Operation::pinned() const {
+    if (!part_) return marks_->pinned;
+    std::vector<Index> out;
+    for (std::size_t n = 0; n < part_->nodes.size(); ++n)
+        if (std::ranges::binary_search(marks_->pinned, part_->nodes[n])) out.push_back(static_cast<Index>(n));
+    return out;
+}
+
+Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pick_removed) {
     blades_.assign(blades.begin(), blades.end());
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
-    copy_ = std::async(std::launch::async, [this, measure = prepared_.totals == nullptr] {
-        return std::pair(std::make_unique<Mesh>(mesh()), measure ? family_totals(mesh()) : FamilyTotals());
+    const bool copies = !options_.band_only, measures = prepared_.totals == nullptr;
+    copy_ = std::async(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
+        return std::pair(copies ? std::make_unique<Mesh>(whole()) : nullptr, measures ? family_totals(whole()) : FamilyTotals());
     });
     int width = options_.transition.value_or(2);
     location_ = locate(mesh(), blades, width, prepared_.adjacency);
@@ -302,14 +330,18 @@ Interface Operation::begin(std::span<const Blade> blades) {
         width = bandwidth(location_, mesh());
         if (width > 2) location_ = locate(mesh(), blades, width, prepared_.adjacency);
     }
+    std::vector<CellRef> removed;
+    if (pick_removed) removed = pick_removed(whole(), location_.level);
+    if (options_.band_only) crop_to_band(removed);
     watch_.lap("locate");
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options_.feature_angle;
     constraint_options.drifting_groups = drifting_;
-    constraint_options.kept_hidden = marks_.kept;
-    constraint_options.pinned = marks_.pinned;
+    constraint_options.kept_hidden = marks_->kept;
+    constraint_options.pinned = pinned();
     const Tool& first = *blades.front().tool;
     Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}, {}};
+    f.deep_inside = std::move(removed);
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];
@@ -331,19 +363,22 @@ void Operation::take_laps(const std::vector<std::pair<std::string, double>>& lap
 
 Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
+    std::vector<char> opened(static_cast<std::size_t>(f.d.band.size()), 0);
+    for (const int v : lips.interface_nodes) opened[v] = 1;
     for (int v = 0; v < f.d.band.size(); ++v)
-        if (!std::ranges::binary_search(lips.interface_nodes, v)) f.d.contact[v] = {};
+        if (!opened[v]) f.d.contact[v] = {};
     find_node_sets(f);
     add_moved_nodes(f);
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
+    if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
-    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups);
+    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_);
     add_front(lips, naming.front, rebuilt);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
-    if (input_.solver_input) {
+    if (input_.solver_input && !part_) {
         carry_deck(mesh(), rebuilt.mesh, rebuilt.changes, options_.strict, deck_warnings);
         watch_.lap("carry deck");
     }
@@ -368,7 +403,12 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     FamilyTotals after = totals;
     count_cells(after, mesh(), rebuilt.before, -1);
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);
-    recount_nodes_and_facets(after, rebuilt.mesh);
+    if (part_) {
+        count_nodes_and_facets(after, mesh(), -1);
+        count_nodes_and_facets(after, rebuilt.mesh, +1);
+    } else {
+        recount_nodes_and_facets(after, rebuilt.mesh);
+    }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
     for (const GroupRecord& g : report_.groups)
         if (g.status == "became empty")

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -10,6 +12,7 @@
 
 #include "groups/group_report.h"
 #include "groups/preserve.h"
+#include "mesh/crop.h"
 #include "operators/interface.h"
 #include "operators/lips.h"
 #include "operators/locate.h"
@@ -29,12 +32,17 @@ struct OperatorOptions {
     /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
     std::optional<std::vector<std::string>> preserve;
     bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+    /// The result's mesh is only the elements near the tool, as the whole operation would make them: same numbers,
+    /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over has
+    /// to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
+    bool band_only = false;
 };
 
 /// What a session keeps of its mesh; all of it can be made anew at a cost linear in the mesh.
 struct Prepared {
     const Adjacency* adjacency = nullptr;
-    const FamilyTotals* totals = nullptr;
+    const FamilyTotals* totals = nullptr;   ///< of the marked mesh, if `marks` have one
+    const DeckMarks* marks = nullptr;
 };
 
 /// How an operator calls what it made.
@@ -53,12 +61,18 @@ public:
     Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
               const std::vector<std::string>& suffixes);
 
-    /// The input, with the solver's input marked.
-    const Mesh& mesh() const { return marks_.mesh ? *marks_.mesh : input_; }
+    /// What is worked on: the input, with the solver's input marked; of it, if asked for and after begin(), the band alone.
+    const Mesh& mesh() const { return part_ ? part_->mesh : whole(); }
+
+    /// The same, but never the band alone.
+    const Mesh& whole() const { return marks_->mesh ? *marks_->mesh : input_; }
+
+    /// Picks elements with no node in the band (level < 0) that the operator removes.
+    using PickRemoved = std::function<std::vector<CellRef>(const Mesh& mesh, const std::vector<std::int8_t>& level)>;
 
     /// Finds the band of `blades` and what its nodes have to keep to. Nodes on the first blade, where it is
     /// unbounded, are in contact with it. Throws as locate(), extract_band() and check_input_shape() do.
-    Interface begin(std::span<const Blade> blades);
+    Interface begin(std::span<const Blade> blades, const PickRemoved& pick_removed = {});
 
     /// Where the blades meet the mesh; known after begin().
     const Location& location() const { return location_; }
@@ -69,12 +83,18 @@ public:
     Result finish(Interface& f, const Lips& lips, const Naming& naming);
 
 private:
+    void crop_to_band(std::vector<CellRef>& removed);
+    std::vector<Index> pinned() const;
+
     const Mesh& input_;
     const OperatorOptions& options_;
     Prepared prepared_;
     Report report_;
     Stopwatch watch_{report_.seconds};
-    DeckMarks marks_;
+    DeckMarks own_marks_;
+    const DeckMarks* marks_;
+    Numbering numbering_;
+    std::optional<Crop> part_;
     std::vector<Blade> blades_;
     Location location_;
     std::vector<bool> drifting_;       // groups, by index; empty if none

@@ -13,15 +13,13 @@ namespace {
 
 class Rebuilder {
 public:
-    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips) : input_(input), f_(f), band_(f.d.band), lips_(lips) {
+    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips, const Numbering& numbering)
+        : input_(input), f_(f), band_(f.d.band), lips_(lips), next_node_(numbering.node), next_cell_(numbering.cell) {
         out_.mesh = std::move(copy);
     }
 
     Rebuilt run(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
-        next_node_ = input_.largest_node_id() + 1;
-        next_cell_ = input_.largest_cell_id() + 1;
-        if (input_.solver_input) next_cell_ = std::max(next_cell_, input_.solver_input->largest_other_element() + 1);
         write_nodes();
         find_mid_owners();
         write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
@@ -426,7 +424,7 @@ private:
     const BandMesh& band_;
     const Lips& lips_;
     Rebuilt out_;
-    Index next_node_ = 1, next_cell_ = 1;
+    Index next_node_, next_cell_;
     std::vector<Index> tetra_cell_, triangle_cell_, line_cell_, vertex_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
@@ -442,9 +440,15 @@ private:
 
 }  // namespace
 
+Numbering next_numbers(const Mesh& mesh) {
+    Numbering next{mesh.largest_node_id() + 1, mesh.largest_cell_id() + 1};
+    if (mesh.solver_input) next.cell = std::max(next.cell, mesh.solver_input->largest_other_element() + 1);
+    return next;
+}
+
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
-                const std::vector<std::vector<std::string>>& groups) {
-    return Rebuilder(input, std::move(copy), interface, lips).run(groups);
+                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering) {
+    return Rebuilder(input, std::move(copy), interface, lips, numbering).run(groups);
 }
 
 }  // namespace femscalpel

@@ -28,14 +28,23 @@ struct Rebuilt {
     Index kept_node(Index input_node) const { return place.empty() ? input_node : place[input_node]; }
 };
 
+/// The numbers that new nodes and elements get, in order from these on.
+struct Numbering {
+    Index node = 1;
+    Index cell = 1;
+};
+
+/// Those above the largest in use, also by elements outside the mesh that the solver's input has.
+Numbering next_numbers(const Mesh& mesh);
+
 /// Puts the band's changes into `copy`, a copy of `input`: moved nodes, split elements, doubled nodes, lip elements in
 /// all groups of `groups[Lips::Face::group]` (appended to the mesh's groups, in that order), removed elements and the
 /// nodes that only they had. Everything else is the input's, bit for bit. Children inherit the groups of their parent; a node born on an edge is in the node groups of
-/// both ends; a copied node is in all groups of its original. New numbers start above the largest in use.
+/// both ends; a copied node is in all groups of its original. New nodes and elements are numbered from `numbering` on.
 ///
 /// Mid-side nodes follow their edges in the band: half way, on the surface or curve the edge is on; where
 /// that would spoil an element's Jacobian at its integration points, on the chord. Or where Interface::mid_side says.
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
-                const std::vector<std::vector<std::string>>& groups);
+                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering);
 
 }  // namespace femscalpel

@@ -440,7 +440,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
         return moved ? Vec3((band.nodes[a].at + band.nodes[b].at) / 2) : bisector->geometry().middle(a, b);
     };
     auto [output, totals] = copy.get();
-    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(band), {});
+    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(band), {}, next_numbers(mesh));
     watch.lap("rebuild");
     report.warnings = f->warnings;
     report.warnings.insert(report.warnings.end(), rebuilt.warnings.begin(), rebuilt.warnings.end());

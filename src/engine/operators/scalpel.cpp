@@ -7,16 +7,18 @@ namespace femscalpel {
 
 struct Scalpel::State {
     std::shared_ptr<const Mesh> mesh;
+    DeckMarks marks;
     Adjacency adjacency;
     FamilyTotals totals;
 
-    Prepared prepared() const { return {&adjacency, &totals}; }
+    Prepared prepared() const { return {&adjacency, &totals, &marks}; }
 };
 
 Scalpel::Scalpel(std::shared_ptr<const Mesh> mesh) {
+    DeckMarks marks = mark_deck(*mesh);
     Adjacency adjacency(*mesh);
-    FamilyTotals totals = family_totals(*mesh);
-    state_ = std::make_unique<State>(State{std::move(mesh), std::move(adjacency), std::move(totals)});
+    FamilyTotals totals = family_totals(marks.mesh ? *marks.mesh : *mesh);
+    state_ = std::make_unique<State>(State{std::move(mesh), std::move(marks), std::move(adjacency), std::move(totals)});
 }
 
 Scalpel::~Scalpel() = default;

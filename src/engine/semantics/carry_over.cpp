@@ -699,14 +699,16 @@ private:
     }
 
     /// What a node of the result should have: all that its ancestors have in common, interpolated.
-    Values wanted_values(const Pool& pool, const NodeOrigins::Node& node) const {
+    Values wanted_values(const Pool& pool, std::size_t which) const {
+        const NodeOrigins::Node& node = origins_.nodes()[which];
         const auto old_values = [&](Index number) { return values_of(pool, before_, old_.numbers(), number); };
         std::vector<Values> of_ancestors, of_shares;
         for (const Index a : node.ancestors) {
             of_ancestors.push_back(old_values(a));
             if (of_ancestors.back().empty()) return {};
         }
-        for (const NodeOrigins::Share& s : node.shares) of_shares.push_back(old_values(s.node));
+        const std::vector<NodeOrigins::Share>& shares = origins_.shares(which);
+        for (const NodeOrigins::Share& s : shares) of_shares.push_back(old_values(s.node));
         Values out;
         for (const auto& [key, first] : of_ancestors.front()) {
             if (!std::ranges::all_of(of_ancestors, [&](const Values& v) { return v.contains(key); })) continue;
@@ -715,7 +717,7 @@ private:
             const double any = sources.front().at(key);
             double value = 0;
             for (std::size_t k = 0; k < sources.size(); ++k)
-                value += sources[k].at(key) * (inside ? node.shares[k].weight : 1 / static_cast<double>(sources.size()));
+                value += sources[k].at(key) * (inside ? shares[k].weight : 1 / static_cast<double>(sources.size()));
             const bool equal = std::ranges::all_of(sources, [&](const Values& v) { return v.at(key) == any; });
             out[key] = equal ? any : value;
         }
@@ -728,8 +730,9 @@ private:
         const std::size_t c = cards.back();
         const Card& card = input_.cards()[c];
         const CardContent content = *card_content(card);
-        for (const NodeOrigins::Node& node : origins_.nodes()) {
-            const Values wanted = wanted_values(pool, node);
+        for (std::size_t k = 0; k < origins_.nodes().size(); ++k) {
+            const NodeOrigins::Node& node = origins_.nodes()[k];
+            const Values wanted = wanted_values(pool, k);
             if (wanted.empty()) continue;
             const Values given = values_of(pool, after_, new_numbers_, node.number);
             const auto is_given = [&](int key, double value) {
@@ -790,10 +793,20 @@ private:
     std::vector<std::string> notes_, problems_;
 };
 
+/// Whether a deck has nothing that would have to follow a change: a mesh with sets, and cards that name neither.
+bool is_mesh_alone(const SolverInput& input) {
+    return input.other_elements().empty() && std::ranges::none_of(input.sets(), [](const DeckSet& s) { return s.closed; }) &&
+           std::ranges::all_of(input.cards(), [](const Card& card) {
+               const auto content = card_content(card);
+               return content && (*content == CardContent::mesh || *content == CardContent::nothing) && card.keyword != "VIEWFACTOR" &&
+                      reference_nodes(card).empty();
+           });
+}
+
 }  // namespace
 
 void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict, std::vector<std::string>& warnings) {
-    if (!before.solver_input) return;
+    if (!before.solver_input || is_mesh_alone(*before.solver_input)) return;
     CarryOver carry(before, after, changes);
     after.solver_input = carry.run();
     if (strict && !carry.problems().empty()) {

@@ -15,9 +15,9 @@ constexpr double smallest_share = 1e-7;
 
 /// Barycentric coordinates of `x`, or of its foot on a triangle or segment.
 std::vector<double> barycentric(const Mesh& mesh, std::span<const Index> nodes, int corners, const Vec3& x) {
-    Eigen::MatrixXd edges(3, corners - 1);
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, corners - 1);
     for (int k = 1; k < corners; ++k) edges.col(k - 1) = mesh.points[nodes[k]] - mesh.points[nodes[0]];
-    const Eigen::VectorXd along = edges.colPivHouseholderQr().solve(x - mesh.points[nodes[0]]);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along = edges.colPivHouseholderQr().solve(x - mesh.points[nodes[0]]);
     std::vector<double> out{1 - along.sum()};
     out.insert(out.end(), along.data(), along.data() + along.size());
     return out;
@@ -26,8 +26,8 @@ std::vector<double> barycentric(const Mesh& mesh, std::span<const Index> nodes, 
 }  // namespace
 
 NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, const Mesh& after,
-                         const NumberIndex& after_numbers, const Changes& changes) {
-    std::vector<Vec3> places;
+                         const NumberIndex& after_numbers, const Changes& changes)
+    : before_(before), before_numbers_(before_numbers) {
     for (Index n = 0; n < before.node_count(); ++n) {
         const Index number = before.node_ids[n];
         // An operator keeps the order of the nodes that stay; then no look-up is needed.
@@ -36,76 +36,77 @@ NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, 
         if (!now || after.points[*now] == before.points[n]) continue;
         const double moved = (after.points[*now] - before.points[n]).norm();
         moved_.emplace(number, moved);
-        nodes_.push_back({number, {number}, false, moved, {}});
-        places.push_back(after.points[*now]);
+        nodes_.push_back({number, {number}, false, moved, after.points[*now]});
     }
     std::unordered_map<Index, const std::vector<Index>*> born;
     for (const Changes::Born& b : changes.born) {
         born.emplace(b.node, &b.ancestors);
-        if (const auto now = after_numbers.node(b.node)) {
-            nodes_.push_back({b.node, b.ancestors, true, 0, {}});
-            places.push_back(after.points[*now]);
-        }
+        if (const auto now = after_numbers.node(b.node)) nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
     }
     for (const Changes::Copy& c : changes.copies) {
         copies_[c.source].push_back(c.node);
         const auto now = after_numbers.node(c.node);
         if (!now) continue;
         const auto source = born.find(c.source);
-        nodes_.push_back({c.node, source == born.end() ? std::vector<Index>{c.source} : *source->second, true, 0, {}});
-        places.push_back(after.points[*now]);
+        nodes_.push_back({c.node, source == born.end() ? std::vector<Index>{c.source} : *source->second, true, 0, after.points[*now]});
     }
-    find_shares(before, before_numbers, places);
+    shares_.resize(nodes_.size());
 }
 
-void NodeOrigins::find_shares(const Mesh& before, const NumberIndex& before_numbers, const std::vector<Vec3>& places) {
-    if (nodes_.empty()) return;
-    std::vector<std::vector<CellRef>> around;
-    std::vector<int> slot(static_cast<std::size_t>(before.node_count()), -1);
+const std::vector<NodeOrigins::Share>& NodeOrigins::shares(std::size_t k) const {
+    if (!shares_[k]) {
+        if (elements_.empty()) find_elements();
+        shares_[k] = find_shares(nodes_[k]);
+    }
+    return *shares_[k];
+}
+
+void NodeOrigins::find_elements() const {
+    std::vector<char> wanted(static_cast<std::size_t>(before_.node_count()), 0);
     for (const Node& n : nodes_)
         for (const Index a : n.ancestors)
-            if (const auto index = before_numbers.node(a); index && slot[*index] < 0) {
-                slot[*index] = static_cast<int>(around.size());
-                around.emplace_back();
-            }
-    const int dimension = before.dimension();
-    for (const CellBlock& b : before.blocks()) {
+            if (const auto index = before_numbers_.node(a)) wanted[*index] = 1;
+    const int dimension = before_.dimension();
+    for (const CellBlock& b : before_.blocks()) {
         const CellTraits& t = traits(b.type);
         if (!t.simplex || t.dimension == 0 || (t.dimension == 1 && dimension > 1)) continue;
         for (Index c = 0; c < b.size(); ++c)
             for (const Index n : b.nodes(c))
-                if (slot[n] >= 0) around[static_cast<std::size_t>(slot[n])].push_back({b.type, c});
+                if (wanted[n]) elements_[n].push_back({b.type, c});
     }
-    for (std::size_t k = 0; k < nodes_.size(); ++k) {
-        double best = outside;
-        int best_dimension = 0;
-        for (const Index a : nodes_[k].ancestors) {
-            const auto index = before_numbers.node(a);
-            if (!index) continue;
-            for (const CellRef& cell : around[static_cast<std::size_t>(slot[*index])]) {
-                const CellTraits& t = traits(cell.type);
-                if (t.dimension < best_dimension) continue;
-                const auto n = before.block(cell.type).nodes(cell.cell);
-                std::vector<double> l = barycentric(before, n, t.corners, places[k]);
-                const double inside = *std::ranges::min_element(l);
-                if (!(inside > best) && !(inside > outside && t.dimension > best_dimension)) continue;
-                best = inside;
-                best_dimension = t.dimension;
-                double sum = 0;
-                for (double& w : l) sum += (w = std::max(w, 0.0));
-                for (double& w : l) w /= sum;
-                std::vector<Share>& shares = nodes_[k].shares;
-                shares.clear();
-                const auto add = [&](Index node, double weight) {
-                    if (std::abs(weight) > smallest_share) shares.push_back({before.node_ids[node], weight});
-                };
-                for (int i = 0; i < t.corners; ++i) add(n[i], t.quadratic ? l[i] * (2 * l[i] - 1) : l[i]);
-                if (t.quadratic)
-                    for (std::size_t e = 0; e < t.edges.size(); ++e)
-                        add(n[static_cast<std::size_t>(t.corners) + e], 4 * l[t.edges[e][0]] * l[t.edges[e][1]]);
-            }
+}
+
+std::vector<NodeOrigins::Share> NodeOrigins::find_shares(const Node& node) const {
+    std::vector<Share> shares;
+    double best = outside;
+    int best_dimension = 0;
+    for (const Index a : node.ancestors) {
+        const auto index = before_numbers_.node(a);
+        const auto around = index ? elements_.find(*index) : elements_.end();
+        if (around == elements_.end()) continue;
+        for (const CellRef& cell : around->second) {
+            const CellTraits& t = traits(cell.type);
+            if (t.dimension < best_dimension) continue;
+            const auto n = before_.block(cell.type).nodes(cell.cell);
+            std::vector<double> l = barycentric(before_, n, t.corners, node.place);
+            const double inside = *std::ranges::min_element(l);
+            if (!(inside > best) && !(inside > outside && t.dimension > best_dimension)) continue;
+            best = inside;
+            best_dimension = t.dimension;
+            double sum = 0;
+            for (double& w : l) sum += (w = std::max(w, 0.0));
+            for (double& w : l) w /= sum;
+            shares.clear();
+            const auto add = [&](Index n_share, double weight) {
+                if (std::abs(weight) > smallest_share) shares.push_back({before_.node_ids[n_share], weight});
+            };
+            for (int i = 0; i < t.corners; ++i) add(n[i], t.quadratic ? l[i] * (2 * l[i] - 1) : l[i]);
+            if (t.quadratic)
+                for (std::size_t e = 0; e < t.edges.size(); ++e)
+                    add(n[static_cast<std::size_t>(t.corners) + e], 4 * l[t.edges[e][0]] * l[t.edges[e][1]]);
         }
     }
+    return shares;
 }
 
 const std::vector<Index>& NodeOrigins::copies_of(Index node) const {

@@ -27,7 +27,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _common_options(name, method, transition, feature_angle, strict, preserve) -> tuple:
+def _common_options(name, method, transition, feature_angle, strict, preserve, band_only) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -42,11 +42,14 @@ def _common_options(name, method, transition, feature_angle, strict, preserve) -
         preserve = [_arguments.text(group, "preserve") for group in preserve]
     if not isinstance(strict, bool):
         raise TypeError(f"strict must be True or False, not {_arguments.describe(strict)}")
-    return name, method, transition, feature_angle, preserve, strict
+    if not isinstance(band_only, bool):
+        raise TypeError(f"band_only must be True or False, not {_arguments.describe(band_only)}")
+    return name, method, transition, feature_angle, preserve, strict, band_only
 
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None) -> Result:
+          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
+          band_only: bool = False) -> Result:
     """Cracks a mesh along the whole of a tool.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -78,6 +81,11 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         The groups whose boundary keeps its shape when nodes move; the boundaries of others may drift, which leaves
         more freedom for the elements' shape. All are kept when not given; ``preserve=()`` keeps none. The skin and
         its feature lines are kept always, and so is what a deck's cards name by number.
+    band_only : bool
+        For previews: the result's mesh is only the elements near the tool, exactly as the whole operation would make
+        them, with their numbers, coordinates and groups. The report is that of the whole operation, but without what
+        carrying a CalculiX deck over has to say. With a :class:`Scalpel` this costs little more than the elements near
+        the tool.
 
     Returns
     -------
@@ -105,7 +113,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      _common_options(name, method, transition, feature_angle, strict, preserve)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only)))
 
 
 def _tools(tools) -> list:
@@ -126,7 +134,7 @@ def _depth(depth) -> Optional[float]:
 
 def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          depth: Optional[float] = None) -> Result:
+          depth: Optional[float] = None, band_only: bool = False) -> Result:
     """Drills one or several holes.
 
     What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
@@ -144,7 +152,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
         material; with several tools also one for each hole, ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
     method : {"snap", "deform"}
         "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
-    transition, feature_angle, strict, preserve
+    transition, feature_angle, strict, preserve, band_only
         As for :func:`crack`.
     depth : number, optional
         Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
@@ -167,7 +175,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
     >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
     >>> result.mesh.groups["HOLE_WALL"].ids
     """
-    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve),
+    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only),
                                       _depth(depth)))
 
 
@@ -186,7 +194,7 @@ def _walls(tool, width, other, bottom) -> tuple:
 
 def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
         name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-        preserve: Optional[Iterable[str]] = None) -> Result:
+        preserve: Optional[Iterable[str]] = None, band_only: bool = False) -> Result:
     """Cuts a slot: an incision between two planes.
 
     The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself is
@@ -211,7 +219,7 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
         middle plane (of `tool` and `other`), normals out of the material, and ``name_BOTTOM``.
     method : {"snap"}
         "deform" is for a single surface only.
-    transition, feature_angle, strict, preserve
+    transition, feature_angle, strict, preserve, band_only
         As for :func:`crack`.
 
     Returns
@@ -233,7 +241,7 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
     >>> saw.mesh.groups["CUT_BOTTOM"].ids
     """
     first, second, bottom = _walls(tool, width, other, bottom)
-    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve), bottom))
+    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only), bottom))
 
 
 def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
@@ -329,19 +337,20 @@ class Scalpel:
         return Mesh._wrap(self._session.mesh)
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None) -> Result:
+              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
+              band_only: bool = False) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve)))
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only)))
 
     def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              depth: Optional[float] = None) -> Result:
+              depth: Optional[float] = None, band_only: bool = False) -> Result:
         """As :func:`femscalpel.drill`, on the session's mesh."""
-        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve), _depth(depth)))
+        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only), _depth(depth)))
 
     def cut(self, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
             name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-            preserve: Optional[Iterable[str]] = None) -> Result:
+            preserve: Optional[Iterable[str]] = None, band_only: bool = False) -> Result:
         """As :func:`femscalpel.cut`, on the session's mesh."""
         first, second, bottom = _walls(tool, width, other, bottom)
-        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve), bottom))
+        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only), bottom))

@@ -82,6 +82,23 @@ class CrackObject(DocumentTest):
         self.recompute()
         self.assertEqual(self.crack.Proxy.report.transition, 3)
 
+    def test_preserved_groups(self):
+        self.assertEqual(self.crack.PreservedGroups, ["*"])
+        self.recompute()
+        kept = {g.name: g.boundary_kept for g in self.crack.Proxy.report.groups if g.status != "new"}
+        self.assertTrue(kept and all(kept.values()))
+        self.crack.PreservedGroups = ["LEFT"]
+        self.recompute()
+        kept = {g.name: g.boundary_kept for g in self.crack.Proxy.report.groups if g.status != "new"}
+        self.assertEqual({name for name, value in kept.items() if value}, {"LEFT"})
+        self.crack.PreservedGroups = ["NOSUCHGROUP"]
+        self.assertFails("NOSUCHGROUP")
+        self.crack.PreservedGroups = []
+        self.recompute()
+        self.assertFalse(any(g.boundary_kept for g in self.crack.Proxy.report.groups if g.status != "new"))
+        made = ObjectsFemScalpel.makeCrack(self.doc, self.source, "Other", preserve=["FIX"])
+        self.assertEqual(made.PreservedGroups, ["FIX"])
+
     def test_follows_its_source(self):
         self.recompute()
         count = self.crack.FemMesh.NodeCount

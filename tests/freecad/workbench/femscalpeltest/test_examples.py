@@ -55,7 +55,8 @@ SOLIDS = (
     Example("frequency_beamsimple", (1500, 48, 25), (0, 1, 0.1), frequency=True),
     Example("material_multiple_bendingbeam_fiveboxes", (47, 5, 5), (1, 0.1, 0.2)),
     Example("material_multiple_tensionrod_twoboxes", (5.2, 5, 5), (1, 0.1, 0)),
-    Example("material_nl_platewithhole", (0, 70, 0), (0, 1, 0.1)),
+    # With the crack open, the plastic plate does not bear its load any more.
+    Example("material_nl_platewithhole", (0, 70, 0), (0, 1, 0.1), tie=True, reaction=ITERATED),
     Example("thermomech_bimetall", (0, 2.4, 0), (0, 1, 0.05)),
     Example("thermomech_spine", (0, 12, 0), (0, 1, 0.1), reaction=ITERATED),
 )

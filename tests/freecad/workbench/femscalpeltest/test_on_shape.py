@@ -102,8 +102,9 @@ class OnShape(DocumentTest):
     def test_solids_keep_their_volume(self):
         shape, source = self.mesh_of("two solids", "1st", 3)
         crack = ObjectsFemScalpel.makeCrack(self.doc, source, origin=(0, 0, 11.5), normal=(0.3, 0, 1))
+        drifting = ObjectsFemScalpel.makeCrack(self.doc, source, origin=(0, 0, 11.5), normal=(0.3, 0, 1), preserve=())
         self.doc.recompute()
-        for mesh in (source, crack):
+        for mesh in (source, crack, drifting):
             for solid in shape.Solids:
                 nodes = set(mesh.FemMesh.getNodesBySolid(solid))
                 inside = [v for v in mesh.FemMesh.Volumes if nodes.issuperset(mesh.FemMesh.getElementNodes(v))]

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Document object: a FEM mesh, refined around a tool."""
+
+import femscalpel
+
+from .base import MeshOperation
+from .on_shape import nodes_of_long_edges
+from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, SHAPE_DEFAULTS, SHAPE_INPUTS, SHAPES, shape_of
+
+
+class Refine(MeshOperation):
+    """Proxy of a Fem::FemMeshObjectPython that holds its Source's mesh with shorter edges around a tool."""
+
+    Type = "FemScalpel::Refine"
+
+    INPUTS = (
+        *AXIS_INPUTS,
+        *SHAPE_INPUTS,
+        ("App::PropertyLength", "Size", "Longest edge wanted at the tool"),
+        ("App::PropertyLength", "Reach", "Size holds up to this distance from the tool"),
+        ("App::PropertyFloat", "Gradation", "How much longer edges may be per unit of distance beyond that"),
+        ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
+    )
+    DEFAULTS = {**AXIS_DEFAULTS, **SHAPE_DEFAULTS, "ToolShape": (list(SHAPES), "Cylinder"), "Size": (1,), "Gradation": (0.5,),
+                "FeatureAngle": (30,)}
+
+    def tools(self, obj):
+        return [shape_of(obj)]
+
+    def where_nodes_may_move(self, obj, mesh, tools):
+        return nodes_of_long_edges(mesh, tools, obj.Size.Value, obj.Gradation, obj.Reach.Value, rings=4)
+
+    def operate(self, obj, mesh, tools):
+        return femscalpel.refine(mesh, tools, obj.Size.Value, gradation=obj.Gradation, reach=obj.Reach.Value,
+                                 feature_angle=obj.FeatureAngle.Value)

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The document objects of the operators other than the planar crack."""
+
+import os
+
+import FreeCAD
+import numpy as np
+
+import femmesh_bridge
+import femscalpel as fs
+import ObjectsFemScalpel
+
+from .documents import DocumentTest, content
+from .meshes import box_with_groups, tetra_volumes
+
+ORIGIN, AXIS = (3.1, 2.4, 2.1), (0, 0, 1)  # an axis that a placement keeps to the last digit
+
+
+class Operators(DocumentTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = box_with_groups()
+        self.source = self.add_source(self.mesh)
+
+    def check(self, obj, expected):
+        """The object's mesh is what the engine makes (document objects keep no empty groups; lips are node groups)."""
+        self.doc.recompute()
+        self.assertNotIn("Invalid", obj.State)
+        mesh = femmesh_bridge.from_femmesh(obj.FemMesh)
+        nodes, elements, groups = content(mesh)
+        expected_nodes, expected_elements, expected_groups = content(expected.mesh)
+        self.assertEqual(nodes.keys(), expected_nodes.keys())
+        for number, point in nodes.items():
+            np.testing.assert_allclose(point, expected_nodes[number], atol=1e-12)
+        self.assertEqual(elements, {i: e for i, e in expected_elements.items() if e[0] == "tetra"})
+        made = {g.name for g in expected.report.groups if g.status == "new"}
+        self.assertEqual({k: v for k, v in groups.items() if k[0] not in made},
+                         {k: v for k, v in expected_groups.items() if v and k[0] not in made})
+        self.assertLessEqual({name for name in made if expected_groups.get((name, "element"))}, {name for name, _ in groups})
+        self.assertEqual(obj.NodesAdded, expected.report.nodes_added)
+        self.assertEqual(obj.MinimumQuality, expected.report.quality.after.minimum)
+        self.assertEqual(obj.Warnings, expected.report.warnings)
+        self.assertIn("LEFT", "\n".join(obj.GroupReport))
+        self.assertEqual(obj.Proxy.Type, "FemScalpel::" + type(obj.Proxy).__name__)
+        return mesh
+
+    def test_cylindrical_crack(self):
+        crack = ObjectsFemScalpel.makeCylindricalCrack(self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=1.4, group_name="CYL")
+        mesh = self.check(crack, fs.crack(self.mesh, fs.Cylinder(ORIGIN, AXIS, 1.4), name="CYL"))
+        self.assertIn("CYL_N", mesh.groups)
+
+    def test_oblique_axis(self):
+        axis = (0.1, 0.2, 1)
+        crack = ObjectsFemScalpel.makeCylindricalCrack(self.doc, self.source, origin=ORIGIN, axis=axis, radius=1.4)
+        self.doc.recompute()
+        mesh = femmesh_bridge.from_femmesh(crack.FemMesh)
+        lip = mesh.points[np.isin(mesh.node_ids, mesh.groups["CRACK_P"].ids)]
+        self.assertGreater(len(lip), 10)
+        self.assertLess(np.abs(fs.Cylinder(ORIGIN, axis, 1.4).distance(lip)).max(), 1e-9)
+
+    def test_curved_cracks(self):
+        for tool, expected, options in (
+                ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 1.3), {"radius": 1.3}),
+                ("Sphere", fs.Sphere(ORIGIN, 1.5), {"radius": 1.5}),
+                ("Torus", fs.Torus(ORIGIN, AXIS, 1.4, 0.9), {"radius": 1.4, "tube_radius": 0.9}),
+                ("Cone", fs.Cone(ORIGIN, AXIS, 3, 20), {"radius": 3, "half_angle": 20})):
+            with self.subTest(tool=tool):
+                crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool=tool, origin=ORIGIN, axis=AXIS, **options)
+                self.check(crack, fs.crack(self.mesh, expected))
+                self.doc.removeObject(crack.Name)
+
+    def test_refine(self):
+        for tool, expected in (("Plane", fs.Plane(ORIGIN, AXIS)), ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 0.5)),
+                               ("Sphere", fs.Sphere(ORIGIN, 0.5))):
+            with self.subTest(tool=tool):
+                refined = ObjectsFemScalpel.makeRefine(self.doc, self.source, tool=tool, origin=ORIGIN, axis=AXIS, radius=0.5,
+                                                       size=0.6, reach=0.1, gradation=0.7)
+                mesh = self.check(refined, fs.refine(self.mesh, expected, 0.6, gradation=0.7, reach=0.1))
+                self.assertAlmostEqual(tetra_volumes(mesh.points, mesh.cells["tetra"]).sum(), 120, places=7)
+                self.assertGreater(mesh.cell_count, self.mesh.cell_count)
+                self.doc.removeObject(refined.Name)
+
+    def test_drill(self):
+        hole = fs.Cylinder(ORIGIN, AXIS, 0.9)
+        drill = ObjectsFemScalpel.makeDrill(self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=0.9)
+        mesh = self.check(drill, fs.drill(self.mesh, hole))
+        self.assertLess(tetra_volumes(mesh.points, mesh.cells["tetra"]).sum(), 120)
+        drill.Through, drill.Depth = False, 0.5
+        mesh = self.check(drill, fs.drill(self.mesh, hole, depth=0.5))
+        self.assertIn("HOLE_BOTTOM", mesh.groups)
+        drill.Through = True
+        self.check(drill, fs.drill(self.mesh, hole))
+
+    def test_several_holes(self):
+        placement = FreeCAD.Placement(FreeCAD.Vector(3, 2.5, 2), FreeCAD.Rotation(30, 0, 0))
+        positions = [(1.6, 0, 0), (-1.6, 0, 0)]
+        tools = [fs.Cylinder(placement.multVec(FreeCAD.Vector(*p)), (0, 0, 1), 0.9) for p in positions]
+        fine = fs.refine(self.mesh, tools, 0.7).mesh
+        drill = ObjectsFemScalpel.makeDrill(self.doc, self.add_source(fine), placement=placement, radius=0.9, positions=positions,
+                                            group_name="BOLT")
+        mesh = self.check(drill, fs.drill(fine, tools, name="BOLT"))
+        self.assertLessEqual({"BOLT_WALL", "BOLT_WALL1", "BOLT_WALL2"}, set(mesh.groups))
+
+    def test_chain_in_order_through_a_file(self):
+        refined = ObjectsFemScalpel.makeRefine(self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=0.8, size=0.7)
+        drill = ObjectsFemScalpel.makeDrill(self.doc, refined, origin=ORIGIN, axis=AXIS, radius=0.8)
+        crack = ObjectsFemScalpel.makeCrack(self.doc, drill, origin=(3, 2.5, 2), normal=(1, 0.1, 0))
+        self.doc.recompute()
+        names = {crack.FemMesh.getGroupName(g) for g in crack.FemMesh.Groups}
+        self.assertLessEqual({"HOLE_WALL", "CRACK_P", "CRACK_N", "LEFT"}, names)
+        count = crack.FemMesh.NodeCount
+        path = os.path.join(self.folder.name, "saved.FCStd")
+        self.doc.saveAs(path)
+        FreeCAD.closeDocument(self.doc.Name)
+        self.doc = FreeCAD.openDocument(path)
+        self.doc.Refine.touch()
+        self.doc.recompute()
+        self.assertEqual([o.Proxy.Type for o in (self.doc.Refine, self.doc.Drill, self.doc.Crack)],
+                         ["FemScalpel::Refine", "FemScalpel::Drill", "FemScalpel::Crack"])
+        self.assertEqual(self.doc.Crack.FemMesh.NodeCount, count)
+        self.doc.Drill.Radius = 0.6
+        self.doc.recompute()
+        self.assertGreater(self.doc.Crack.FemMesh.NodeCount, count - 100)
+        self.assertNotEqual(self.doc.Crack.FemMesh.NodeCount, count)
+        self.doc.Refine.Size = 0
+        self.doc.recompute()
+        self.assertEqual([o.FemMesh.NodeCount for o in (self.doc.Refine, self.doc.Drill, self.doc.Crack)], [0, 0, 0])
+
+    def test_bad_arguments(self):
+        objects = self.doc.Objects
+        for make in ("makeCylindricalCrack", "makeCurvedCrack", "makeDrill", "makeRefine"):
+            function = getattr(ObjectsFemScalpel, make)
+            with self.subTest(make=make):
+                with self.assertRaisesRegex(TypeError, "source"):
+                    function(self.doc, None)
+                with self.assertRaisesRegex(ValueError, "axis is the zero vector"):
+                    function(self.doc, self.source, axis=(0, 0, 0))
+                with self.assertRaisesRegex(ValueError, "origin and axis, not both"):
+                    function(self.doc, self.source, placement=FreeCAD.Placement(), axis=(0, 0, 1))
+        with self.assertRaises(ValueError):
+            ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Saw")
+        self.assertEqual(self.doc.Objects, objects, "a refused call left an object behind")
+
+    def test_impossible_tools_are_told(self):
+        for obj, message in (
+                (ObjectsFemScalpel.makeDrill(self.doc, self.source, radius=0), "radius"),
+                (ObjectsFemScalpel.makeDrill(self.doc, self.source, radius=50), "all|everything|whole"),
+                (ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Torus", radius=1, tube_radius=2), "radius"),
+                (ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Sphere", origin=(99, 0, 0)), "misses"),
+                (ObjectsFemScalpel.makeRefine(self.doc, self.source, size=0), "size")):
+            with self.subTest(message=message):
+                self.doc.recompute()
+                self.assertIn("Invalid", obj.State)
+                self.assertEqual(obj.FemMesh.NodeCount, 0)
+                self.assertRegex(obj.getStatusString(), message)
