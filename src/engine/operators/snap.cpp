@@ -324,9 +324,9 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void snap_to_tool(Interface& f, const Tool& tool) {
-    cut_along(f, {&tool, {}, {}, -1});
-    f.d.barrier = &tool;
+void snap_to_tool(Interface& f, const Blade& blade) {
+    cut_along(f, blade);
+    f.d.barrier = blade.tool;
     for (int v = 0; v < f.d.band.size(); ++v)
         f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
     relax_band(f);

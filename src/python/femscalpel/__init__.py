@@ -21,6 +21,7 @@ from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Cone, Cylinder, Plane, Sphere, Tool, Torus
+from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within
 
 __version__ = "0.1.0"
 
@@ -28,14 +29,19 @@ __all__ = [
     "BoundaryPart",
     "Cone",
     "Cylinder",
+    "CylinderPart",
+    "Disk",
+    "Ellipse",
     "ElementaryGroup",
     "ElementQuality",
     "Error",
     "Group",
     "GroupRecord",
     "Groups",
+    "HalfPlane",
     "Mesh",
     "Plane",
+    "Polygon",
     "Quality",
     "QualityError",
     "QualitySummary",
@@ -49,6 +55,7 @@ __all__ = [
     "Torus",
     "UnsupportedElementError",
     "VirtualBoundary",
+    "Within",
     "WriteError",
     "crack",
     "cut",

@@ -10,6 +10,7 @@ from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
 from .report import Report
 from .tools import Plane, Tool, check_tool
+from .within import Within, check_within
 
 METHODS = ("snap", "deform")
 
@@ -49,8 +50,8 @@ def _common_options(name, method, transition, feature_angle, strict, preserve, b
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          band_only: bool = False) -> Result:
-    """Cracks a mesh along the whole of a tool.
+          band_only: bool = False, within: Optional[Within] = None) -> Result:
+    """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
     nodes on it. The lips are coincident; the original nodes stay with the negative side. Only elements near the
@@ -87,6 +88,11 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         carrying a CalculiX deck over has to say. With a :class:`Scalpel` this costs little more than the elements near
         the tool.
 
+    within : Disk, Ellipse, Polygon, HalfPlane or CylinderPart, optional
+        The part of the tool that cracks; the whole when not given. Its border is the crack front: nodes there lie on it
+        and stay single, and ``name_FRONT`` is an element group of segments along it, in order (in a shell mesh, the
+        nodes at its tips). It may reach out of the mesh.
+
     Returns
     -------
     Result
@@ -113,7 +119,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only), check_within(within)))
 
 
 def _tools(tools) -> list:
@@ -338,9 +344,10 @@ class Scalpel:
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              band_only: bool = False) -> Result:
+              band_only: bool = False, within: Optional[Within] = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only)))
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only),
+                                                check_within(within)))
 
     def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
