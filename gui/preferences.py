@@ -29,7 +29,7 @@ def quality_threshold():
 def colour(name, default):
     """A colour of the preview as three numbers in [0, 1]."""
     packed = "".join(f"{round(255 * c):02X}" for c in default) + "FF"
-    value = _group().GetUnsigned(name, int(packed, 16))
+    value = _group().GetUnsigned("Colour" + name, int(packed, 16))
     return tuple(((value >> shift) & 255) / 255 for shift in (24, 16, 8))
 
 

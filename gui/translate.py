@@ -8,6 +8,7 @@ import FreeCAD
 FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ICONS = os.path.join(FOLDER, "resources", "icons")
 TRANSLATIONS = os.path.join(FOLDER, "resources", "translations")
+PREFERENCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "preferences.ui")
 
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP

@@ -25,8 +25,11 @@ class FemScalpelWorkbench(FreeCADGui.Workbench):
 
 
 # exec() gives functions no sight of this file's names, so everything is done at its top level.
-from femscalpelgui.translate import TRANSLATIONS
+from femscalpelgui.translate import ICONS, PREFERENCES, TRANSLATIONS
 
 FreeCADGui.addLanguagePath(TRANSLATIONS)
 FreeCADGui.updateLocale()
+FreeCADGui.addIconPath(ICONS)
+FreeCADGui.addPreferencePage(PREFERENCES, "FemScalpel")
+FreeCAD.__unit_test__ += ["TestFemScalpelGui"]
 FreeCADGui.addWorkbench(FemScalpelWorkbench())

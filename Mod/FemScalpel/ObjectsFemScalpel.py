@@ -11,6 +11,8 @@
 
 import FreeCAD
 
+import femmesh_bridge
+import femscalpel
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.curved_crack import CurvedCrack
@@ -175,6 +177,14 @@ def renameGroup(obj, old, new, kind=None):
     or when `obj` is made by FemScalpel: its groups come from its source and from its property GroupName.
     """
     rename_group(obj, old, new, kind)
+
+
+def exportMesh(obj, path):
+    """Writes the mesh of `obj` with its groups and numbers to a .med, .inp or .vtu file.
+
+    Raises femscalpel.WriteError when the file cannot be written or the ending is another.
+    """
+    femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
 
 
 def _check_source(doc, source):

@@ -4,11 +4,14 @@
 import FreeCADGui
 
 from .crack import Crack
+from .cylindrical_crack import CylindricalCrack
+from .drill import Drill
+from .export import Export
 from .group_inspector import GroupInspector
 from .mesh_quality import MeshQuality
 
 #: In the order of menu and toolbar; None is a separator.
-COMMANDS = (Crack, None, GroupInspector, MeshQuality)
+COMMANDS = (Crack, CylindricalCrack, Drill, None, GroupInspector, MeshQuality, Export)
 
 
 def register():

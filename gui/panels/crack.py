@@ -24,7 +24,7 @@ class CrackPanel(ToolPanel):
         return femscalpel.Plane(self.geometry.origin(), self.geometry.direction())
 
     def operation(self, tool, options):
-        return lambda scalpel: scalpel.crack(tool, **options)
+        return lambda scalpel: scalpel.crack(tool, band_only=True, **options)
 
     def read(self, obj):
         super().read(obj)
@@ -36,6 +36,4 @@ class CrackPanel(ToolPanel):
         return {**geometry, **super().arguments()}
 
     def settings(self):
-        placement = self.geometry.placement()
-        text = f"FreeCAD.Placement(FreeCAD.Vector{tuple(placement.Base)!r}, FreeCAD.Rotation{placement.Rotation.Q!r})"
-        return {"PlanePlacement": text, **super().settings()}
+        return {"PlanePlacement": self.placement_text(), **super().settings()}

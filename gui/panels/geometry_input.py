@@ -78,6 +78,10 @@ class GeometryInput(QtCore.QObject):
         """Rotation that takes z to the direction, turned no further than needed."""
         return FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), self.direction())
 
+    def placement(self):
+        """The tool as a placement whose z axis is the direction."""
+        return FreeCAD.Placement(self.origin(), self.rotation())
+
     def error(self):
         """What is wrong with the numbers, "" when nothing is."""
         if not self.direction().Length > 0:

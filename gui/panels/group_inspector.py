@@ -9,6 +9,7 @@ from PySide import QtCore, QtGui
 import femscalpel
 
 from ..group_use import users_of_groups
+from ..macro import record_import
 from ..translate import form, icon, translate
 from ..view import colours
 from ..view.group_scene import GroupScene
@@ -196,8 +197,7 @@ class GroupInspectorPanel(ViewPanel):
             return
         fields.show_error(self.panel.error, "")
         try:
-            FreeCADGui.addModule("FreeCAD")
-            FreeCADGui.addModule("ObjectsFemScalpel")
+            record_import()
             document = "FreeCAD.ActiveDocument" if FreeCAD.ActiveDocument == self.document \
                 else f"FreeCAD.getDocument({self.document.Name!r})"
             FreeCADGui.doCommand(f"ObjectsFemScalpel.renameGroup({document}.getObject({self.source_object.Name!r}), "

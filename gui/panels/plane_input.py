@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Input of a plane."""
 
-import FreeCAD
-
 from ..translate import translate
 from ..view import picking
 from ..view.handles import PlaneHandles
@@ -32,10 +30,6 @@ class PlaneInput(GeometryInput):
         if self._offset is not None:
             self._offset.set(0)
         super().set_pose(origin, direction, radius, from_handle)
-
-    def placement(self):
-        """The plane as a placement whose z axis is the normal."""
-        return FreeCAD.Placement(self.origin(), self.rotation())
 
     def _flip(self):
         self.set_pose(self.origin(), self.direction().negative())

@@ -8,6 +8,7 @@ from PySide import QtCore, QtGui
 import femscalpel
 
 from .. import preferences
+from ..macro import record_import
 from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.group_shape import group_shape
@@ -25,7 +26,6 @@ class ToolPanel(ViewPanel):
 
     #: Set by subclasses.
     TITLE = ICON = GROUP_NAME = OBJECT_NAME = MAKE = ""
-    REMOVES_INSIDE = False
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object)
@@ -66,6 +66,10 @@ class ToolPanel(ViewPanel):
         """The femscalpel.Tool as entered."""
         raise NotImplementedError
 
+    def removed_region(self, tool):
+        """Something whose distance(points) is negative where the operator removes material; None when it removes none."""
+        return None
+
     def operation(self, tool, options):
         """A function of a femscalpel.Scalpel that returns the Result; called on another thread, so it must not look at
         the panel."""
@@ -89,6 +93,11 @@ class ToolPanel(ViewPanel):
         options = self.entered()
         return {"Method": repr(options["method"]), "Transition": repr(options["transition"] or 0),
                 "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"])}
+
+    def placement_text(self):
+        """The geometry's placement as exact Python text."""
+        placement = self.geometry.placement()
+        return f"FreeCAD.Placement(FreeCAD.Vector{tuple(placement.Base)!r}, FreeCAD.Rotation{placement.Rotation.Q!r})"
 
     # Set-up.
 
@@ -174,8 +183,8 @@ class ToolPanel(ViewPanel):
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        operate, source, removes = self.operation(tool, self.entered()), self.source, self.REMOVES_INSIDE
-        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), tool, removes))
+        operate, source, region = self.operation(tool, self.entered()), self.source, self.removed_region(tool)
+        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), tool, region))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
@@ -305,8 +314,7 @@ class ToolPanel(ViewPanel):
         document = self._text_of(None)
         arguments = [document, self._text_of(self.source_object), f"name={self.OBJECT_NAME!r}"]
         arguments += [f"{name}={text}" for name, text in self.arguments().items()]
-        FreeCADGui.addModule("FreeCAD")
-        FreeCADGui.addModule("ObjectsFemScalpel")
+        record_import()
         before = set(self.document.Objects)
         FreeCADGui.doCommand(f"ObjectsFemScalpel.{self.MAKE}({', '.join(arguments)})")
         obj = next(o for o in self.document.Objects if o not in before)
@@ -317,7 +325,7 @@ class ToolPanel(ViewPanel):
         return obj
 
     def _change_object(self):
-        FreeCADGui.addModule("FreeCAD")
+        record_import()
         text = self._text_of(self.edited)
         for name, value in self.settings().items():
             FreeCADGui.doCommand(f"{text}.{name} = {value}")

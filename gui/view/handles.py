@@ -165,3 +165,53 @@ class PlaneHandles(Handles):
     def _local(self):
         shift = self._shift("move")
         return FreeCAD.Vector(0, 0, shift.x), self._turn("tilt"), 0.0
+
+
+class AxisHandles(Handles):
+    """Cross to move the axis sideways, ball to tilt it, arrow on the wall for the radius; the cylinder itself as a pane."""
+
+    def _tool_shape(self):
+        pane = coin.SoSeparator()
+        pick = coin.SoPickStyle()
+        pick.style = coin.SoPickStyle.UNPICKABLE
+        pane.addChild(pick)
+        axis = coin.SoSeparator()
+        light = coin.SoLightModel()
+        light.model = coin.SoLightModel.BASE_COLOR
+        axis.addChild(light)
+        axis.addChild(material(TOOL))
+        ends = coin.SoCoordinate3()
+        ends.point.setValues(0, 2, [(0, 0, -0.6 * self._size), (0, 0, 0.6 * self._size)])
+        axis.addChild(ends)
+        axis.addChild(coin.SoLineSet())
+        pane.addChild(axis)
+        upright = coin.SoRotation()
+        upright.rotation.setValue(_sb_rotation(FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), _Z)))
+        pane.addChild(upright)
+        pane.addChild(two_sided())
+        pane.addChild(material(TOOL, 0.85))
+        self._cylinder = coin.SoCylinder()
+        self._cylinder.height = 1.2 * self._size
+        self._cylinder.parts = coin.SoCylinder.SIDES
+        pane.addChild(self._cylinder)
+        return pane
+
+    def _make_draggers(self):
+        self._wall = coin.SoTranslation()
+        # Between the arrows of the cross, which may be as long as the radius.
+        between = coin.SoRotation()
+        between.rotation.setValue(_sb_rotation(FreeCAD.Rotation(_Z, 45)))
+        self._add("radius", coin.SoTranslate1Dragger(), 0.05 * self._size, (between, self._wall))
+        self._add("tilt", coin.SoRotateSphericalDragger(), 0.05 * self._size)
+        self._add("move", coin.SoTranslate2Dragger(), 0.12 * self._size)
+
+    def set_pose(self, position, rotation, radius=0.0):
+        super().set_pose(position, rotation, radius)
+        self._cylinder.radius = max(radius, 1e-6 * self._size)
+        # Beyond the ball, which takes every click within it.
+        self._wall.translation.setValue(max(radius, 0.05 * self._size) + 0.05 * self._size, 0, 0)
+
+    def _local(self):
+        shift = self._shift("move")
+        radius = max(self._radius + self._shift("radius").x, 1e-3 * self._size)
+        return FreeCAD.Vector(shift.x, shift.y, 0), self._turn("tilt"), radius

@@ -165,7 +165,7 @@ def centres(faces, points):
     return total / np.where(triangle, 3.0, 4.0)[:, None]
 
 
-def make_preview(source, result, tool, removes_inside=False):
+def make_preview(source, result, tool, removed_region=None):
     """The PreviewData of a result.
 
     Parameters
@@ -174,8 +174,8 @@ def make_preview(source, result, tool, removes_inside=False):
     result : femscalpel.Result
         Of the whole mesh, or of its band alone.
     tool : femscalpel.Tool
-    removes_inside : bool
-        The operator removes what lies on the tool's negative side.
+    removed_region : object, optional
+        Its distance(points) is negative where the operator removes material.
     """
     mesh, report = result.mesh, result.report
     node_count = source.mesh.node_count
@@ -202,8 +202,8 @@ def make_preview(source, result, tool, removes_inside=False):
     replaced = source.cells.per_cell(lambda nodes: near[nodes].any(axis=1)).astype(bool)
     replaced[source.cells.find(cells.ids)] = True
     removed = Surface.make(points, np.empty((0, 4), np.int64), np.empty(0), np.empty(0, np.int64))
-    if removes_inside:
-        inside = tool.distance(source.points) <= 1e-9 * source.size
+    if removed_region is not None:
+        inside = removed_region.distance(source.points) <= 1e-9 * source.size
         gone = source.cells.per_cell(lambda nodes: inside[nodes].all(axis=1)).astype(bool)
         replaced |= gone
         removed = _removed(source, gone)

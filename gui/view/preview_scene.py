@@ -4,6 +4,7 @@
 import numpy as np
 from pivy import coin
 
+from .. import preferences
 from . import colours
 from .group_scene import lights
 from .nodes import FaceNode, LabelNode, LineNode, PointNode
@@ -35,16 +36,17 @@ class PreviewScene:
         self.rest = FaceNode("FemScalpelRest", colours.NEUTRAL, edges=(0.62, 0.64, 0.68))
         self.band = FaceNode("FemScalpelBand", colours.NEUTRAL, edges=(0.15, 0.15, 0.18))
         self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.82)
-        self.removed = FaceNode("FemScalpelRemoved", colours.REMOVED, transparency=0.75)
-        self.borders = LineNode("FemScalpelBorders", colours.BORDER, 2.5)
-        self.outline = LineNode("FemScalpelOutline", colours.INTERFACE, 4.0)
-        self.front = LineNode("FemScalpelFront", colours.FRONT, 5.0)
-        self.moved = PointNode("FemScalpelMoved", colours.MOVED, 4.0)
+        self.removed = FaceNode("FemScalpelRemoved", preferences.colour("Removed", colours.REMOVED), transparency=0.75)
+        self.borders = LineNode("FemScalpelBorders", preferences.colour("Border", colours.BORDER), 2.5)
+        self.outline = LineNode("FemScalpelOutline", preferences.colour("Interface", colours.INTERFACE), 4.0)
+        self.front = LineNode("FemScalpelFront", preferences.colour("Front", colours.FRONT), 5.0)
+        self.moved = PointNode("FemScalpelMoved", preferences.colour("Moved", colours.MOVED), 4.0)
         self.worst = LineNode("FemScalpelWorst", (0, 0, 0), 3.0)
         self.worst_label = LabelNode("FemScalpelWorstLabel", (0, 0, 0))
-        self.highlight_faces = FaceNode("FemScalpelHighlight", colours.HIGHLIGHT, edges=(0.45, 0.3, 0.0), in_front=True)
-        self.highlight_lines = LineNode("FemScalpelHighlightLines", colours.HIGHLIGHT, 6.0)
-        self.highlight_points = PointNode("FemScalpelHighlightPoints", colours.HIGHLIGHT, 9.0)
+        highlight = preferences.colour("Highlight", colours.HIGHLIGHT)
+        self.highlight_faces = FaceNode("FemScalpelHighlight", highlight, edges=(0.45, 0.3, 0.0), in_front=True)
+        self.highlight_lines = LineNode("FemScalpelHighlightLines", highlight, 6.0)
+        self.highlight_points = PointNode("FemScalpelHighlightPoints", highlight, 9.0)
         # A highlighted group is in front of everything: it may lie inside the part.
         front = coin.SoAnnotation()
         for part in (self.worst, self.highlight_lines, self.highlight_points):

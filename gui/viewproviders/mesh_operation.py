@@ -11,6 +11,8 @@ from ..translate import icon, translate
 #: Type of the object's proxy: (icon, module of panels, class).
 PANELS = {
     "FemScalpel::Crack": ("FemScalpel_Crack", "crack", "CrackPanel"),
+    "FemScalpel::CylindricalCrack": ("FemScalpel_CylindricalCrack", "cylindrical_crack", "CylindricalCrackPanel"),
+    "FemScalpel::Drill": ("FemScalpel_Drill", "drill", "DrillPanel"),
 }
 
 

@@ -25,9 +25,10 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as home:
         times = pathlib.Path(home) / "times.txt"
-        environment = {**os.environ, "FREECAD_USER_HOME": home, "FEMSCALPEL_BENCH_MESH": str(arguments.mesh), "FEMSCALPEL_BENCH_TIMES": str(times)}
+        environment = {**os.environ, "FREECAD_USER_HOME": home, "PYTHONPATH": str(arguments.workbench),
+                       "FEMSCALPEL_BENCH_MESH": str(arguments.mesh), "FEMSCALPEL_BENCH_TIMES": str(times)}
         # FreeCAD prints a line per group; what is measured goes to a file of its own.
-        done = subprocess.run([arguments.freecadcmd, "-M", str(arguments.workbench), __file__], env=environment, stdin=subprocess.DEVNULL,
+        done = subprocess.run([arguments.freecadcmd, __file__], env=environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
         if not times.exists() or not times.read_text().endswith("done\n"):
             sys.exit(f"{done.stdout[-3000:]}\nFreeCAD did not finish (exit status {done.returncode})")
@@ -71,9 +72,10 @@ def measure():
     last = processor_time()
     document.recompute()
     lap("crack object, first recomputation")
-    for k in range(2):
-        crack.PlanePlacement.Base.x += 0.1
-        crack.touch()
+    for k in range(1, 3):
+        placement = crack.PlanePlacement
+        placement.Base = FreeCAD.Vector(ORIGIN[0] + 0.1 * k, *ORIGIN[1:])
+        crack.PlanePlacement = placement
         last = processor_time()
         document.recompute()
         lap("crack object, plane moved")

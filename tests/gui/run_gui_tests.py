@@ -17,7 +17,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--freecad", required=True)
     parser.add_argument("--workbench", required=True, help="folder Mod/FemScalpel to test")
-    parser.add_argument("--path", action="append", default=[], help="further folder with Python modules")
     parser.add_argument("--screenshots", required=True, help="folder for the pictures; made anew")
     parser.add_argument("--script", default=str(HERE / "run_in_freecad.py"), help="what FreeCAD opens")
     parser.add_argument("tests", nargs="*", help="module or test names")
@@ -29,7 +28,6 @@ def main():
             **os.environ, "FREECAD_USER_HOME": home, "PYTHONDONTWRITEBYTECODE": "1", "LIBGL_ALWAYS_SOFTWARE": "1",
             "QTWEBENGINE_DISABLE_SANDBOX": "1", "LC_ALL": "C.UTF-8",
             "FEMSCALPEL_TESTS": " ".join(arguments.tests), "FEMSCALPEL_TEST_RESULT": outcome,
-            "FEMSCALPEL_TEST_PATH": os.pathsep.join([str(HERE), *arguments.path]),
             "FEMSCALPEL_SCREENSHOTS": arguments.screenshots}
         command = ["xvfb-run", "-a", "-s", "-screen 0 1280x900x24 -dpi 96", arguments.freecad, arguments.script,
                    "--module-path", arguments.workbench]

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs unittest modules inside FreeCAD's window; FreeCAD is given this file to open.
 
-FEMSCALPEL_TESTS: names of modules or tests; FEMSCALPEL_TEST_PATH: folders with them; FEMSCALPEL_TEST_RESULT: file for the
-outcome.
+FEMSCALPEL_TESTS: names of modules or tests; FEMSCALPEL_TEST_RESULT: file for the outcome.
 """
 
 import os
-import sys
 import traceback
 
 from PySide import QtCore
@@ -17,7 +15,6 @@ def run():
     with open(os.environ["FEMSCALPEL_TEST_RESULT"], "w", buffering=1) as out:
         try:
             import unittest
-            sys.path += os.environ["FEMSCALPEL_TEST_PATH"].split(os.pathsep)
             suite = unittest.defaultTestLoader.loadTestsFromNames(os.environ["FEMSCALPEL_TESTS"].split())
             done = unittest.TextTestRunner(out, verbosity=2).run(suite)
             code = 0 if done.wasSuccessful() and done.testsRun else 1

@@ -9,7 +9,7 @@ import numpy as np
 import femmesh_bridge
 from femscalpel.mesh import CELL_TYPES
 
-from .on_shape import element_of
+from .geometry import element_of
 
 
 def put_into_analysis(obj, strict=True):

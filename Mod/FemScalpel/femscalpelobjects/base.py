@@ -10,7 +10,9 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from .on_shape import OnShape, bookkeeping_groups, nodes_around, shapes_of
+from .geometry import shapes_of
+from .mesh_parts import nodes_around
+from .on_shape import OnShape, bookkeeping_groups
 
 # Attribute bits of addProperty.
 OUTPUT = 8  # setting it does not ask for a recompute

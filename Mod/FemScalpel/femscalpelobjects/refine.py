@@ -4,7 +4,7 @@
 import femscalpel
 
 from .base import MeshOperation
-from .on_shape import nodes_of_long_edges
+from .mesh_parts import nodes_of_long_edges
 from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, SHAPE_DEFAULTS, SHAPE_INPUTS, SHAPES, shape_of
 
 

@@ -12,13 +12,12 @@ void deform(Deformable& d, const std::vector<int>& interface, const std::vector<
     const std::vector<Vec3> spread = bar_network_displacements(d, interface, given, transition);
     for (std::size_t k = 0; k < transition.size(); ++k) {
         const int v = transition[k];
-        if (spread[k].isZero()) continue;
+        if (spread[k].isZero() || !quality_around_is_below(0.5, d, v)) continue;
         Vec3 x = d.band.nodes[v].at + spread[k];
         if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         // Node by node the displacement is only right once all have moved, so a loss is tolerated while
         // elements stay sound.
-        const double before = quality_around(d, v, d.band.nodes[v].at);
-        if (before < 0.5 && quality_around(d, v, x) > before) d.band.nodes[v].at = x;
+        if (quality_around(d, v, x) > quality_around(d, v, d.band.nodes[v].at)) d.band.nodes[v].at = x;
     }
     std::vector<int> movable = interface;
     movable.insert(movable.end(), transition.begin(), transition.end());

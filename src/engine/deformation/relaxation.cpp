@@ -225,6 +225,13 @@ double quality_around(const Deformable& d, int node, const Vec3& x) {
     return star.empty() ? 1 : star.worst(x);
 }
 
+bool quality_around_is_below(double limit, const Deformable& d, int node) {
+    return std::ranges::any_of(d.band.tetras.around(node), [&](int t) { return tetra_is_below(limit, d, t); }) ||
+           std::ranges::any_of(d.band.triangles.around(node), [&](int t) {
+               return d.constraints.is_shell(d.band.triangles.origin(t)) && shell_quality(d, t) < limit;
+           });
+}
+
 long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options) {
     BandMesh& band = d.band;
     std::vector<char> may_move(static_cast<std::size_t>(band.size()), 0);

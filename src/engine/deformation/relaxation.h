@@ -51,6 +51,9 @@ bool tetra_is_below(double limit, const Deformable& d, int tetra);
 /// Smallest quality of the elements around a node, were it at `x`.
 double quality_around(const Deformable& d, int node, const Vec3& x);
 
+/// Whether it is below `limit` where the node is, at less cost.
+bool quality_around_is_below(double limit, const Deformable& d, int node);
+
 struct RelaxationOptions {
     double target = 0.55;  ///< nodes all of whose elements are better than this are left alone
     int sweeps = 8;        ///< at most, for each exponent

@@ -253,6 +253,7 @@ class GuiTest(unittest.TestCase):
         window = FreeCADGui.getMainWindow()
         window.resizeDocks([window.findChild(QtGui.QDockWidget, "Combo View")], [330], QtCore.Qt.Horizontal)
         self.reported = len(report_view())
+        window.findChild(QtGui.QDockWidget, "Report view").hide()
         self.doc = FreeCAD.newDocument("GuiTest")
         self.doc.UndoMode = 1
         spin(0.05)

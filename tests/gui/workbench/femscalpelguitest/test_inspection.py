@@ -5,9 +5,9 @@ import numpy as np
 
 import femmesh_bridge
 import femscalpel as fs
-from gui_testing import *  # noqa: F403
-from gui_testing import GuiTest
-from test_crack_panel import long_box, traces
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest
+from .test_crack_panel import long_box, traces
 
 from PySide import QtCore, QtGui
 

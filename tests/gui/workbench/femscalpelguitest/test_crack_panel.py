@@ -12,29 +12,21 @@ from PySide import QtCore, QtGui
 import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
-from gui_testing import *  # noqa: F403
-from gui_testing import GuiTest, QTest
-from meshes import grid_box
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest, QTest
+from .mesh_content import content_of
+from femscalpeltest.meshes import grid_box
 
 
-def long_box():
-    """A box 14 x 5 x 4 with overlapping groups."""
-    plain = grid_box((14, 5, 4), (14.0, 5.0, 4.0))
+def long_box(parts=1):
+    """A box 14 x 5 x 4 of bricks of 1 / parts, cut into tetrahedra, with overlapping groups."""
+    plain = grid_box((14 * parts, 5 * parts, 4 * parts), (14.0, 5.0, 4.0))
     node_ids, cell_ids = 10 * np.arange(1, plain.node_count + 1) + 7, 3 * np.arange(1, plain.cell_count + 1) + 100
     middle = plain.points[plain.cells["tetra"]].mean(axis=1)
     groups = {"LEFT": ("element", cell_ids[middle[:, 0] < 5]), "RIGHT": ("element", cell_ids[middle[:, 0] > 5]),
               "CORE": ("element", cell_ids[abs(middle[:, 1] - 2.5) < 1.5]), "FIX": ("node", node_ids[plain.points[:, 0] == 0]),
               "TOP": ("node", node_ids[plain.points[:, 2] == 4])}
     return fs.Mesh(plain.points, plain.cells, node_ids, {"tetra": cell_ids}, groups)
-
-
-def content(obj):
-    """Nodes, elements and groups of a mesh object, to compare exactly."""
-    mesh = obj.FemMesh
-    nodes = {n: tuple(p) for n, p in mesh.Nodes.items()}
-    elements = {e: mesh.getElementNodes(e) for e in (*mesh.Edges, *mesh.Faces, *mesh.Volumes)}
-    groups = sorted((mesh.getGroupName(g), mesh.getGroupElementType(g), tuple(sorted(mesh.getGroupElements(g)))) for g in mesh.Groups)
-    return nodes, elements, groups
 
 
 def enter_plane(origin, normal):
@@ -88,20 +80,20 @@ class CrackCommand(CrackTest):
         self.assertFalse(self.mesh.ViewObject.Visibility)
         self.assertTrue(crack.ViewObject.Visibility)
         screenshot("crack_2_made")
-        made = content(crack)
+        made = content_of(crack)
 
         self.assertEqual(self.doc.UndoNames, ["Crack"])
         self.doc.undo()
         self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
         self.assertTrue(self.mesh.ViewObject.Visibility)
         self.doc.redo()
-        self.assertEqual(content(self.doc.Crack), made)
+        self.assertEqual(content_of(self.doc.Crack), made)
 
     def test_edited_by_double_click(self):
         crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0), group_name="FIRST")
         self.doc.recompute()
         self.doc.clearUndos()
-        before = content(crack)
+        before = content_of(crack)
         crack.ViewObject.doubleClicked()
         self.wait_for_preview()
         self.assertEqual(FreeCADGui.ActiveDocument.getInEdit().Object.Name, crack.Name)
@@ -114,19 +106,19 @@ class CrackCommand(CrackTest):
         self.assertIsNone(FreeCADGui.ActiveDocument.getInEdit())
         self.assertAlmostEqual(crack.PlanePlacement.Base.x, 2.4)
         self.assertEqual(crack.GroupName, "SECOND")
-        after = content(crack)
+        after = content_of(crack)
         self.assertNotEqual(after, before)
         self.assertEqual(len(self.doc.UndoNames), 1)
         self.doc.undo()
         self.assertEqual(crack.GroupName, "FIRST")
-        self.assertEqual(content(crack), before)
+        self.assertEqual(content_of(crack), before)
         self.doc.redo()
-        self.assertEqual(content(crack), after)
+        self.assertEqual(content_of(crack), after)
 
     def test_edit_cancelled(self):
         crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0))
         self.doc.recompute()
-        before, mesh = traces(self.doc), content(crack)
+        before, mesh = traces(self.doc), content_of(crack)
         crack.ViewObject.doubleClicked()
         self.wait_for_preview()
         type_into("offset", "0.7")
@@ -134,7 +126,7 @@ class CrackCommand(CrackTest):
         press_cancel()
         spin(0.1)
         self.assertEqual(traces(self.doc), before)
-        self.assertEqual(content(crack), mesh)
+        self.assertEqual(content_of(crack), mesh)
 
     def test_cancel_leaves_no_trace(self):
         before = traces(self.doc)

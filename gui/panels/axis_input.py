@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Input of a cylinder: axis and radius."""
+
+from ..translate import translate
+from ..view import picking
+from ..view.handles import AxisHandles
+from . import fields
+from .geometry_input import GeometryInput, _round_step
+
+
+class AxisInput(GeometryInput):
+    """An axis by point and direction, by two nodes, a cylindrical face, an edge or a point on a face; and a radius."""
+
+    UI = "axis_input.ui"
+    NODES = 2
+
+    def __init__(self, source_object):
+        self._radius = None
+        super().__init__(source_object)
+        step = _round_step(self.size / 50)
+        self._radius = fields.Number(self.form.radius, self._tell, _round_step(self.size / 10), step)
+
+    def radius(self):
+        return self._radius.value if self._radius is not None else 0.0
+
+    def _set_radius(self, radius):
+        self._radius.set(radius)
+
+    def error(self):
+        return super().error() or ("" if self.radius() > 0 else translate("FemScalpel", "The radius must be larger than 0."))
+
+    def _make_handles(self, view):
+        return AxisHandles(view, self.size, self._dragged)
+
+    def _ask_geometry(self):
+        return translate("FemScalpel", "Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face "
+                                       "(the axis is normal to it). Escape stops.")
+
+    def _from_nodes(self, points):
+        return picking.axis_through(points)
+
+    def _from_click(self, click):
+        return picking.axis(click, self.source)
+
+    def close(self):
+        super().close()
+        self._radius = None

@@ -1,0 +1,818 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+  <context>
+    <name>AxisInput</name>
+    <message>
+      <source>2 nodes</source>
+      <translation>2 Knoten</translation>
+    </message>
+    <message>
+      <source>A point of the axis: x</source>
+      <translation>Ein Punkt der Achse: x</translation>
+    </message>
+    <message>
+      <source>A point of the axis: y</source>
+      <translation>Ein Punkt der Achse: y</translation>
+    </message>
+    <message>
+      <source>A point of the axis: z</source>
+      <translation>Ein Punkt der Achse: z</translation>
+    </message>
+    <message>
+      <source>Axis</source>
+      <translation>Achse</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Mitte</translation>
+    </message>
+    <message>
+      <source>Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face: the axis is normal to it there</source>
+      <translation>Klicken Sie auf eine Zylinderfläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche: dort steht die Achse senkrecht</translation>
+    </message>
+    <message>
+      <source>Click two nodes of the mesh in the 3-D view: the axis goes through them</source>
+      <translation>Klicken Sie in der 3D-Ansicht auf zwei Knoten des Netzes: die Achse geht hindurch</translation>
+    </message>
+    <message>
+      <source>Direction of the axis: x</source>
+      <translation>Richtung der Achse: x</translation>
+    </message>
+    <message>
+      <source>Direction of the axis: y</source>
+      <translation>Richtung der Achse: y</translation>
+    </message>
+    <message>
+      <source>Direction of the axis: z</source>
+      <translation>Richtung der Achse: z</translation>
+    </message>
+    <message>
+      <source>Geometry</source>
+      <translation>Geometrie</translation>
+    </message>
+    <message>
+      <source>Moves the point to the middle of the mesh</source>
+      <translation>Setzt den Punkt in die Mitte des Netzes</translation>
+    </message>
+    <message>
+      <source>Point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>R</source>
+      <translation>R</translation>
+    </message>
+    <message>
+      <source>Radius of the cylinder</source>
+      <translation>Radius des Zylinders</translation>
+    </message>
+    <message>
+      <source>The axis is the view direction</source>
+      <translation>Die Achse ist die Blickrichtung</translation>
+    </message>
+    <message>
+      <source>View</source>
+      <translation>Ansicht</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>z</source>
+      <translation>z</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel</name>
+    <message>
+      <source>%1 elements; smallest %2, mean %3.</source>
+      <translation>%1 Elemente; kleinster Wert %2, Mittel %3.</translation>
+    </message>
+    <message>
+      <source>%1 groups, %2 nodes, %3 elements.</source>
+      <translation>%1 Gruppen, %2 Knoten, %3 Elemente.</translation>
+    </message>
+    <message>
+      <source>%1 has an error. Mend it, or select another mesh.</source>
+      <translation>%1 hat einen Fehler. Beheben Sie ihn oder wählen Sie ein anderes Netz.</translation>
+    </message>
+    <message>
+      <source>%1 has no mesh yet: it is empty. Make the mesh first.</source>
+      <translation>%1 hat noch kein Netz: es ist leer. Erzeugen Sie zuerst das Netz.</translation>
+    </message>
+    <message>
+      <source>%1 has no source mesh. Set its property Source to a FEM mesh first.</source>
+      <translation>%1 hat kein Ausgangsnetz. Setzen Sie zuerst die Eigenschaft Source auf ein FEM-Netz.</translation>
+    </message>
+    <message>
+      <source>%1 is not a FEM mesh. Select the mesh in the tree.</source>
+      <translation>%1 ist kein FEM-Netz. Wählen Sie das Netz im Baum.</translation>
+    </message>
+    <message>
+      <source>%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).</source>
+      <translation>%1 Knoten verschoben, %2 hinzugefügt; %3 Elemente hinzugefügt, %4 entfernt. Mean ratio mindestens %5 (vorher: %6).</translation>
+    </message>
+    <message>
+      <source>%1 nodes moved; boundary at most %2 mm from where it was</source>
+      <translation>%1 Knoten verschoben; Rand höchstens %2 mm von seiner alten Lage</translation>
+    </message>
+    <message>
+      <source>After</source>
+      <translation>Nachher</translation>
+    </message>
+    <message>
+      <source>Another task panel is open. Close it first.</source>
+      <translation>Ein anderer Aufgabenbereich ist offen. Schließen Sie ihn zuerst.</translation>
+    </message>
+    <message>
+      <source>Before</source>
+      <translation>Vorher</translation>
+    </message>
+    <message>
+      <source>Bounding (BE)</source>
+      <translation>Begrenzend (BE)</translation>
+    </message>
+    <message>
+      <source>By group</source>
+      <translation>Nach Gruppe</translation>
+    </message>
+    <message>
+      <source>By quality</source>
+      <translation>Nach Güte</translation>
+    </message>
+    <message>
+      <source>CalculiX (*.inp)</source>
+      <translation>CalculiX (*.inp)</translation>
+    </message>
+    <message>
+      <source>Change</source>
+      <translation>Änderung</translation>
+    </message>
+    <message>
+      <source>Changed part</source>
+      <translation>Geänderter Teil</translation>
+    </message>
+    <message>
+      <source>Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face (the axis is normal to it). Escape stops.</source>
+      <translation>Klicken Sie auf eine Zylinderfläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche (die Achse steht senkrecht darauf). Escape bricht ab.</translation>
+    </message>
+    <message>
+      <source>Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.</source>
+      <translation>Klicken Sie auf eine ebene Fläche, eine Kante (die Ebene steht senkrecht darauf), einen Bezug oder eine Skizze. Escape bricht ab.</translation>
+    </message>
+    <message>
+      <source>Click node %1 of %2 on the mesh. Escape stops.</source>
+      <translation>Klicken Sie auf Knoten %1 von %2 des Netzes. Escape bricht ab.</translation>
+    </message>
+    <message>
+      <source>Crack</source>
+      <translation>Riss</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
+      <translation>Reißt das FEM-Netz entlang eines Zylinders auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along a plane and keeps its groups</source>
+      <translation>Reißt das FEM-Netz entlang einer Ebene auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
+      <translation>Reißt, bohrt und schneidet FEM-Netze und erhält ihre Gruppen</translation>
+    </message>
+    <message>
+      <source>Cut away</source>
+      <translation>Aufgeschnitten</translation>
+    </message>
+    <message>
+      <source>Cylindrical crack</source>
+      <translation>Zylindrischer Riss</translation>
+    </message>
+    <message>
+      <source>Drill</source>
+      <translation>Bohrung</translation>
+    </message>
+    <message>
+      <source>Drills a hole into the FEM mesh and keeps its groups</source>
+      <translation>Bohrt ein Loch in das FEM-Netz und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Edit</source>
+      <translation>Bearbeiten</translation>
+    </message>
+    <message>
+      <source>Element</source>
+      <translation>Element</translation>
+    </message>
+    <message>
+      <source>Elementary groups</source>
+      <translation>Elementargruppen</translation>
+    </message>
+    <message>
+      <source>Export mesh</source>
+      <translation>Netz exportieren</translation>
+    </message>
+    <message>
+      <source>Export mesh…</source>
+      <translation>Netz exportieren…</translation>
+    </message>
+    <message>
+      <source>Group</source>
+      <translation>Gruppe</translation>
+    </message>
+    <message>
+      <source>Group inspector</source>
+      <translation>Gruppen-Inspektor</translation>
+    </message>
+    <message>
+      <source>Groups</source>
+      <translation>Gruppen</translation>
+    </message>
+    <message>
+      <source>Isolated (IE)</source>
+      <translation>Einzeln (IE)</translation>
+    </message>
+    <message>
+      <source>Kind</source>
+      <translation>Art</translation>
+    </message>
+    <message>
+      <source>Linking (LE)</source>
+      <translation>Verbindend (LE)</translation>
+    </message>
+    <message>
+      <source>MED, Code_Aster and SALOME (*.med)</source>
+      <translation>MED, Code_Aster und SALOME (*.med)</translation>
+    </message>
+    <message>
+      <source>Mean ratio</source>
+      <translation>Mean ratio</translation>
+    </message>
+    <message>
+      <source>Measure</source>
+      <translation>Maß</translation>
+    </message>
+    <message>
+      <source>Members</source>
+      <translation>Mitglieder</translation>
+    </message>
+    <message>
+      <source>Mesh quality</source>
+      <translation>Netzgüte</translation>
+    </message>
+    <message>
+      <source>No preview.</source>
+      <translation>Keine Vorschau.</translation>
+    </message>
+    <message>
+      <source>No preview: see the message in red.</source>
+      <translation>Keine Vorschau: siehe die Meldung in Rot.</translation>
+    </message>
+    <message>
+      <source>Number of elements by mean ratio (1: equilateral, 0: flat). Bars: after; line: before</source>
+      <translation>Anzahl der Elemente nach Mean ratio (1: gleichseitig, 0: flach). Balken: nachher; Linie: vorher</translation>
+    </message>
+    <message>
+      <source>Open a document with a FEM mesh first.</source>
+      <translation>Öffnen Sie zuerst ein Dokument mit einem FEM-Netz.</translation>
+    </message>
+    <message>
+      <source>ParaView (*.vtu)</source>
+      <translation>ParaView (*.vtu)</translation>
+    </message>
+    <message>
+      <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
+      <translation>Wählen Sie eine Zylinderfläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche.</translation>
+    </message>
+    <message>
+      <source>Pick a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh.</source>
+      <translation>Wählen Sie eine ebene Fläche, eine Kante, eine Bezugsebene oder -linie, eine Skizze oder eine Seite des Netzes.</translation>
+    </message>
+    <message>
+      <source>Reading the mesh…</source>
+      <translation>Netz wird gelesen…</translation>
+    </message>
+    <message>
+      <source>Scaled Jacobian</source>
+      <translation>Skalierte Jacobi-Determinante</translation>
+    </message>
+    <message>
+      <source>Several FEM meshes are selected. Select one.</source>
+      <translation>Mehrere FEM-Netze sind gewählt. Wählen Sie eines.</translation>
+    </message>
+    <message>
+      <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
+      <translation>Zeigt die Gruppen eines FEM-Netzes, was sie umfassen und was sie verwendet</translation>
+    </message>
+    <message>
+      <source>Shows the quality of the elements of a FEM mesh in colours and finds the worst</source>
+      <translation>Zeigt die Güte der Elemente eines FEM-Netzes in Farben und findet die schlechtesten</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Größe</translation>
+    </message>
+    <message>
+      <source>Smallest angle (dihedral in solids)</source>
+      <translation>Kleinster Winkel (bei Volumen zwischen Seiten)</translation>
+    </message>
+    <message>
+      <source>Status</source>
+      <translation>Zustand</translation>
+    </message>
+    <message>
+      <source>That edge is curved. Pick a straight or a circular edge.</source>
+      <translation>Diese Kante ist gekrümmt. Wählen Sie eine gerade oder eine runde Kante.</translation>
+    </message>
+    <message>
+      <source>That face is curved. Pick a planar face.</source>
+      <translation>Diese Fläche ist gekrümmt. Wählen Sie eine ebene Fläche.</translation>
+    </message>
+    <message>
+      <source>That is not the mesh. Click a node of the mesh.</source>
+      <translation>Das ist nicht das Netz. Klicken Sie auf einen Knoten des Netzes.</translation>
+    </message>
+    <message>
+      <source>The direction is zero. Give one, or pick it from the 3-D view.</source>
+      <translation>Die Richtung ist null. Geben Sie eine an oder wählen Sie sie in der 3D-Ansicht.</translation>
+    </message>
+    <message>
+      <source>The document has %1 FEM meshes. Select the one you mean in the tree.</source>
+      <translation>Das Dokument hat %1 FEM-Netze. Wählen Sie das gemeinte im Baum.</translation>
+    </message>
+    <message>
+      <source>The document has no FEM mesh. Make one in the FEM workbench, or import a mesh file.</source>
+      <translation>Das Dokument hat kein FEM-Netz. Erzeugen Sie eines im Arbeitsbereich FEM oder importieren Sie eine Netzdatei.</translation>
+    </message>
+    <message>
+      <source>The mesh has neither faces nor volumes.</source>
+      <translation>Das Netz hat weder Flächen noch Volumen.</translation>
+    </message>
+    <message>
+      <source>The object could not be computed; see the report view.</source>
+      <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
+    </message>
+    <message>
+      <source>The radius must be larger than 0.</source>
+      <translation>Der Radius muss größer als 0 sein.</translation>
+    </message>
+    <message>
+      <source>The three nodes lie on a line. Pick nodes that span a plane.</source>
+      <translation>Die drei Knoten liegen auf einer Geraden. Wählen Sie Knoten, die eine Ebene aufspannen.</translation>
+    </message>
+    <message>
+      <source>Type</source>
+      <translation>Typ</translation>
+    </message>
+    <message>
+      <source>Used by</source>
+      <translation>Verwendet von</translation>
+    </message>
+    <message>
+      <source>Value</source>
+      <translation>Wert</translation>
+    </message>
+    <message>
+      <source>Whole part</source>
+      <translation>Ganzes Teil</translation>
+    </message>
+    <message>
+      <source>Worse than your threshold of %1.</source>
+      <translation>Schlechter als Ihre Schwelle von %1.</translation>
+    </message>
+    <message>
+      <source>Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)</source>
+      <translation>Schreibt das FEM-Netz mit seinen Gruppen für Code_Aster (MED), CalculiX (inp) oder ParaView (vtu)</translation>
+    </message>
+    <message>
+      <source>became empty</source>
+      <translation>leer geworden</translation>
+    </message>
+    <message>
+      <source>changed</source>
+      <translation>geändert</translation>
+    </message>
+    <message>
+      <source>deform: only move nodes</source>
+      <translation>deform: nur Knoten bewegen</translation>
+    </message>
+    <message>
+      <source>edges</source>
+      <translation>Kanten</translation>
+    </message>
+    <message>
+      <source>empty</source>
+      <translation>leer</translation>
+    </message>
+    <message>
+      <source>faces</source>
+      <translation>Flächen</translation>
+    </message>
+    <message>
+      <source>facets</source>
+      <translation>Facetten</translation>
+    </message>
+    <message>
+      <source>kept</source>
+      <translation>erhalten</translation>
+    </message>
+    <message>
+      <source>mean ratio; line: before</source>
+      <translation>Mean ratio; Linie: vorher</translation>
+    </message>
+    <message>
+      <source>new</source>
+      <translation>neu</translation>
+    </message>
+    <message>
+      <source>nodes</source>
+      <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>points</source>
+      <translation>Punkte</translation>
+    </message>
+    <message>
+      <source>snap: move and split</source>
+      <translation>snap: bewegen und teilen</translation>
+    </message>
+    <message>
+      <source>untouched</source>
+      <translation>unberührt</translation>
+    </message>
+    <message>
+      <source>volumes</source>
+      <translation>Volumen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpelPreferences</name>
+    <message>
+      <source>Borders of groups</source>
+      <translation>Gruppenränder</translation>
+    </message>
+    <message>
+      <source>Chosen group</source>
+      <translation>Gewählte Gruppe</translation>
+    </message>
+    <message>
+      <source>Colours of the preview</source>
+      <translation>Farben der Vorschau</translation>
+    </message>
+    <message>
+      <source>Crack and walls</source>
+      <translation>Riss und Wände</translation>
+    </message>
+    <message>
+      <source>Crack front</source>
+      <translation>Rissfront</translation>
+    </message>
+    <message>
+      <source>General</source>
+      <translation>Allgemein</translation>
+    </message>
+    <message>
+      <source>Method</source>
+      <translation>Verfahren</translation>
+    </message>
+    <message>
+      <source>Moved nodes</source>
+      <translation>Verschobene Knoten</translation>
+    </message>
+    <message>
+      <source>New operations</source>
+      <translation>Neue Operationen</translation>
+    </message>
+    <message>
+      <source>Put new meshes in place of their source in the analysis</source>
+      <translation>Neue Netze in der Analyse an die Stelle ihrer Quelle setzen</translation>
+    </message>
+    <message>
+      <source>Removed elements</source>
+      <translation>Entfernte Elemente</translation>
+    </message>
+    <message>
+      <source>Transition (rings of elements that may move)</source>
+      <translation>Übergang (Ringe von Elementen, die sich bewegen dürfen)</translation>
+    </message>
+    <message>
+      <source>Warn of elements with a mean ratio below</source>
+      <translation>Warnen vor Elementen mit Mean ratio unter</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatisch</translation>
+    </message>
+    <message>
+      <source>deform: only move nodes</source>
+      <translation>deform: nur Knoten bewegen</translation>
+    </message>
+    <message>
+      <source>snap: move and split</source>
+      <translation>snap: bewegen und teilen</translation>
+    </message>
+  </context>
+  <context>
+    <name>GroupInspector</name>
+    <message>
+      <source>All</source>
+      <translation>Alle</translation>
+    </message>
+    <message>
+      <source>Groups</source>
+      <translation>Gruppen</translation>
+    </message>
+    <message>
+      <source>Groups, or the disjoint classes of entities that are in exactly the same groups</source>
+      <translation>Gruppen, oder die disjunkten Klassen von Teilen, die in genau denselben Gruppen sind</translation>
+    </message>
+    <message>
+      <source>None</source>
+      <translation>Keine</translation>
+    </message>
+    <message>
+      <source>Only selected</source>
+      <translation>Nur gewählte</translation>
+    </message>
+    <message>
+      <source>Shows every group</source>
+      <translation>Zeigt jede Gruppe</translation>
+    </message>
+    <message>
+      <source>Shows no group</source>
+      <translation>Zeigt keine Gruppe</translation>
+    </message>
+    <message>
+      <source>Shows the selected groups alone</source>
+      <translation>Zeigt nur die gewählten Gruppen</translation>
+    </message>
+    <message>
+      <source>Tick what is to be seen; double-click a name to rename the group</source>
+      <translation>Haken Sie an, was zu sehen sein soll; ein Doppelklick auf den Namen benennt die Gruppe um</translation>
+    </message>
+    <message>
+      <source>What of a group is drawn: its members, or its virtual boundary</source>
+      <translation>Was von einer Gruppe gezeichnet wird: ihre Mitglieder oder ihr virtueller Rand</translation>
+    </message>
+  </context>
+  <context>
+    <name>Hole</name>
+    <message>
+      <source>Depth</source>
+      <translation>Tiefe</translation>
+    </message>
+    <message>
+      <source>Hole</source>
+      <translation>Loch</translation>
+    </message>
+    <message>
+      <source>Through</source>
+      <translation>Durchgehend</translation>
+    </message>
+    <message>
+      <source>Through the whole part; else a blind hole with a flat bottom</source>
+      <translation>Durch das ganze Teil; sonst ein Sackloch mit ebenem Grund</translation>
+    </message>
+    <message>
+      <source>Where the bottom of the hole is: from the point, along the axis</source>
+      <translation>Wo der Grund des Loches ist: vom Punkt aus, entlang der Achse</translation>
+    </message>
+  </context>
+  <context>
+    <name>Incision</name>
+    <message>
+      <source>Distance of the two walls; the plane is in the middle between them</source>
+      <translation>Abstand der beiden Wände; die Ebene liegt in der Mitte dazwischen</translation>
+    </message>
+    <message>
+      <source>Incision</source>
+      <translation>Einschnitt</translation>
+    </message>
+    <message>
+      <source>Width</source>
+      <translation>Breite</translation>
+    </message>
+  </context>
+  <context>
+    <name>MeshQuality</name>
+    <message>
+      <source>Click an element to zoom to it</source>
+      <translation>Ein Klick auf ein Element holt es heran</translation>
+    </message>
+    <message>
+      <source>Elements below this value are shown</source>
+      <translation>Elemente unter diesem Wert werden gezeigt</translation>
+    </message>
+    <message>
+      <source>Only below</source>
+      <translation>Nur unter</translation>
+    </message>
+    <message>
+      <source>Quality</source>
+      <translation>Güte</translation>
+    </message>
+    <message>
+      <source>Shows the elements below the value alone</source>
+      <translation>Zeigt nur die Elemente unter dem Wert</translation>
+    </message>
+    <message>
+      <source>What is measured</source>
+      <translation>Was gemessen wird</translation>
+    </message>
+    <message>
+      <source>Worst elements</source>
+      <translation>Schlechteste Elemente</translation>
+    </message>
+  </context>
+  <context>
+    <name>Options</name>
+    <message>
+      <source>Feature angle</source>
+      <translation>Kantenwinkel</translation>
+    </message>
+    <message>
+      <source>Group name</source>
+      <translation>Gruppenname</translation>
+    </message>
+    <message>
+      <source>Method</source>
+      <translation>Verfahren</translation>
+    </message>
+    <message>
+      <source>Options</source>
+      <translation>Optionen</translation>
+    </message>
+    <message>
+      <source>Prefix of the new mesh groups</source>
+      <translation>Vorsilbe der neuen Netzgruppen</translation>
+    </message>
+    <message>
+      <source>Put in place of its source in the analysis</source>
+      <translation>In der Analyse an die Stelle der Quelle setzen</translation>
+    </message>
+    <message>
+      <source>Rings of elements around the tool that may move</source>
+      <translation>Ringe von Elementen um das Werkzeug, die sich bewegen dürfen</translation>
+    </message>
+    <message>
+      <source>Skin edges sharper than this keep their shape</source>
+      <translation>Hautkanten, die schärfer sind, behalten ihre Form</translation>
+    </message>
+    <message>
+      <source>The analysis then solves the new mesh; loads, supports and materials stay as they are</source>
+      <translation>Die Analyse rechnet dann mit dem neuen Netz; Lasten, Lager und Werkstoffe bleiben, wie sie sind</translation>
+    </message>
+    <message>
+      <source>Transition</source>
+      <translation>Übergang</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatisch</translation>
+    </message>
+    <message>
+      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
+      <translation>snap: Knoten bewegen und Elemente teilen, gelingt auf einem gesunden Netz immer; deform: nur Knoten bewegen</translation>
+    </message>
+  </context>
+  <context>
+    <name>PlaneInput</name>
+    <message>
+      <source>+</source>
+      <translation>+</translation>
+    </message>
+    <message>
+      <source>3 nodes</source>
+      <translation>3 Knoten</translation>
+    </message>
+    <message>
+      <source>A point of the plane: x</source>
+      <translation>Ein Punkt der Ebene: x</translation>
+    </message>
+    <message>
+      <source>A point of the plane: y</source>
+      <translation>Ein Punkt der Ebene: y</translation>
+    </message>
+    <message>
+      <source>A point of the plane: z</source>
+      <translation>Ein Punkt der Ebene: z</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Mitte</translation>
+    </message>
+    <message>
+      <source>Click a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh</source>
+      <translation>Klicken Sie auf eine ebene Fläche, eine Kante, eine Bezugsebene oder -linie, eine Skizze oder eine Seite des Netzes</translation>
+    </message>
+    <message>
+      <source>Click three nodes of the mesh in the 3-D view: the plane goes through them</source>
+      <translation>Klicken Sie in der 3D-Ansicht auf drei Knoten des Netzes: die Ebene geht hindurch</translation>
+    </message>
+    <message>
+      <source>Direction of the positive side: x</source>
+      <translation>Richtung der positiven Seite: x</translation>
+    </message>
+    <message>
+      <source>Direction of the positive side: y</source>
+      <translation>Richtung der positiven Seite: y</translation>
+    </message>
+    <message>
+      <source>Direction of the positive side: z</source>
+      <translation>Richtung der positiven Seite: z</translation>
+    </message>
+    <message>
+      <source>Flip</source>
+      <translation>Umkehren</translation>
+    </message>
+    <message>
+      <source>Geometry</source>
+      <translation>Geometrie</translation>
+    </message>
+    <message>
+      <source>Moves the point to the middle of the mesh</source>
+      <translation>Setzt den Punkt in die Mitte des Netzes</translation>
+    </message>
+    <message>
+      <source>Normal</source>
+      <translation>Normale</translation>
+    </message>
+    <message>
+      <source>Offset: moves the plane along its normal</source>
+      <translation>Versatz: schiebt die Ebene entlang ihrer Normalen</translation>
+    </message>
+    <message>
+      <source>Plane</source>
+      <translation>Ebene</translation>
+    </message>
+    <message>
+      <source>Point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>Swaps the positive and the negative side</source>
+      <translation>Vertauscht die positive und die negative Seite</translation>
+    </message>
+    <message>
+      <source>The plane faces you: its normal is the view direction</source>
+      <translation>Die Ebene steht Ihnen gegenüber: ihre Normale ist die Blickrichtung</translation>
+    </message>
+    <message>
+      <source>View</source>
+      <translation>Ansicht</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>z</source>
+      <translation>z</translation>
+    </message>
+  </context>
+  <context>
+    <name>Result</name>
+    <message>
+      <source>Click a group to light it up in the 3-D view</source>
+      <translation>Ein Klick auf eine Gruppe hebt sie in der 3D-Ansicht hervor</translation>
+    </message>
+    <message>
+      <source>How much of the part is drawn</source>
+      <translation>Wie viel vom Teil gezeichnet wird</translation>
+    </message>
+    <message>
+      <source>Moved nodes</source>
+      <translation>Verschobene Knoten</translation>
+    </message>
+    <message>
+      <source>Nodes that change place</source>
+      <translation>Knoten, die den Ort wechseln</translation>
+    </message>
+    <message>
+      <source>Points at the worst element near the tool</source>
+      <translation>Zeigt auf das schlechteste Element nahe dem Werkzeug</translation>
+    </message>
+    <message>
+      <source>Preview</source>
+      <translation>Vorschau</translation>
+    </message>
+    <message>
+      <source>What the colours of the elements mean</source>
+      <translation>Was die Farben der Elemente bedeuten</translation>
+    </message>
+    <message>
+      <source>Worst</source>
+      <translation>Schlechtestes</translation>
+    </message>
+  </context>
+</TS>

@@ -1,0 +1,818 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="fr" sourcelanguage="en">
+  <context>
+    <name>AxisInput</name>
+    <message>
+      <source>2 nodes</source>
+      <translation>2 nœuds</translation>
+    </message>
+    <message>
+      <source>A point of the axis: x</source>
+      <translation>Un point de l'axe : x</translation>
+    </message>
+    <message>
+      <source>A point of the axis: y</source>
+      <translation>Un point de l'axe : y</translation>
+    </message>
+    <message>
+      <source>A point of the axis: z</source>
+      <translation>Un point de l'axe : z</translation>
+    </message>
+    <message>
+      <source>Axis</source>
+      <translation>Axe</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Centre</translation>
+    </message>
+    <message>
+      <source>Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face: the axis is normal to it there</source>
+      <translation>Cliquez sur une face cylindrique, une arête droite ou circulaire, une ligne de référence ou un point d'une face : l'axe y est normal</translation>
+    </message>
+    <message>
+      <source>Click two nodes of the mesh in the 3-D view: the axis goes through them</source>
+      <translation>Cliquez sur deux nœuds du maillage dans la vue 3D : l'axe passe par eux</translation>
+    </message>
+    <message>
+      <source>Direction of the axis: x</source>
+      <translation>Direction de l'axe : x</translation>
+    </message>
+    <message>
+      <source>Direction of the axis: y</source>
+      <translation>Direction de l'axe : y</translation>
+    </message>
+    <message>
+      <source>Direction of the axis: z</source>
+      <translation>Direction de l'axe : z</translation>
+    </message>
+    <message>
+      <source>Geometry</source>
+      <translation>Géométrie</translation>
+    </message>
+    <message>
+      <source>Moves the point to the middle of the mesh</source>
+      <translation>Place le point au milieu du maillage</translation>
+    </message>
+    <message>
+      <source>Point</source>
+      <translation>Point</translation>
+    </message>
+    <message>
+      <source>R</source>
+      <translation>R</translation>
+    </message>
+    <message>
+      <source>Radius of the cylinder</source>
+      <translation>Rayon du cylindre</translation>
+    </message>
+    <message>
+      <source>The axis is the view direction</source>
+      <translation>L'axe est la direction de vue</translation>
+    </message>
+    <message>
+      <source>View</source>
+      <translation>Vue</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>z</source>
+      <translation>z</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel</name>
+    <message>
+      <source>%1 elements; smallest %2, mean %3.</source>
+      <translation>%1 éléments ; minimum %2, moyenne %3.</translation>
+    </message>
+    <message>
+      <source>%1 groups, %2 nodes, %3 elements.</source>
+      <translation>%1 groupes, %2 nœuds, %3 éléments.</translation>
+    </message>
+    <message>
+      <source>%1 has an error. Mend it, or select another mesh.</source>
+      <translation>%1 est en erreur. Corrigez-la ou sélectionnez un autre maillage.</translation>
+    </message>
+    <message>
+      <source>%1 has no mesh yet: it is empty. Make the mesh first.</source>
+      <translation>%1 n'a pas encore de maillage : il est vide. Créez d'abord le maillage.</translation>
+    </message>
+    <message>
+      <source>%1 has no source mesh. Set its property Source to a FEM mesh first.</source>
+      <translation>%1 n'a pas de maillage source. Donnez d'abord un maillage EF à sa propriété Source.</translation>
+    </message>
+    <message>
+      <source>%1 is not a FEM mesh. Select the mesh in the tree.</source>
+      <translation>%1 n'est pas un maillage EF. Sélectionnez le maillage dans l'arborescence.</translation>
+    </message>
+    <message>
+      <source>%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).</source>
+      <translation>%1 nœuds déplacés, %2 ajoutés ; %3 éléments ajoutés, %4 supprimés. Mean ratio au moins %5 (avant : %6).</translation>
+    </message>
+    <message>
+      <source>%1 nodes moved; boundary at most %2 mm from where it was</source>
+      <translation>%1 nœuds déplacés ; bord à %2 mm au plus de sa position d'origine</translation>
+    </message>
+    <message>
+      <source>After</source>
+      <translation>Après</translation>
+    </message>
+    <message>
+      <source>Another task panel is open. Close it first.</source>
+      <translation>Un autre panneau de tâches est ouvert. Fermez-le d'abord.</translation>
+    </message>
+    <message>
+      <source>Before</source>
+      <translation>Avant</translation>
+    </message>
+    <message>
+      <source>Bounding (BE)</source>
+      <translation>Bordants (BE)</translation>
+    </message>
+    <message>
+      <source>By group</source>
+      <translation>Par groupe</translation>
+    </message>
+    <message>
+      <source>By quality</source>
+      <translation>Par qualité</translation>
+    </message>
+    <message>
+      <source>CalculiX (*.inp)</source>
+      <translation>CalculiX (*.inp)</translation>
+    </message>
+    <message>
+      <source>Change</source>
+      <translation>Variation</translation>
+    </message>
+    <message>
+      <source>Changed part</source>
+      <translation>Partie modifiée</translation>
+    </message>
+    <message>
+      <source>Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face (the axis is normal to it). Escape stops.</source>
+      <translation>Cliquez sur une face cylindrique, une arête droite ou circulaire, une ligne de référence ou un point d'une face (l'axe lui est normal). Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.</source>
+      <translation>Cliquez sur une face plane, une arête (le plan lui est normal), une référence ou une esquisse. Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Click node %1 of %2 on the mesh. Escape stops.</source>
+      <translation>Cliquez sur le nœud %1 sur %2 du maillage. Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Crack</source>
+      <translation>Fissure</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
+      <translation>Fissure le maillage EF le long d'un cylindre en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along a plane and keeps its groups</source>
+      <translation>Fissure le maillage EF le long d'un plan en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
+      <translation>Fissure, perce et coupe des maillages EF en gardant leurs groupes</translation>
+    </message>
+    <message>
+      <source>Cut away</source>
+      <translation>En coupe</translation>
+    </message>
+    <message>
+      <source>Cylindrical crack</source>
+      <translation>Fissure cylindrique</translation>
+    </message>
+    <message>
+      <source>Drill</source>
+      <translation>Perçage</translation>
+    </message>
+    <message>
+      <source>Drills a hole into the FEM mesh and keeps its groups</source>
+      <translation>Perce un trou dans le maillage EF en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Edit</source>
+      <translation>Modifier</translation>
+    </message>
+    <message>
+      <source>Element</source>
+      <translation>Élément</translation>
+    </message>
+    <message>
+      <source>Elementary groups</source>
+      <translation>Groupes élémentaires</translation>
+    </message>
+    <message>
+      <source>Export mesh</source>
+      <translation>Exporter le maillage</translation>
+    </message>
+    <message>
+      <source>Export mesh…</source>
+      <translation>Exporter le maillage…</translation>
+    </message>
+    <message>
+      <source>Group</source>
+      <translation>Groupe</translation>
+    </message>
+    <message>
+      <source>Group inspector</source>
+      <translation>Inspecteur de groupes</translation>
+    </message>
+    <message>
+      <source>Groups</source>
+      <translation>Groupes</translation>
+    </message>
+    <message>
+      <source>Isolated (IE)</source>
+      <translation>Isolés (IE)</translation>
+    </message>
+    <message>
+      <source>Kind</source>
+      <translation>Genre</translation>
+    </message>
+    <message>
+      <source>Linking (LE)</source>
+      <translation>Liants (LE)</translation>
+    </message>
+    <message>
+      <source>MED, Code_Aster and SALOME (*.med)</source>
+      <translation>MED, Code_Aster et SALOME (*.med)</translation>
+    </message>
+    <message>
+      <source>Mean ratio</source>
+      <translation>Mean ratio</translation>
+    </message>
+    <message>
+      <source>Measure</source>
+      <translation>Mesure</translation>
+    </message>
+    <message>
+      <source>Members</source>
+      <translation>Membres</translation>
+    </message>
+    <message>
+      <source>Mesh quality</source>
+      <translation>Qualité du maillage</translation>
+    </message>
+    <message>
+      <source>No preview.</source>
+      <translation>Pas d'aperçu.</translation>
+    </message>
+    <message>
+      <source>No preview: see the message in red.</source>
+      <translation>Pas d'aperçu : voir le message en rouge.</translation>
+    </message>
+    <message>
+      <source>Number of elements by mean ratio (1: equilateral, 0: flat). Bars: after; line: before</source>
+      <translation>Nombre d'éléments par mean ratio (1 : équilatéral, 0 : plat). Barres : après ; ligne : avant</translation>
+    </message>
+    <message>
+      <source>Open a document with a FEM mesh first.</source>
+      <translation>Ouvrez d'abord un document avec un maillage EF.</translation>
+    </message>
+    <message>
+      <source>ParaView (*.vtu)</source>
+      <translation>ParaView (*.vtu)</translation>
+    </message>
+    <message>
+      <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
+      <translation>Choisissez une face cylindrique, une arête droite ou circulaire, une ligne de référence ou un point d'une face.</translation>
+    </message>
+    <message>
+      <source>Pick a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh.</source>
+      <translation>Choisissez une face plane, une arête, un plan ou une ligne de référence, une esquisse ou une face du maillage.</translation>
+    </message>
+    <message>
+      <source>Reading the mesh…</source>
+      <translation>Lecture du maillage…</translation>
+    </message>
+    <message>
+      <source>Scaled Jacobian</source>
+      <translation>Jacobien normalisé</translation>
+    </message>
+    <message>
+      <source>Several FEM meshes are selected. Select one.</source>
+      <translation>Plusieurs maillages EF sont sélectionnés. N'en sélectionnez qu'un.</translation>
+    </message>
+    <message>
+      <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
+      <translation>Montre les groupes d'un maillage EF, ce qu'ils couvrent et ce qui les utilise</translation>
+    </message>
+    <message>
+      <source>Shows the quality of the elements of a FEM mesh in colours and finds the worst</source>
+      <translation>Montre en couleurs la qualité des éléments d'un maillage EF et trouve les plus mauvais</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Taille</translation>
+    </message>
+    <message>
+      <source>Smallest angle (dihedral in solids)</source>
+      <translation>Plus petit angle (dièdre pour les volumes)</translation>
+    </message>
+    <message>
+      <source>Status</source>
+      <translation>État</translation>
+    </message>
+    <message>
+      <source>That edge is curved. Pick a straight or a circular edge.</source>
+      <translation>Cette arête est courbe. Choisissez une arête droite ou circulaire.</translation>
+    </message>
+    <message>
+      <source>That face is curved. Pick a planar face.</source>
+      <translation>Cette face est courbe. Choisissez une face plane.</translation>
+    </message>
+    <message>
+      <source>That is not the mesh. Click a node of the mesh.</source>
+      <translation>Ce n'est pas le maillage. Cliquez sur un nœud du maillage.</translation>
+    </message>
+    <message>
+      <source>The direction is zero. Give one, or pick it from the 3-D view.</source>
+      <translation>La direction est nulle. Donnez-en une ou choisissez-la dans la vue 3D.</translation>
+    </message>
+    <message>
+      <source>The document has %1 FEM meshes. Select the one you mean in the tree.</source>
+      <translation>Le document a %1 maillages EF. Sélectionnez celui voulu dans l'arborescence.</translation>
+    </message>
+    <message>
+      <source>The document has no FEM mesh. Make one in the FEM workbench, or import a mesh file.</source>
+      <translation>Le document n'a pas de maillage EF. Créez-en un dans l'atelier FEM ou importez un fichier de maillage.</translation>
+    </message>
+    <message>
+      <source>The mesh has neither faces nor volumes.</source>
+      <translation>Le maillage n'a ni faces ni volumes.</translation>
+    </message>
+    <message>
+      <source>The object could not be computed; see the report view.</source>
+      <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
+    </message>
+    <message>
+      <source>The radius must be larger than 0.</source>
+      <translation>Le rayon doit être supérieur à 0.</translation>
+    </message>
+    <message>
+      <source>The three nodes lie on a line. Pick nodes that span a plane.</source>
+      <translation>Les trois nœuds sont alignés. Choisissez des nœuds qui définissent un plan.</translation>
+    </message>
+    <message>
+      <source>Type</source>
+      <translation>Type</translation>
+    </message>
+    <message>
+      <source>Used by</source>
+      <translation>Utilisé par</translation>
+    </message>
+    <message>
+      <source>Value</source>
+      <translation>Valeur</translation>
+    </message>
+    <message>
+      <source>Whole part</source>
+      <translation>Pièce entière</translation>
+    </message>
+    <message>
+      <source>Worse than your threshold of %1.</source>
+      <translation>Pire que votre seuil de %1.</translation>
+    </message>
+    <message>
+      <source>Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)</source>
+      <translation>Écrit le maillage EF avec ses groupes pour Code_Aster (MED), CalculiX (inp) ou ParaView (vtu)</translation>
+    </message>
+    <message>
+      <source>became empty</source>
+      <translation>devenu vide</translation>
+    </message>
+    <message>
+      <source>changed</source>
+      <translation>modifié</translation>
+    </message>
+    <message>
+      <source>deform: only move nodes</source>
+      <translation>deform : seulement déplacer des nœuds</translation>
+    </message>
+    <message>
+      <source>edges</source>
+      <translation>arêtes</translation>
+    </message>
+    <message>
+      <source>empty</source>
+      <translation>vide</translation>
+    </message>
+    <message>
+      <source>faces</source>
+      <translation>faces</translation>
+    </message>
+    <message>
+      <source>facets</source>
+      <translation>facettes</translation>
+    </message>
+    <message>
+      <source>kept</source>
+      <translation>gardé</translation>
+    </message>
+    <message>
+      <source>mean ratio; line: before</source>
+      <translation>mean ratio ; ligne : avant</translation>
+    </message>
+    <message>
+      <source>new</source>
+      <translation>nouveau</translation>
+    </message>
+    <message>
+      <source>nodes</source>
+      <translation>nœuds</translation>
+    </message>
+    <message>
+      <source>points</source>
+      <translation>points</translation>
+    </message>
+    <message>
+      <source>snap: move and split</source>
+      <translation>snap : déplacer et diviser</translation>
+    </message>
+    <message>
+      <source>untouched</source>
+      <translation>intact</translation>
+    </message>
+    <message>
+      <source>volumes</source>
+      <translation>volumes</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpelPreferences</name>
+    <message>
+      <source>Borders of groups</source>
+      <translation>Bords des groupes</translation>
+    </message>
+    <message>
+      <source>Chosen group</source>
+      <translation>Groupe choisi</translation>
+    </message>
+    <message>
+      <source>Colours of the preview</source>
+      <translation>Couleurs de l'aperçu</translation>
+    </message>
+    <message>
+      <source>Crack and walls</source>
+      <translation>Fissure et parois</translation>
+    </message>
+    <message>
+      <source>Crack front</source>
+      <translation>Front de fissure</translation>
+    </message>
+    <message>
+      <source>General</source>
+      <translation>Général</translation>
+    </message>
+    <message>
+      <source>Method</source>
+      <translation>Méthode</translation>
+    </message>
+    <message>
+      <source>Moved nodes</source>
+      <translation>Nœuds déplacés</translation>
+    </message>
+    <message>
+      <source>New operations</source>
+      <translation>Nouvelles opérations</translation>
+    </message>
+    <message>
+      <source>Put new meshes in place of their source in the analysis</source>
+      <translation>Mettre les nouveaux maillages à la place de leur source dans l'analyse</translation>
+    </message>
+    <message>
+      <source>Removed elements</source>
+      <translation>Éléments supprimés</translation>
+    </message>
+    <message>
+      <source>Transition (rings of elements that may move)</source>
+      <translation>Transition (couches d'éléments qui peuvent bouger)</translation>
+    </message>
+    <message>
+      <source>Warn of elements with a mean ratio below</source>
+      <translation>Avertir des éléments de mean ratio inférieur à</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatique</translation>
+    </message>
+    <message>
+      <source>deform: only move nodes</source>
+      <translation>deform : seulement déplacer des nœuds</translation>
+    </message>
+    <message>
+      <source>snap: move and split</source>
+      <translation>snap : déplacer et diviser</translation>
+    </message>
+  </context>
+  <context>
+    <name>GroupInspector</name>
+    <message>
+      <source>All</source>
+      <translation>Tous</translation>
+    </message>
+    <message>
+      <source>Groups</source>
+      <translation>Groupes</translation>
+    </message>
+    <message>
+      <source>Groups, or the disjoint classes of entities that are in exactly the same groups</source>
+      <translation>Groupes, ou classes disjointes des entités qui sont exactement dans les mêmes groupes</translation>
+    </message>
+    <message>
+      <source>None</source>
+      <translation>Aucun</translation>
+    </message>
+    <message>
+      <source>Only selected</source>
+      <translation>Seuls choisis</translation>
+    </message>
+    <message>
+      <source>Shows every group</source>
+      <translation>Montre tous les groupes</translation>
+    </message>
+    <message>
+      <source>Shows no group</source>
+      <translation>Ne montre aucun groupe</translation>
+    </message>
+    <message>
+      <source>Shows the selected groups alone</source>
+      <translation>Ne montre que les groupes choisis</translation>
+    </message>
+    <message>
+      <source>Tick what is to be seen; double-click a name to rename the group</source>
+      <translation>Cochez ce qui doit être vu ; double-cliquez un nom pour renommer le groupe</translation>
+    </message>
+    <message>
+      <source>What of a group is drawn: its members, or its virtual boundary</source>
+      <translation>Ce qui est dessiné d'un groupe : ses membres ou son bord virtuel</translation>
+    </message>
+  </context>
+  <context>
+    <name>Hole</name>
+    <message>
+      <source>Depth</source>
+      <translation>Profondeur</translation>
+    </message>
+    <message>
+      <source>Hole</source>
+      <translation>Trou</translation>
+    </message>
+    <message>
+      <source>Through</source>
+      <translation>Traversant</translation>
+    </message>
+    <message>
+      <source>Through the whole part; else a blind hole with a flat bottom</source>
+      <translation>À travers toute la pièce ; sinon un trou borgne à fond plat</translation>
+    </message>
+    <message>
+      <source>Where the bottom of the hole is: from the point, along the axis</source>
+      <translation>Où est le fond du trou : depuis le point, le long de l'axe</translation>
+    </message>
+  </context>
+  <context>
+    <name>Incision</name>
+    <message>
+      <source>Distance of the two walls; the plane is in the middle between them</source>
+      <translation>Distance des deux parois ; le plan est au milieu</translation>
+    </message>
+    <message>
+      <source>Incision</source>
+      <translation>Incision</translation>
+    </message>
+    <message>
+      <source>Width</source>
+      <translation>Largeur</translation>
+    </message>
+  </context>
+  <context>
+    <name>MeshQuality</name>
+    <message>
+      <source>Click an element to zoom to it</source>
+      <translation>Cliquez sur un élément pour zoomer dessus</translation>
+    </message>
+    <message>
+      <source>Elements below this value are shown</source>
+      <translation>Les éléments sous cette valeur sont montrés</translation>
+    </message>
+    <message>
+      <source>Only below</source>
+      <translation>Seulement sous</translation>
+    </message>
+    <message>
+      <source>Quality</source>
+      <translation>Qualité</translation>
+    </message>
+    <message>
+      <source>Shows the elements below the value alone</source>
+      <translation>Ne montre que les éléments sous la valeur</translation>
+    </message>
+    <message>
+      <source>What is measured</source>
+      <translation>Ce qui est mesuré</translation>
+    </message>
+    <message>
+      <source>Worst elements</source>
+      <translation>Plus mauvais éléments</translation>
+    </message>
+  </context>
+  <context>
+    <name>Options</name>
+    <message>
+      <source>Feature angle</source>
+      <translation>Angle vif</translation>
+    </message>
+    <message>
+      <source>Group name</source>
+      <translation>Nom du groupe</translation>
+    </message>
+    <message>
+      <source>Method</source>
+      <translation>Méthode</translation>
+    </message>
+    <message>
+      <source>Options</source>
+      <translation>Options</translation>
+    </message>
+    <message>
+      <source>Prefix of the new mesh groups</source>
+      <translation>Préfixe des nouveaux groupes</translation>
+    </message>
+    <message>
+      <source>Put in place of its source in the analysis</source>
+      <translation>Mettre à la place de sa source dans l'analyse</translation>
+    </message>
+    <message>
+      <source>Rings of elements around the tool that may move</source>
+      <translation>Couches d'éléments autour de l'outil qui peuvent bouger</translation>
+    </message>
+    <message>
+      <source>Skin edges sharper than this keep their shape</source>
+      <translation>Les arêtes de peau plus vives gardent leur forme</translation>
+    </message>
+    <message>
+      <source>The analysis then solves the new mesh; loads, supports and materials stay as they are</source>
+      <translation>L'analyse calcule alors le nouveau maillage ; charges, appuis et matériaux restent tels quels</translation>
+    </message>
+    <message>
+      <source>Transition</source>
+      <translation>Transition</translation>
+    </message>
+    <message>
+      <source>automatic</source>
+      <translation>automatique</translation>
+    </message>
+    <message>
+      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
+      <translation>snap : déplacer des nœuds et diviser des éléments, réussit toujours sur un maillage sain ; deform : seulement déplacer des nœuds</translation>
+    </message>
+  </context>
+  <context>
+    <name>PlaneInput</name>
+    <message>
+      <source>+</source>
+      <translation>+</translation>
+    </message>
+    <message>
+      <source>3 nodes</source>
+      <translation>3 nœuds</translation>
+    </message>
+    <message>
+      <source>A point of the plane: x</source>
+      <translation>Un point du plan : x</translation>
+    </message>
+    <message>
+      <source>A point of the plane: y</source>
+      <translation>Un point du plan : y</translation>
+    </message>
+    <message>
+      <source>A point of the plane: z</source>
+      <translation>Un point du plan : z</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Centre</translation>
+    </message>
+    <message>
+      <source>Click a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh</source>
+      <translation>Cliquez sur une face plane, une arête, un plan ou une ligne de référence, une esquisse ou une face du maillage</translation>
+    </message>
+    <message>
+      <source>Click three nodes of the mesh in the 3-D view: the plane goes through them</source>
+      <translation>Cliquez sur trois nœuds du maillage dans la vue 3D : le plan passe par eux</translation>
+    </message>
+    <message>
+      <source>Direction of the positive side: x</source>
+      <translation>Direction du côté positif : x</translation>
+    </message>
+    <message>
+      <source>Direction of the positive side: y</source>
+      <translation>Direction du côté positif : y</translation>
+    </message>
+    <message>
+      <source>Direction of the positive side: z</source>
+      <translation>Direction du côté positif : z</translation>
+    </message>
+    <message>
+      <source>Flip</source>
+      <translation>Inverser</translation>
+    </message>
+    <message>
+      <source>Geometry</source>
+      <translation>Géométrie</translation>
+    </message>
+    <message>
+      <source>Moves the point to the middle of the mesh</source>
+      <translation>Place le point au milieu du maillage</translation>
+    </message>
+    <message>
+      <source>Normal</source>
+      <translation>Normale</translation>
+    </message>
+    <message>
+      <source>Offset: moves the plane along its normal</source>
+      <translation>Décalage : déplace le plan le long de sa normale</translation>
+    </message>
+    <message>
+      <source>Plane</source>
+      <translation>Plan</translation>
+    </message>
+    <message>
+      <source>Point</source>
+      <translation>Point</translation>
+    </message>
+    <message>
+      <source>Swaps the positive and the negative side</source>
+      <translation>Échange les côtés positif et négatif</translation>
+    </message>
+    <message>
+      <source>The plane faces you: its normal is the view direction</source>
+      <translation>Le plan vous fait face : sa normale est la direction de vue</translation>
+    </message>
+    <message>
+      <source>View</source>
+      <translation>Vue</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>z</source>
+      <translation>z</translation>
+    </message>
+  </context>
+  <context>
+    <name>Result</name>
+    <message>
+      <source>Click a group to light it up in the 3-D view</source>
+      <translation>Cliquez sur un groupe pour le mettre en évidence dans la vue 3D</translation>
+    </message>
+    <message>
+      <source>How much of the part is drawn</source>
+      <translation>Ce qui est dessiné de la pièce</translation>
+    </message>
+    <message>
+      <source>Moved nodes</source>
+      <translation>Nœuds déplacés</translation>
+    </message>
+    <message>
+      <source>Nodes that change place</source>
+      <translation>Nœuds qui changent de place</translation>
+    </message>
+    <message>
+      <source>Points at the worst element near the tool</source>
+      <translation>Montre le plus mauvais élément près de l'outil</translation>
+    </message>
+    <message>
+      <source>Preview</source>
+      <translation>Aperçu</translation>
+    </message>
+    <message>
+      <source>What the colours of the elements mean</source>
+      <translation>Ce que signifient les couleurs des éléments</translation>
+    </message>
+    <message>
+      <source>Worst</source>
+      <translation>Le pire</translation>
+    </message>
+  </context>
+</TS>

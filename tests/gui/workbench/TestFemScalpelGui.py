@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tests in FreeCAD's window: run by tests/gui/run_gui_tests.py, or in FreeCAD's test workbench."""
+
+from femscalpelguitest.test_crack_panel import CrackCommand, CrackMessages, CrackPicks  # noqa: F401
+from femscalpelguitest.test_inspection import GroupInspector, MeshQuality  # noqa: F401
+from femscalpelguitest.test_macro import Macro  # noqa: F401
+from femscalpelguitest.test_other_commands import CylindricalCrack, Drill, Export, Preferences  # noqa: F401

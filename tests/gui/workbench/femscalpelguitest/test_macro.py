@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A whole session, recorded as a macro, gives the identical meshes when replayed without a window."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest, QTest
+from .mesh_content import content_of
+from .test_crack_panel import enter_plane, long_box
+
+_REPLAY = """
+import json, sys
+import FreeCAD
+sys.path[:0] = {path!r}
+from femscalpelguitest.mesh_content import content_of
+doc = FreeCAD.openDocument({document!r})
+exec(compile(open({macro!r}).read(), {macro!r}, "exec"), {{"__name__": "__main__"}})
+with open({out!r}, "w") as file:
+    json.dump({{o.Name: content_of(o) for o in doc.Objects if o.isDerivedFrom("Fem::FemMeshObject")}}, file)
+"""
+
+
+class Macro(GuiTest):
+    def record(self, folder, name):
+        """Starts FreeCAD's macro recorder through its dialog."""
+        def fill():
+            dialog = QtGui.QApplication.activeModalWidget()
+            if dialog is not None:
+                timer.stop()
+                dialog.findChild(QtGui.QLineEdit, "lineEditPath").setText(name)
+                QTest.mouseClick(dialog.findChild(QtGui.QPushButton, "buttonStart"), QtCore.Qt.LeftButton)
+
+        FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Macro").SetString("MacroPath", folder)
+        timer = QtCore.QTimer()
+        timer.timeout.connect(fill)
+        timer.start(100)
+        FreeCADGui.runCommand("Std_DlgMacroRecord")
+        timer.stop()
+
+    def test_session_replayed_without_window(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "source.FCStd")
+            self.add_mesh(long_box())
+            self.doc.saveAs(path)
+            FreeCAD.closeDocument(self.doc.Name)
+            self.doc = FreeCAD.openDocument(path)
+            self.look()
+            macro = os.path.join(folder, "session.FCMacro")
+            self.record(folder, "session.FCMacro")
+
+            self.run_command("FemScalpel_GroupInspector")
+            wait_until(lambda: widget("groups").rowCount() > 0, "the list of groups")
+            widget("groups").findItems("FIX", QtCore.Qt.MatchExactly)[0].setText("SUPPORT")
+            wait_until(lambda: "RenamedGroups" in self.doc.Mesh.PropertiesList, "the new name")
+            press_button(QtGui.QDialogButtonBox.Close)
+
+            self.run_command("FemScalpel_Crack")
+            self.wait_for_preview()
+            enter_plane((4.123456789, 2.5, 2.0), (1.0, 0.2, 0.1))
+            press_ok()
+            FreeCADGui.Selection.addSelection(self.doc.Name, "Crack")
+            self.run_command("FemScalpel_CylindricalCrack")
+            wait_until(lambda: "…" not in widget("status").text(), "the panel")
+            for name, text in (("originX", "10.3"), ("normalX", "0"), ("normalZ", "1"), ("radius", "1.2")):
+                type_into(name, text)
+            self.wait_for_preview()
+            press_ok()
+            self.doc.Crack.ViewObject.doubleClicked()
+            self.wait_for_preview()
+            type_into("offset", "0.3333")
+            self.wait_for_preview()
+            press_ok()
+            self.run_command("Std_MacroStopRecord")
+
+            here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
+            self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack"})
+            self.assertTrue(os.path.exists(macro), os.listdir(folder))
+            with open(macro) as file:
+                text = file.read()
+            for line in ("import ObjectsFemScalpel", "ObjectsFemScalpel.renameGroup(", "ObjectsFemScalpel.makeCrack(",
+                         "ObjectsFemScalpel.makeCylindricalCrack(", ".PlanePlacement = FreeCAD.Placement("):
+                self.assertIn(line, text)
+            out = os.path.join(folder, "meshes.json")
+            script = os.path.join(folder, "replay.py")
+            with open(script, "w") as file:
+                file.write(_REPLAY.format(path=[p for p in sys.path if p], document=path, macro=macro, out=out))
+            done = subprocess.run([shutil.which("freecadcmd") or shutil.which("FreeCADCmd"), script], stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                                  env={**os.environ, "FREECAD_USER_HOME": folder})
+            self.assertTrue(os.path.exists(out), done.stdout)
+            with open(out) as file:
+                there = json.load(file)
+            self.assertEqual(set(there), set(here))
+            for name in here:
+                self.assertTrue(there[name] == here[name], f"{name} differs")

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The commands with a cylinder, export, and the preferences page."""
+
+import os
+import tempfile
+
+import FreeCAD
+import FreeCADGui
+import numpy as np
+from PySide import QtCore, QtGui
+
+import femmesh_bridge
+import femscalpel as fs
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest
+from .mesh_content import content_of
+from .test_crack_panel import long_box, traces
+
+
+class CylinderTest(GuiTest):
+    PARTS = 1
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = self.add_mesh(long_box(self.PARTS))
+
+    def enter_axis(self, origin, axis, radius):
+        for name, number in zip(("originX", "originY", "originZ", "normalX", "normalY", "normalZ", "radius"), (*origin, *axis, radius)):
+            type_into(name, repr(number))
+
+
+class CylindricalCrack(CylinderTest):
+    def test_made_edited_undone(self):
+        self.run_command("FemScalpel_CylindricalCrack")
+        spin(0.2)
+        self.enter_axis((7.1, 2.4, 2.0), (0.0, 0.0, 1.0), 1.3)
+        expected = fs.crack(femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Cylinder((7.1, 2.4, 2), (0, 0, 1), 1.3))
+        wait_until(lambda: widget("status").text().startswith(f"{expected.report.nodes_moved} "), "the preview")
+        self.assertGreater(faces_drawn("FemScalpelBand"), 0)
+        screenshot("cylinder_preview")
+        press_ok()
+        crack = self.doc.CylindricalCrack
+        self.assertEqual(crack.NodesDoubled, expected.report.nodes_doubled)
+        made = content_of(crack)
+        self.doc.undo()
+        self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
+        self.doc.redo()
+        self.assertEqual(content_of(self.doc.CylindricalCrack), made)
+        self.doc.CylindricalCrack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertAlmostEqual(value("radius"), 1.3)
+        press_cancel()
+
+    def test_axis_from_the_view(self):
+        part = self.doc.addObject("Part::Cylinder", "Pin")
+        part.Radius, part.Height = 0.9, 6
+        part.Placement.Base = FreeCAD.Vector(5, 2.5, -1)
+        self.doc.recompute()
+        edges = {type(e.Curve).__name__: f"Edge{k}" for k, e in enumerate(part.Shape.Edges, 1)}
+        before = traces(self.doc)
+        self.run_command("FemScalpel_CylindricalCrack")
+        self.wait_for_preview_or_message()
+        nodes = {tuple(p): n for n, p in self.mesh.FemMesh.Nodes.items()}
+        for obj, names, origin, axis, radius in (
+                (part, ["Face1"], (5, 2.5, -1), (0, 0, 1), 0.9), (part, [edges["Circle"]], (5, 2.5, 5), (0, 0, 1), 0.9),
+                (part, [edges["Line"]], None, (0, 0, 1), None)):
+            with self.subTest(picked=names):
+                click("pickGeometry")
+                for name in names:
+                    FreeCADGui.Selection.addSelection(self.doc.Name, obj.Name, name)
+                spin(0.05)
+                if origin is not None:
+                    np.testing.assert_allclose([value("originX"), value("originY")], origin[:2], atol=0.006)
+                np.testing.assert_allclose(np.abs([value("normalX"), value("normalY"), value("normalZ")]), axis, atol=0.006)
+                if radius is not None:
+                    self.assertAlmostEqual(value("radius"), radius)
+        click("pickNodes")
+        for point in ((3.0, 0.0, 0.0), (3.0, 5.0, 0.0)):
+            FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh", f"Node{nodes[point]}")
+        spin(0.05)
+        np.testing.assert_allclose([value("normalX"), value("normalY"), value("normalZ")], (0, 1, 0), atol=0.006)
+        click("pickGeometry")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Pin", "Face2", 5.2, 2.5, 5)
+        spin(0.05)
+        np.testing.assert_allclose([value("originX"), abs(value("normalZ"))], (5.2, 1), atol=0.006)
+        type_into("radius", "-1")
+        self.assertIn("larger than 0", self.wait_for_message("geometryError"))
+        press_cancel()
+        self.assertEqual(traces(self.doc), before)
+
+    def wait_for_preview_or_message(self):
+        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+
+    def test_handles(self):
+        self.run_command("FemScalpel_CylindricalCrack")
+        self.wait_for_preview_or_message()
+        self.enter_axis((7.0, 2.5, 2.0), (0.0, 0.0, 1.0), 1.2)
+        spin(0.1)
+        size = self.mesh.FemMesh.BoundBox.DiagonalLength
+        arrow, out = 1.2 + 0.095 * size, np.array((0.5**0.5, 0.5**0.5, 0))
+        drag((7, 2.5, 2) + arrow * out, (7, 2.5, 2) + (arrow + 0.5) * out)
+        self.assertAlmostEqual(value("radius"), 1.7, delta=0.1)
+        self.assertAlmostEqual(value("originX"), 7)
+        screenshot("cylinder_handles")
+
+
+class Drill(CylinderTest):
+    PARTS = 2
+
+    def test_mesh_too_coarse(self):
+        self.add_mesh(long_box(), "Coarse")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Coarse")
+        self.run_command("FemScalpel_Drill")
+        spin(0.2)
+        self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
+        self.assertIn("too coarse", self.wait_for_message("geometryError"))
+        screenshot("drill_too_coarse")
+
+    def test_through_then_blind(self):
+        self.run_command("FemScalpel_Drill")
+        spin(0.2)
+        self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        expected = fs.drill(source, fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3))
+        wait_until(lambda: f" {expected.report.elements_removed} " in widget("status").text(), "the preview")
+        self.assertGreater(faces_drawn("FemScalpelRemoved"), 0)
+        self.assertGreater(faces_drawn("FemScalpelBand"), 0)
+        self.assertGreater(lines_drawn("FemScalpelOutline"), 0)
+        screenshot("drill_1_preview")
+        choose("look", "whole")
+        screenshot("drill_whole")
+        press_ok()
+        drill = self.doc.Drill
+        self.assertEqual(drill.FemMesh.NodeCount, expected.mesh.node_count)
+        screenshot("drill_2_made")
+        self.assertEqual(self.doc.UndoNames, ["Drill"])
+        drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        click("through")
+        type_into("holeDepth", "2 mm")
+        self.wait_for_preview()
+        blind = fs.drill(source, fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3), depth=2)
+        wait_until(lambda: f" {blind.report.elements_removed} " in widget("status").text(), "the preview of the blind hole")
+        names = [widget("groups").item(row, 0).text() for row in range(widget("groups").rowCount())]
+        self.assertIn("HOLE_BOTTOM", names)
+        screenshot("drill_blind")
+        press_ok()
+        self.assertEqual(drill.FemMesh.NodeCount, blind.mesh.node_count)
+        self.assertFalse(drill.Through)
+        self.doc.undo()
+        self.assertTrue(drill.Through)
+        self.assertEqual(drill.FemMesh.NodeCount, expected.mesh.node_count)
+
+    def test_chain_of_crack_and_drill(self):
+        import ObjectsFemScalpel
+        crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(3.1, 2.5, 2), normal=(1, 0.1, 0))
+        self.doc.recompute()
+        FreeCADGui.Selection.addSelection(self.doc.Name, crack.Name)
+        self.run_command("FemScalpel_Drill")
+        spin(0.2)
+        self.enter_axis((9.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual(self.doc.Drill.Source, crack)
+        before = content_of(self.doc.Drill)
+        crack.PlanePlacement = FreeCAD.Placement(FreeCAD.Vector(4.2, 2.5, 2), crack.PlanePlacement.Rotation)
+        self.doc.recompute()
+        self.assertNotEqual(content_of(self.doc.Drill), before)
+        # A link that leads nowhere marks the object.
+        self.doc.removeObject(crack.Name)
+        self.doc.recompute()
+        self.assertIn("Invalid", self.doc.Drill.State)
+        self.assertEqual(self.doc.Drill.FemMesh.NodeCount, 0)
+        spin(0.3)
+        self.assertIn("Source is not set", report_view()[self.reported:])
+        self.reported = len(report_view())  # FreeCAD reports an error in a recompute with a traceback
+
+
+class Export(GuiTest):
+    def test_files(self):
+        from femscalpelgui.commands.base import Unusable
+        from femscalpelgui.commands.export import Export as Command
+        mesh = self.add_mesh(long_box())
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in ("med", "inp", "vtu"):
+                path = os.path.join(folder, "mesh." + ending)
+                Command.write(mesh, path)
+                self.assertGreater(os.path.getsize(path), 1000)
+            again = fs.read(os.path.join(folder, "mesh.med"))
+            self.assertEqual(again.node_count, mesh.FemMesh.NodeCount)
+            self.assertEqual(set(again.groups), {"LEFT", "RIGHT", "CORE", "FIX", "TOP"})
+            with self.assertRaises(Unusable):
+                Command.write(mesh, os.path.join(folder, "mesh.xyz"))
+
+
+class Preferences(GuiTest):
+    def test_page(self):
+        seen = []
+
+        def look():
+            dialog = QtGui.QApplication.activeModalWidget()
+            if dialog is None:
+                return
+            combo = dialog.findChild(QtGui.QComboBox, "Method")
+            seen.append(combo is not None and dialog.findChild(QtGui.QDoubleSpinBox, "QualityThreshold").value())
+            if combo is not None:
+                dialog.resize(900, 700)
+                screenshot("preferences")
+                combo.setCurrentIndex(1)
+                dialog.findChild(QtGui.QCheckBox, "PutIntoAnalysis").setChecked(False)
+            timer.stop()
+            dialog.accept()
+
+        timer = QtCore.QTimer()
+        timer.timeout.connect(look)
+        timer.start(300)
+        FreeCADGui.showPreferences("FemScalpel")
+        self.assertEqual(seen, [0.2])
+        from femscalpelgui import preferences
+        self.assertEqual(preferences.method(), "deform")
+        self.assertFalse(preferences.put_into_analysis())
+        group = FreeCAD.ParamGet(preferences.GROUP)
+        group.RemInt("Method")
+        group.RemBool("PutIntoAnalysis")
+        self.assertEqual(preferences.method(), "snap")
+        self.assertEqual([round(255 * c) for c in preferences.colour("Interface", (0.86, 0.12, 0.16))], [219, 31, 41])
