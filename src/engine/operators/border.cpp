@@ -86,13 +86,25 @@ private:
         return node;
     }
 
+    /// Whether a-b is opposite a corner of the patch in a face of the interface.
+    bool faces_corner(int a, int b) const {
+        return std::ranges::any_of(band_.cut_faces.around(a), [&](int s) {
+            const auto& n = band_.cut_faces[s];
+            return std::ranges::find(n, b) != n.end() &&
+                   std::ranges::any_of(n, [&](int v) { return v != a && v != b && d_.contact[v].full(); });
+        });
+    }
+
     /// Where along a-b (0 to 1) the border's other side is met though both ends are on one; negative if nowhere.
     double dip_at(int a, int b) const {
         const double ends = value_[a] != 0 ? value_[a] : value_[b];
         if (ends == 0 || value_[a] * value_[b] < 0) return -1;
-        double best = dip * length(a, b), at = -1;
-        for (int k = 1; k < 8; ++k) {
-            const double t = k / 8.0;
+        // Opposite a corner the border has to come out, however narrow the corner is.
+        const bool narrow = faces_corner(a, b);
+        double best = (narrow ? 1e-4 : dip) * length(a, b), at = -1;
+        const int samples = narrow ? 64 : 8;
+        for (int k = 1; k < samples; ++k) {
+            const double t = k / static_cast<double>(samples);
             const double d = patch_.distance((1 - t) * band_.nodes[a].at + t * band_.nodes[b].at) * (ends > 0 ? -1 : 1);
             if (d <= best) continue;
             best = d;
@@ -198,7 +210,6 @@ private:
             }
         }
         // Outside the mesh; but a faceted surface may pass a corner by.
-        if (std::getenv("DBG")) fprintf(stderr,"corner %g %g %g face %d least %g\n",corner.at[0],corner.at[1],corner.at[2],face,least);
         if (face < 0 || (least > 1e-6 && !std::isfinite(f_.tool->feature_size()))) return;
         Contact tools = Contact(f_.tool).with(patch_.sides[corner.sides[0]].get()).with(patch_.sides[corner.sides[1]].get());
         const auto seat = [&](int v, double enough) {
@@ -281,6 +292,9 @@ void keep_patch(Interface& f, const Patch& patch) {
     const auto too_coarse = [&](const std::string& why) {
         throw ToolError("the mesh is too coarse for the crack: " + why + ". Refine the mesh near the crack front first, or make the crack larger");
     };
+    const auto on_corner = [&](int v) {
+        return std::ranges::any_of(patch.corners, [&](const Patch::Corner& c) { return (c.at - band.nodes[v].at).norm() <= 100 * f.tolerance; });
+    };
     if (left == 0) too_coarse("no element face fits in it");
     double radius = std::numeric_limits<double>::infinity();
     for (const auto& side : patch.sides) radius = std::min(radius, side->feature_size());
@@ -298,7 +312,11 @@ void keep_patch(Interface& f, const Patch& patch) {
         }
     }
     for (int v = 0; v < band.size(); ++v)
-        if (std::getenv("DBG") && f.d.contact[v].count() == 3) fprintf(stderr, "kept corner node %d at %g %g %g faces %zu\n", v, band.nodes[v].at[0], band.nodes[v].at[1], band.nodes[v].at[2], band.cut_faces.around(v).size());
+        if (f.d.contact[v].count() == 3 && band.cut_faces.around(v).empty() && on_corner(v)) {
+            std::ostringstream message;
+            message << "the crack front cannot be led around its corner at (" << band.nodes[v].at.transpose() << "): the mesh is too coarse there. Refine it near the corner first";
+            throw QualityError(message.str());
+        }
     for (int v = 0; v < band.size(); ++v)
         if (f.d.contact[v] && band.cut_faces.around(v).empty() && band.cut_edges.around(v).empty()) f.d.contact[v] = {};
 }
