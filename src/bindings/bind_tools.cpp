@@ -11,6 +11,7 @@
 #include "error.h"
 #include "tools/cone.h"
 #include "tools/cylinder.h"
+#include "tools/face.h"
 #include "tools/patch.h"
 #include "tools/plane.h"
 #include "tools/sphere.h"
@@ -75,6 +76,17 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("apex", [](const Cone& cone) { return triple(cone.apex()); })
         .def_property_readonly("radius", &Cone::radius)
         .def_property_readonly("half_angle", &Cone::half_angle);
+    py::class_<Face, Tool>(module, "Face")
+        // In this order: bytes would pass for a path too.
+        .def(py::init([](const py::bytes& brep) { return Face::from_brep(brep); }))
+        .def(py::init([](const std::string& path) { return Face::read(path); }))
+        .def_property_readonly("face_count", &Face::face_count)
+        .def("beyond", [](const Face& face, const RealArray& points) {
+            if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");
+            py::array_t<double> out(points.shape(0));
+            for (py::ssize_t i = 0; i < points.shape(0); ++i) out.mutable_at(i) = face.beyond(Eigen::Map<const Eigen::Vector3d>(points.data() + 3 * i));
+            return out;
+        });
 
     py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
     py::class_<Disk, Within>(module, "Disk").def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }));

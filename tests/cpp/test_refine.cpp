@@ -14,6 +14,7 @@
 #include "groups/group_report.h"
 #include "io/inp.h"
 #include "mesh/quality.h"
+#include "operators/crack.h"
 #include "operators/refine.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
@@ -391,6 +392,19 @@ TEST(Refine, BadOptions) {
     expect("more than 10000 elements", [](RefineOptions& o) { o.size = 0.02; o.max_elements = 10000; });
     EXPECT_THAT([] { distance_to(std::vector<const Tool*>{}); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("near is empty")));
     EXPECT_THAT([] { distance_to(std::vector<Vec3>{{0, 0, 0}, {0, std::nan(""), 0}}); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("point 1")));
+}
+
+TEST(Refine, ThenCrackAlongAThinCylinder) {
+    // In so thin a cylinder elements have all four corners on it; the crack must not have holes there.
+    const Mesh mesh = read_inp(std::string(FEMSCALPEL_TEST_MESHES) + "/two_boxes.inp");
+    const Cylinder thin({6, 5, 5}, {0, 0, 1}, 0.6);
+    RefineOptions options;
+    options.size = 0.3;
+    const Result refined = refine(mesh, distance_to(std::vector<const Tool*>{&thin}), options);
+    const Result result = crack(refined.mesh, thin);
+    EXPECT_GE(result.report.quality_after.minimum, 0.3);
+    const double whole = 2 * M_PI * 0.6 * 10;
+    EXPECT_NEAR(group_sums(result.mesh)[*result.mesh.find_group("CRACK_P", GroupKind::element)].measure, whole, 0.04 * whole);
 }
 
 }  // namespace

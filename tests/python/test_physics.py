@@ -35,8 +35,8 @@ def plate(counts=(8, 6), size=(6.0, 5.0)):
     return fs.Mesh(np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)]), {"triangle": triangles})
 
 
-def quadratic_plate():
-    mesh = plate()
+def quadratic_of(mesh):
+    """The same triangles with mid-side nodes."""
     cells = mesh.cells["triangle"]
     pairs = np.sort(np.stack([cells[:, e] for e in ([0, 1], [1, 2], [2, 0])], axis=1), axis=2)
     unique, inverse = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
@@ -48,10 +48,10 @@ MODELS = {
     "C3D4": (grid_box, SOLID.format(thickness="")),
     "C3D10": (lambda: quadratic(grid_box()), SOLID.format(thickness="")),
     "CPS3": (plate, SOLID.format(thickness="0.1\n")),
-    "CPS6": (quadratic_plate, SOLID.format(thickness="0.1\n")),
+    "CPS6": (lambda: quadratic_of(plate()), SOLID.format(thickness="0.1\n")),
     "CPE3": (plate, SOLID.format(thickness="0.1\n")),
     "S3": (plate, SHELL),
-    "S6": (quadratic_plate, SHELL),
+    "S6": (lambda: quadratic_of(plate()), SHELL),
 }
 
 

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import femscalpel as fs
+from meshes import box_with_groups
 
 
 def test_plane():
@@ -73,6 +76,35 @@ def test_sphere_torus_cone():
 def test_bad_sphere_torus_cone(make, error, message):
     with pytest.raises(error, match=message):
         make()
+
+
+SHAPES = Path(__file__).parent / "shapes"
+
+
+class Shape:
+    """What Face needs of a FreeCAD shape."""
+
+    def exportBrepToString(self):
+        return (SHAPES / "plane.brep").read_text()
+
+
+@pytest.mark.parametrize("source", [SHAPES / "plane.brep", str(SHAPES / "plane.step"), Shape()])
+def test_face(source):
+    """A square of side 20 in the plane x = 3.3."""
+    face = fs.Face(source)
+    assert face.kind == "face" and face.face_count == 1 and np.isinf(face.feature_size) and repr(face).startswith("Face(")
+    np.testing.assert_allclose(np.abs(face.distance([[3.3, 1, 1], [5, 2, 2], [0, 0, 0]])), [0, 1.7, 3.3], atol=1e-12)
+    box = box_with_groups()
+    by_face, by_plane = fs.crack(box, face), fs.crack(box, fs.Plane((3.3, 0, 0), (1, 0, 0)))
+    assert by_face.report.nodes_doubled == by_plane.report.nodes_doubled > 0
+    assert fs.measure(by_face.mesh)["tetra"].sum() == pytest.approx(120, rel=1e-12)
+
+
+def test_bad_face(tmp_path):
+    with pytest.raises(fs.ReadError, match="nowhere.step"):
+        fs.Face(tmp_path / "nowhere.step")
+    with pytest.raises(TypeError, match="source must be a path or a FreeCAD shape"):
+        fs.Face(3)
 
 
 def test_errors_have_one_base():

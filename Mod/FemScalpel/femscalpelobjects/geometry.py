@@ -43,6 +43,25 @@ def name_of(where, shape, kind, index):
     return f"{where} {kind}{index + 1}"
 
 
+class Owners:
+    """Finds the owners of parts of shapes: the solids of a face, the faces of an edge."""
+
+    def __init__(self, owned):
+        """`owned`: (owner, its parts) pairs."""
+        self._by_hash = {}
+        for owner, parts in owned:
+            for part in parts:
+                self._by_hash.setdefault(part.hashCode(), []).append((part, owner))
+
+    def of(self, part):
+        """Owners of a part, each once."""
+        found = []
+        for other, owner in self._by_hash.get(part.hashCode(), ()):
+            if part.isSame(other) and not any(owner is known for known in found):
+                found.append(owner)
+        return found
+
+
 class Entity:
     """A face or an edge of a shape, and the nodes of the mesh on it."""
 
@@ -59,14 +78,11 @@ class Entity:
 
 
 class Face(Entity):
-    def __init__(self, name, shape, whole):
+    def __init__(self, name, shape, solids):
         super().__init__(name, shape)
         self.surface = shape.Surface
         #: How many solids it bounds: with one, it is part of the skin.
-        self.solids = sum(any(shape.isSame(face) for face in solid.Faces) for solid in whole.Solids)
-
-    def has(self, edge):
-        return any(edge.isSame(e) for e in self.shape.Edges)
+        self.solids = solids
 
     def holds(self, points):
         """Boolean array: points that need no look at the shape, as they are on its plane (and came to be inside its edges)."""
@@ -113,7 +129,7 @@ class Edge(Entity):
 
 def nearest(start, entities, tools, size):
     """The point near `start` on all entities and tools, or None: an edge alone, or faces by Newton's method."""
-    if isinstance(entities[0], Edge):
+    if entities and isinstance(entities[0], Edge):
         place = entities[0].nearest(start, tools[0] if tools else None)
     else:
         place = start.copy()

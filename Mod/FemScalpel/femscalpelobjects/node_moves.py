@@ -10,8 +10,12 @@ from .mesh_parts import MID_SIDES, TETRAS, TRIANGLES
 _POOR = 0.3  # mean ratio below which an element must not lose half of its own
 
 
-def carry_mid_sides(mesh, points, changed):
-    """Mid-side nodes that have not been put anywhere themselves go half the way with their corners."""
+def carry_mid_sides(mesh, points, changed, free):
+    """`free` mid-side nodes that have not been put anywhere themselves go half the way with their corners.
+
+    Returns their indices.
+    """
+    before = changed.copy()
     for name, edges in MID_SIDES.items():
         nodes = mesh.cells.get(name)
         if nodes is None:
@@ -19,10 +23,11 @@ def carry_mid_sides(mesh, points, changed):
         nodes = nodes[changed[nodes].any(axis=1)]
         shift = points - mesh.points
         for middle, (i, j) in enumerate(edges, start=nodes.shape[1] - len(edges)):
-            moving = ~changed[nodes[:, middle]] & (changed[nodes[:, i]] | changed[nodes[:, j]])
+            moving = free[nodes[:, middle]] & ~before[nodes[:, middle]] & (changed[nodes[:, i]] | changed[nodes[:, j]])
             middles = nodes[moving, middle]
             points[middles] = mesh.points[middles] + (shift[nodes[moving, i]] + shift[nodes[moving, j]]) / 2
     changed |= (points != mesh.points).any(axis=1)
+    return np.flatnonzero(changed & ~before)
 
 
 def spoilt_by(mesh, points, changed):

@@ -10,7 +10,7 @@ longer be found, and the load, support or material would end there without a mes
 import Fem
 import numpy as np
 
-from .geometry import Edge, Entity, Face, name_of, nearest
+from .geometry import Edge, Entity, Face, Owners, name_of, nearest
 from .mesh_parts import TETRA_FACES, TETRAS, TRIANGLES, border_nodes, nodes_of_elements, nodes_of_facets
 from .node_moves import carry_mid_sides, spoilt_by
 
@@ -63,11 +63,15 @@ class OnShape:
                 vertex.nodes = finder.getNodesByVertex(shape)
                 self._vertices.append(vertex)
                 continue
-            faces = [Face(name_of(where, shape, "Face", i), face, shape) for i, face in enumerate(shape.Faces)]
+            solids = Owners((solid, solid.Faces) for solid in shape.Solids)
+            faces = [Face(name_of(where, shape, "Face", i), face, len(solids.of(face))) for i, face in enumerate(shape.Faces)]
+            owners = Owners((face, face.shape.Edges) for face in faces)
             for face in faces:
                 face.nodes = finder.getNodesByFace(face.shape)
             for i, shape_edge in enumerate(shape.Edges):
-                edge = Edge(name_of(where, shape, "Edge", i), shape_edge, [f for f in faces if f.has(shape_edge)])
+                if shape_edge.Degenerated:  # a pole of a sphere, the tip of a cone
+                    continue
+                edge = Edge(name_of(where, shape, "Edge", i), shape_edge, owners.of(shape_edge))
                 # The seam of a closed face is no line the mesh has to keep.
                 if not (len(edge.faces) == 1 and shape_edge.isSeam(edge.faces[0].shape)):
                     edge.nodes = finder.getNodesByEdge(shape_edge)
@@ -171,14 +175,18 @@ class OnShape:
 
         size = np.ptp(points, axis=0).max()
         changed = np.zeros(mesh.node_count, bool)
+        on_tool = np.array([np.abs(tool.distance(points)) < 1e-9 * size for tool in tools]).reshape(len(tools), -1)
         for nodes, places in self._off(points, entities):
-            start = points[nodes[0]]
-            kept = [tool for tool in tools if abs(tool.distance(start)[0]) < 1e-9 * size]
-            place = nearest(start, places, kept, size)
+            kept = [tool for tool, on in zip(tools, on_tool) if on[nodes[0]]]
+            place = nearest(points[nodes[0]], places, kept, size)
             if place is not None:
                 points[nodes] = place
                 changed[nodes] = True
-        carry_mid_sides(mesh, points, changed)
+        known, moved, _ = self._compared(mesh)
+        for node in carry_mid_sides(mesh, points, changed, ~known | moved):
+            kept = [tool for tool, on in zip(tools, on_tool) if on[node]]
+            place = nearest(points[node], [], kept, size) if kept else None
+            points[node] = points[node] if place is None else place
         while True:
             spoilt = spoilt_by(mesh, points, changed)
             if not len(spoilt):

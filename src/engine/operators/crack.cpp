@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/crack.h"
 
+#include <cmath>
+#include <sstream>
+
 #include "operators/border.h"
 
 namespace femscalpel {
 namespace {
+
+/// A face whose border lies this far inside the skin, in edge lengths, still counts as cutting through: the skin is faceted.
+constexpr double outside = 0.05;
 
 /// Tag of the tool's faces in the band.
 constexpr int whole_tool = 0;
@@ -27,8 +33,13 @@ void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
     Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
+    Blade blade;
+    blade.tool = &tool;
+    if (options.method == Method::snap && std::isfinite(tool.feature_size())) blade.tag = whole_tool;
+    if (tool.bounded()) blade.bound = [&tool](const Vec3& x) { return tool.beyond(x); };
+    if (tool.bounded() && options.method == Method::deform)
+        throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " + tool.kind());
     std::optional<Patch> patch;
-    Blade blade{&tool, {}, {}, std::isfinite(tool.feature_size()) && options.method == Method::snap ? whole_tool : -1};
     if (options.within) {
         if (options.method == Method::deform) throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
         patch = options.within->on(tool);
@@ -39,7 +50,10 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (patch) {
         snap_to_patch(f, blade, *patch);
     } else if (operation.location().crossed > 0) {
-        if (options.method == Method::snap) snap_to_tool(f, blade);
+        if (tool.bounded()) {
+            cut_along(f, blade);
+            relax_band(f);
+        } else if (options.method == Method::snap) snap_to_tool(f, blade);
         else deform_to_tool(f, tool, operation.mesh());
     }
     operation.take_laps(f.seconds);
@@ -48,8 +62,17 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (lips.copy_of.empty())
         throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
                         " into the material");
-    find_node_sets(f);
-    check_contacts(f);
+    if (patch) {
+        find_node_sets(f);
+        check_contacts(f);
+    }
+    if (tool.bounded())
+        for (const int v : lips.interface_nodes)
+            if (const Vec3& x = f.d.band.nodes[v].at; tool.beyond(x) > outside * f.d.band.mean_edge_length(v)) {
+                std::ostringstream message;
+                message << "the " << tool.kind() << " ends inside the material, near (" << x.transpose() << "); it must cut right through. Make it larger";
+                throw ToolError(message.str());
+            }
     return operation.finish(f, lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 

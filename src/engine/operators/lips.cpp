@@ -13,6 +13,9 @@
 namespace femscalpel {
 namespace {
 
+/// Sine of the angle between a triangle and the tool up to which the triangle lies along it.
+constexpr double along_tool = 0.5;
+
 constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 class Opener {
@@ -47,12 +50,18 @@ private:
         // A node off the interface can still lie in its plane, beyond the front.
         for (const int v : nodes)
             if (!on_tool(v) && f_.distance[v] != 0) return f_.distance[v] > 0 ? 1 : -1;
-        // On a curved tool an element can have all its nodes; then its middle is on one side.
-        if (!f_.tool || !std::isfinite(f_.tool->feature_size())) return 0;
+        if constexpr (N < 3) return 0;
+        // All corners lie on a curved tool: the element fills a bulge of it, and its middle tells on which side. A
+        // triangle may also lie along the tool.
         Vec3 middle = Vec3::Zero();
         for (const int v : nodes) middle += band_.nodes[v].at / static_cast<double>(N);
-        const double off = f_.tool->distance(middle);
-        return std::abs(off) <= f_.tolerance ? 0 : off > 0 ? 1 : -1;
+        const double distance = f_.tool->distance(middle);
+        if (std::abs(distance) <= f_.tolerance) return 0;
+        if constexpr (N == 3) {
+            const Vec3 &a = band_.nodes[nodes[0]].at, &b = band_.nodes[nodes[1]].at, &c = band_.nodes[nodes[2]].at;
+            if ((b - a).cross(c - a).normalized().cross(f_.tool->normal(middle)).norm() < along_tool) return 0;
+        }
+        return distance > 0 ? 1 : -1;
     }
 
     void find_open_faces() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 
 namespace femscalpel {
@@ -26,6 +27,12 @@ public:
 
     /// Smallest radius of curvature, or infinity: the mesh must be finer than this to follow the surface.
     virtual double feature_size() const = 0;
+
+    /// Whether the surface has a border of its own, beyond which it does not cut.
+    virtual bool bounded() const { return false; }
+
+    /// How far the point of the surface closest to `x` lies beyond the border; negative inside it.
+    virtual double beyond(const Eigen::Vector3d&) const { return -std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace femscalpel

@@ -20,7 +20,7 @@ from .meshfile import read, write
 from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
-from .tools import Cone, Cylinder, Plane, Sphere, Tool, Torus
+from .tools import Cone, Cylinder, Face, Plane, Sphere, Tool, Torus
 from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within
 
 __version__ = "0.1.0"
@@ -35,6 +35,7 @@ __all__ = [
     "ElementaryGroup",
     "ElementQuality",
     "Error",
+    "Face",
     "Group",
     "GroupRecord",
     "Groups",

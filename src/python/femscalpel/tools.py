@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What one cuts with."""
 
+import os
 from typing import Sequence, Tuple
 
 import numpy as np
@@ -190,6 +191,37 @@ class Cone(_engine.Cone):
 
     def __repr__(self) -> str:
         return f"Cone(origin={self.origin}, axis={self.axis}, radius={self.radius}, half_angle={self.half_angle})"
+
+
+class Face(_engine.Face):
+    """A face or shell of a CAD model, by OpenCASCADE; its positive side is the one its normals point to.
+
+    A crack along it needs a face that cuts right through the part: its border must lie outside the material.
+
+    Parameters
+    ----------
+    source : path, or FreeCAD shape
+        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, or a ``Part.Shape``: all faces in it, which must meet smoothly.
+        Lengths of a STEP file are taken in millimetres.
+
+    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no face in
+    it, or faces that meet at an angle.
+    """
+
+    def __init__(self, source):
+        if hasattr(source, "exportBrepToString"):
+            super().__init__(source.exportBrepToString().encode())
+        elif isinstance(source, (str, os.PathLike)):
+            super().__init__(os.fspath(source))
+        else:
+            raise TypeError(f"source must be a path or a FreeCAD shape, not {_arguments.describe(source)}")
+        # Kept, so that debuggers can show an object whose construction failed.
+        self._text = f"Face({_arguments.describe(source)}, {self.face_count} face(s))"
+
+    distance = _distance
+
+    def __repr__(self) -> str:
+        return getattr(self, "_text", "Face()")
 
 
 def check_tool(tool, name: str = "tool"):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Nodes stay where FreeCAD finds them: on the geometry the mesh was made from."""
 
+import os
+
 import FreeCAD
 import numpy as np
 import ObjectsFem
@@ -21,7 +23,8 @@ def rounded_box():
 SHAPES = {
     "cylinder": lambda: Part.makeCylinder(10, 30),
     "tube": lambda: Part.makeCylinder(12, 25).cut(Part.makeCylinder(7, 25)),
-    "cone": lambda: Part.makeCone(12, 6, 25),
+    "cone": lambda: Part.makeCone(12, 3, 25),
+    "sphere and box": lambda: Part.makeSphere(11).fuse(Part.makeBox(14, 14, 14)),
     "torus": lambda: Part.makeTorus(20, 6),
     "rounded box": rounded_box,
     "two solids": lambda: Part.makeCylinder(10, 12).generalFuse([Part.makeCylinder(10, 12, FreeCAD.Vector(0, 0, 12))])[0],
@@ -98,6 +101,31 @@ class OnShape(DocumentTest):
             self.assertLess(max(abs((nodes[n] - plane.Base).dot(normal)) for n in lip), 1e-7)
         if lips:
             self.assertEqual(*({tuple(nodes[n]) for n in lip} for lip in lips))
+
+    def test_found_after_a_file_too(self):
+        shape, source = self.mesh_of("cylinder", "2nd", 4.5)
+        ObjectsFemScalpel.makeCrack(self.doc, source, origin=(0, 0, 14), normal=(0.4, 0.1, 1))
+        self.doc.recompute()
+        path = os.path.join(self.folder.name, "saved.FCStd")
+        self.doc.saveAs(path)
+        FreeCAD.closeDocument(self.doc.Name)
+        self.doc = FreeCAD.openDocument(path)
+        crack = self.doc.Crack
+        self.assertGreater(crack.NodesMoved, 0)
+        self.check(self.doc.Geometry.Shape, crack)
+
+    def test_a_hole_through_a_curved_face(self):
+        shape, source = self.mesh_of("cylinder", "2nd", 3)
+        drill = ObjectsFemScalpel.makeDrill(self.doc, source, origin=(0, 0, 14), axis=(1, 0.1, 0.2), radius=4)
+        self.doc.recompute()
+        self.assertNotIn("Invalid", drill.State, drill.getStatusString())
+        self.assertEqual(drill.OffShape, [])
+        walls = [set(drill.FemMesh.getGroupElements(g)) for g in drill.FemMesh.Groups
+                 if drill.FemMesh.getGroupName(g) == "HOLE_WALL"]
+        self.assertEqual(self.not_found(drill.FemMesh, shape, walls), 0)
+        hole = fs.Cylinder((0, 0, 14), (1, 0.1, 0.2), 4)
+        wall = np.array([drill.FemMesh.Nodes[n] for n in walls[0]])
+        self.assertLess(np.abs(hole.distance(wall)).max(), 1e-7)
 
     def test_solids_keep_their_volume(self):
         shape, source = self.mesh_of("two solids", "1st", 3)

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "tools/tool.h"
+
+namespace femscalpel {
+
+/// A face or a shell of a CAD model as an open surface, by OpenCASCADE. The positive side is the one its oriented
+/// normals point to (of a solid's faces: outside).
+///
+/// Beyond its border the surface goes on as the underlying geometry does (plane, cylinder, ...; a spline in its tangent
+/// plane), and beyond() tells how far. Up to its own size away distances are exact; farther they are a lower bound with
+/// a sign, which is all that locating needs.
+class Face final : public Tool {
+public:
+    /// From a .step, .stp, .brep or .brp file; all faces in it. Throws ReadError that names the file when it cannot be
+    /// read, ToolError when it holds no face, or faces that meet at an angle: the surface would fold there.
+    static Face read(const std::filesystem::path& path);
+
+    /// From the text of a .brep file, as FreeCAD's exportBrepToString() gives it.
+    static Face from_brep(const std::string& text);
+
+    ~Face() override;
+
+    std::string kind() const override { return "face"; }
+    double distance(const Eigen::Vector3d& x) const override;
+    Eigen::Vector3d normal(const Eigen::Vector3d& x) const override;
+    Eigen::Vector3d project(const Eigen::Vector3d& x) const override;
+    double feature_size() const override;
+    bool bounded() const override;
+    double beyond(const Eigen::Vector3d& x) const override;
+
+    int face_count() const;
+
+private:
+    struct Geometry;
+    explicit Face(std::shared_ptr<const Geometry> geometry);
+    std::shared_ptr<const Geometry> geometry_;
+};
+
+}  // namespace femscalpel
