@@ -77,8 +77,7 @@ def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, o
                          transition=0, group_name="CRACK", feature_angle=30.0, preserve=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder.
 
-    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the length `radius` in mm. The lip ``_P`` is
-    outside. Everything else is as for makeCrack().
+    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. The lip ``_P`` is outside. Everything else is as for makeCrack().
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
@@ -88,17 +87,18 @@ def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, o
 
 def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=None, origin=None, axis=None, radius=1.0,
                     tube_radius=0.25, half_angle=30.0, method="snap", transition=0, group_name="CRACK", feature_angle=30.0,
-                    preserve=None):
+                    preserve=None, face=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a curved tool.
 
-    `tool` is "Cylinder", "Sphere", "Torus" or "Cone"; see the classes of that name in femscalpel. Its centre and axis are
-    `origin` and `axis`, or origin and z axis of `placement`. `radius` is that of a cylinder or sphere, of a torus' ring, of
-    a cone at its origin; `tube_radius` that of a torus' tube; `half_angle`, in degrees, is a cone's. The lip ``_P`` is
-    outside. Everything else is as for makeCrack().
+    `tool` is "Cylinder", "Sphere", "Torus", "Cone" or "Face"; see the classes of that name in femscalpel. Its centre and axis
+    are `origin` and `axis`, or origin and z axis of `placement`. `radius` is that of a cylinder or sphere, of a torus' ring,
+    of a cone at its origin; `tube_radius` that of a torus' tube; `half_angle`, in degrees, is a cone's. `face` is for "Face":
+    a document object with a shape, or (object, names of its faces). The lip ``_P`` is outside, or on the side a face's
+    normals point to. Everything else is as for makeCrack().
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
-    return _make(doc, CurvedCrack, source, name, ToolShape=tool, AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
+    return _make(doc, CurvedCrack, source, name, ToolShape=tool, ToolFace=_link(face), AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
                  HalfAngle=half_angle, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle,
                  PreservedGroups=_preserved(preserve))
 
@@ -134,7 +134,7 @@ def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None,
 
 
 def makeRefine(doc, source, name="Refine", tool="Cylinder", placement=None, origin=None, axis=None, radius=1.0, tube_radius=0.25,
-               half_angle=30.0, size=1.0, reach=0.0, gradation=0.5, feature_angle=30.0):
+               half_angle=30.0, size=1.0, reach=0.0, gradation=0.5, feature_angle=30.0, face=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, with edges no longer than `size` mm around a tool.
 
     The tool is as for makeCurvedCrack(), or "Plane", with `axis` as its normal. `size` holds up to the distance `reach`;
@@ -142,7 +142,7 @@ def makeRefine(doc, source, name="Refine", tool="Cylinder", placement=None, orig
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
-    return _make(doc, Refine, source, name, ToolShape=tool, AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
+    return _make(doc, Refine, source, name, ToolShape=tool, ToolFace=_link(face), AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
                  HalfAngle=half_angle, Size=size, Reach=reach, Gradation=gradation, FeatureAngle=feature_angle)
 
 
@@ -208,6 +208,13 @@ def _make(doc, operation, source, name, **properties):
     if FreeCAD.GuiUp:
         ViewProviderMeshOperation(obj.ViewObject)
     return obj
+
+
+def _link(face):
+    """The value of a property of type LinkSub."""
+    if face is None or isinstance(face, (tuple, list)):
+        return face
+    return face, [""]
 
 
 def _preserved(preserve):

@@ -9,9 +9,10 @@ from .drill import Drill
 from .export import Export
 from .group_inspector import GroupInspector
 from .mesh_quality import MeshQuality
+from .refine import Refine
 
 #: In the order of menu and toolbar; None is a separator.
-COMMANDS = (Crack, CylindricalCrack, Drill, None, GroupInspector, MeshQuality, Export)
+COMMANDS = (Crack, CylindricalCrack, Drill, Refine, None, GroupInspector, MeshQuality, Export)
 
 
 def register():

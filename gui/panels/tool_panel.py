@@ -11,8 +11,7 @@ from .. import preferences
 from ..macro import record_import
 from ..translate import form, icon, translate
 from ..view import preview_scene
-from ..view.group_shape import group_shape
-from ..view.preview_data import make_preview
+from ..view.preview_data import group_in_preview, make_preview
 from . import fields, group_table
 from .histogram import Histogram
 from .view_panel import ViewPanel, abort_transaction
@@ -249,11 +248,7 @@ class ToolPanel(ViewPanel):
         if chosen is None or self.shown is None:
             self.scene.highlight(None)
             return
-        mesh = self.shown.result.mesh
-        if chosen not in [(g.name, g.kind) for g in mesh.groups.all()]:
-            self.scene.highlight(None)
-            return
-        self.scene.highlight(group_shape(mesh, *chosen))
+        self.scene.highlight(group_in_preview(self.source, self.shown, *chosen))
 
     # Picking.
 

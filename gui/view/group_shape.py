@@ -62,6 +62,13 @@ def elements_shape(mesh, ids):
     return GroupShape(points, rows, np.concatenate(lines), np.concatenate(nodes))
 
 
+def joined(first, second):
+    """Two GroupShapes as one."""
+    faces = np.where(second.faces < 0, -1, second.faces + len(first.points))
+    return GroupShape(np.concatenate([first.points, second.points]), np.concatenate([first.faces, faces]),
+                      np.concatenate([first.lines, second.lines]), np.concatenate([first.nodes, second.nodes]))
+
+
 # CalculiX's faces of elements by their corner nodes, in its order; of shells, edges from the third on.
 _LOCAL_FACES = {
     "tetra": ((0, 1, 2, -1), (0, 3, 1, -1), (1, 3, 2, -1), (2, 3, 0, -1)),

@@ -10,6 +10,7 @@ import femscalpel
 from femscalpel.mesh import CELL_TYPES
 
 from . import faces as mesh_faces
+from .group_shape import elements_shape, group_shape, joined, nodes_shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +41,7 @@ class PreviewData:
     outline: np.ndarray  #: lines around the new surface
     front: np.ndarray  #: lines where the crack ends inside the part
     moved: np.ndarray  #: points
+    replaced: np.ndarray  #: numbers of the source's elements that the changed part stands for
     removed: Surface  #: outer faces of elements that go
     worst: np.ndarray  #: edges of the worst element
     worst_centre: np.ndarray  #: (3,) float32
@@ -236,7 +238,8 @@ def make_preview(source, result, tool, removed_region=None):
     return PreviewData(
         result=result, rest=rest, band=band, families=list(source.families.names),
         borders=np.concatenate([_kept_borders(source, stays), _band_borders(points, faces, family, lip, total)]),
-        outline=outline, front=front, moved=mesh.points[moved].astype(np.float32), removed=removed,
+        outline=outline, front=front, moved=mesh.points[moved].astype(np.float32),
+        replaced=source.cells.ids[replaced], removed=removed,
         worst=worst, worst_centre=centre, worst_ratio=ratio, lip_area=int(lip.sum()))
 
 
@@ -247,6 +250,22 @@ def _find(keys, among):
     order = np.argsort(among)
     at = order[np.minimum(np.searchsorted(among[order], keys), len(among) - 1)]
     return among[at] == keys, at
+
+
+def group_in_preview(source, data, name, kind):
+    """The GroupShape of a group in a preview: its part in the changed mesh, and its part in the source beside that."""
+    changed, mesh = data.result.mesh, source.mesh
+    shapes = []
+    if (name, kind) in [(g.name, g.kind) for g in changed.groups.all()]:
+        shapes.append(group_shape(changed, name, kind))
+    if (name, kind) in [(g.name, g.kind) for g in mesh.groups.all()] and kind != "facet":
+        ids = mesh.groups[name, kind].ids
+        if kind == "node":
+            shapes.append(nodes_shape(mesh, ids[~np.isin(ids, changed.node_ids)]))
+        else:
+            shown = np.concatenate([data.replaced, *changed.cell_ids.values()])
+            shapes.append(elements_shape(mesh, ids[~np.isin(ids, shown)]))
+    return joined(*shapes) if len(shapes) == 2 else shapes[0] if shapes else None
 
 
 def _all_corners(faces, mask):

@@ -191,6 +191,10 @@
       <translation>Aufgeschnitten</translation>
     </message>
     <message>
+      <source>Cylinder</source>
+      <translation>Zylinder</translation>
+    </message>
+    <message>
       <source>Cylindrical crack</source>
       <translation>Zylindrischer Riss</translation>
     </message>
@@ -295,8 +299,20 @@
       <translation>Wählen Sie eine ebene Fläche, eine Kante, eine Bezugsebene oder -linie, eine Skizze oder eine Seite des Netzes.</translation>
     </message>
     <message>
+      <source>Plane</source>
+      <translation>Ebene</translation>
+    </message>
+    <message>
       <source>Reading the mesh…</source>
       <translation>Netz wird gelesen…</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Verfeinern</translation>
+    </message>
+    <message>
+      <source>Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups</source>
+      <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder Ebene und erhält seine Gruppen</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -321,6 +337,10 @@
     <message>
       <source>Smallest angle (dihedral in solids)</source>
       <translation>Kleinster Winkel (bei Volumen zwischen Seiten)</translation>
+    </message>
+    <message>
+      <source>Sphere</source>
+      <translation>Kugel</translation>
     </message>
     <message>
       <source>Status</source>
@@ -585,21 +605,6 @@
     </message>
   </context>
   <context>
-    <name>Incision</name>
-    <message>
-      <source>Distance of the two walls; the plane is in the middle between them</source>
-      <translation>Abstand der beiden Wände; die Ebene liegt in der Mitte dazwischen</translation>
-    </message>
-    <message>
-      <source>Incision</source>
-      <translation>Einschnitt</translation>
-    </message>
-    <message>
-      <source>Width</source>
-      <translation>Breite</translation>
-    </message>
-  </context>
-  <context>
     <name>MeshQuality</name>
     <message>
       <source>Click an element to zoom to it</source>
@@ -778,6 +783,45 @@
     <message>
       <source>z</source>
       <translation>z</translation>
+    </message>
+  </context>
+  <context>
+    <name>RefineSizes</name>
+    <message>
+      <source>Edge size</source>
+      <translation>Kantenlänge</translation>
+    </message>
+    <message>
+      <source>Growth</source>
+      <translation>Wachstum</translation>
+    </message>
+    <message>
+      <source>How much longer edges may be per unit of distance beyond that</source>
+      <translation>Um wie viel länger Kanten je Längeneinheit weiter draußen sein dürfen</translation>
+    </message>
+    <message>
+      <source>Longest edge wanted at the tool</source>
+      <translation>Längste gewünschte Kante am Werkzeug</translation>
+    </message>
+    <message>
+      <source>Near</source>
+      <translation>Nahe</translation>
+    </message>
+    <message>
+      <source>Reach</source>
+      <translation>Reichweite</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Verfeinern</translation>
+    </message>
+    <message>
+      <source>The edge size holds up to this distance from the tool</source>
+      <translation>Die Kantenlänge gilt bis zu diesem Abstand vom Werkzeug</translation>
+    </message>
+    <message>
+      <source>What is refined around; a plane has the axis as its normal</source>
+      <translation>Worum verfeinert wird; eine Ebene hat die Achse als Normale</translation>
     </message>
   </context>
   <context>

@@ -191,6 +191,10 @@
       <translation>En coupe</translation>
     </message>
     <message>
+      <source>Cylinder</source>
+      <translation>Cylindre</translation>
+    </message>
+    <message>
       <source>Cylindrical crack</source>
       <translation>Fissure cylindrique</translation>
     </message>
@@ -295,8 +299,20 @@
       <translation>Choisissez une face plane, une arête, un plan ou une ligne de référence, une esquisse ou une face du maillage.</translation>
     </message>
     <message>
+      <source>Plane</source>
+      <translation>Plan</translation>
+    </message>
+    <message>
       <source>Reading the mesh…</source>
       <translation>Lecture du maillage…</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Raffiner</translation>
+    </message>
+    <message>
+      <source>Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups</source>
+      <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un plan en gardant ses groupes</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -321,6 +337,10 @@
     <message>
       <source>Smallest angle (dihedral in solids)</source>
       <translation>Plus petit angle (dièdre pour les volumes)</translation>
+    </message>
+    <message>
+      <source>Sphere</source>
+      <translation>Sphère</translation>
     </message>
     <message>
       <source>Status</source>
@@ -585,21 +605,6 @@
     </message>
   </context>
   <context>
-    <name>Incision</name>
-    <message>
-      <source>Distance of the two walls; the plane is in the middle between them</source>
-      <translation>Distance des deux parois ; le plan est au milieu</translation>
-    </message>
-    <message>
-      <source>Incision</source>
-      <translation>Incision</translation>
-    </message>
-    <message>
-      <source>Width</source>
-      <translation>Largeur</translation>
-    </message>
-  </context>
-  <context>
     <name>MeshQuality</name>
     <message>
       <source>Click an element to zoom to it</source>
@@ -778,6 +783,45 @@
     <message>
       <source>z</source>
       <translation>z</translation>
+    </message>
+  </context>
+  <context>
+    <name>RefineSizes</name>
+    <message>
+      <source>Edge size</source>
+      <translation>Taille d'arête</translation>
+    </message>
+    <message>
+      <source>Growth</source>
+      <translation>Croissance</translation>
+    </message>
+    <message>
+      <source>How much longer edges may be per unit of distance beyond that</source>
+      <translation>De combien les arêtes peuvent s'allonger par unité de distance au-delà</translation>
+    </message>
+    <message>
+      <source>Longest edge wanted at the tool</source>
+      <translation>Plus longue arête voulue près de l'outil</translation>
+    </message>
+    <message>
+      <source>Near</source>
+      <translation>Près de</translation>
+    </message>
+    <message>
+      <source>Reach</source>
+      <translation>Portée</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Raffiner</translation>
+    </message>
+    <message>
+      <source>The edge size holds up to this distance from the tool</source>
+      <translation>La taille d'arête vaut jusqu'à cette distance de l'outil</translation>
+    </message>
+    <message>
+      <source>What is refined around; a plane has the axis as its normal</source>
+      <translation>Autour de quoi raffiner ; un plan a l'axe pour normale</translation>
     </message>
   </context>
   <context>

@@ -187,6 +187,12 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             facet.mid[k] = mid.value_or(chord);
             facet.curved = facet.curved || (facet.mid[k] - chord).norm() > flat_tolerance * size_;
         }
+        // The hull of its Bezier points holds a second-order facet.
+        facet.centre = (facet.corner[0] + facet.corner[1] + facet.corner[2]) / 3;
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 control = 2 * facet.mid[k] - (facet.corner[k] + facet.corner[(k + 1) % 3]) / 2;
+            facet.radius = std::max({facet.radius, (facet.corner[k] - facet.centre).norm(), (control - facet.centre).norm()});
+        }
         band.skin.add(facet.node, facet.surface);
         if (!faces[f].internal && !faces[f].shell)
             for (int v : facet.node) exterior_[v] = 1;
@@ -238,6 +244,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         const Vec3 chord = (segment.end[0] + segment.end[1]) / 2;
         segment.mid = mid_of(segment.node[0], segment.node[1]).value_or(chord);
         segment.curved = (segment.mid - chord).norm() > flat_tolerance * size_;
+        segment.centre = chord;
+        segment.radius = std::max((segment.end[0] - chord).norm(), 2 * (segment.mid - chord).norm());
         if (curve_of[root] < 0) {
             curve_of[root] = static_cast<int>(curves_.size());
             curves_.push_back({true, creases[c].border, creases[c].groups, segment.end[0], (segment.end[1] - segment.end[0]).normalized()});
@@ -333,6 +341,13 @@ NodeConstraint NodeConstraints::on_edge(const BandMesh& band, int a, int b) cons
     return {};
 }
 
+NodeConstraint NodeConstraints::on_face(const BandMesh& band, int a, int b, int c) const {
+    const int face = band.skin.find({a, b, c});
+    if (face < 0) return {};
+    const int origin = band.skin.origin(face);
+    return {NodeFreedom::surface, facets_[origin].surface, origin};
+}
+
 void NodeConstraints::add_node(const BandMesh& band, int node) {
     nodes_.resize(static_cast<std::size_t>(band.size()));
     exterior_.resize(static_cast<std::size_t>(band.size()), 0);
@@ -381,7 +396,7 @@ NodeConstraints::Foot NodeConstraints::foot_on(const Facet& f, const Vec3& x) {
                 nu = std::clamp(nu - excess, 0.0, 1.0);
                 nv = 1 - nu;
             }
-            if (std::abs(nu - u) + std::abs(nv - v) < 1e-14) break;
+            if (std::abs(nu - u) + std::abs(nv - v) < 1e-13) break;
             u = nu;
             v = nv;
         }
@@ -425,11 +440,15 @@ NodeConstraints::Foot NodeConstraints::surface_foot(const NodeConstraint& c, con
     // Walk over the surface from the hint: look at the facets around the best one's corners.
     Foot best = foot_on(facets_[c.hint], x);
     best.facet = c.hint;
+    const auto too_far = [&](const Facet& f) {
+        const double reach = f.radius + std::sqrt(best.distance2);
+        return (x - f.centre).squaredNorm() > reach * reach;
+    };
     for (int step = 0; step < 64; ++step) {
         const int from = best.facet;
         for (int v : facets_[from].node)
             for (int f : facets_around_[v]) {
-                if (f == from || facets_[f].surface != c.shape) continue;
+                if (f == from || facets_[f].surface != c.shape || too_far(facets_[f])) continue;
                 Foot foot = foot_on(facets_[f], x);
                 if (foot.distance2 < best.distance2) {
                     best = foot;
@@ -453,11 +472,15 @@ NodeConstraints::Foot NodeConstraints::curve_foot(const NodeConstraint& c, const
     }
     Foot best = foot_on(segments_[c.hint], x);
     best.facet = c.hint;
+    const auto too_far = [&](const Segment& s) {
+        const double reach = s.radius + std::sqrt(best.distance2);
+        return (x - s.centre).squaredNorm() > reach * reach;
+    };
     for (int step = 0; step < 256; ++step) {
         const int from = best.facet;
         for (int v : segments_[from].node)
             for (int s : segments_around_[v]) {
-                if (s == from || segments_[s].curve != c.shape) continue;
+                if (s == from || segments_[s].curve != c.shape || too_far(segments_[s])) continue;
                 Foot foot = foot_on(segments_[s], x);
                 if (foot.distance2 < best.distance2) {
                     best = foot;

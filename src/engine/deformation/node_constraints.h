@@ -60,6 +60,9 @@ public:
     /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
     NodeConstraint on_edge(const BandMesh& band, int a, int b) const;
 
+    /// The constraint a node inside the face a-b-c has (an existing face of an element of the band).
+    NodeConstraint on_face(const BandMesh& band, int a, int b, int c) const;
+
     /// Moves `x` to a near point that satisfies the node's constraints and lies on all of `tools`.
     /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined.
     bool project(int node, const Contact& tools, Vec3& x) const { return project(nodes_[node], tools, x); }
@@ -78,7 +81,17 @@ public:
     /// The normal of the surface a node lies on, at `x`, or nothing.
     std::optional<Vec3> surface_normal(const NodeConstraint& constraint, const Vec3& x) const;
 
+    /// Whether any surface or curve is not flat or straight.
+    bool any_curved() const {
+        return !std::ranges::all_of(surfaces_, &Surface::flat) || !std::ranges::all_of(curves_, &Curve::straight);
+    }
+
     bool is_flat(int surface) const { return surfaces_[surface].flat; }
+
+    /// Whether the chord between two points on the constraint's shape is on it, too.
+    bool is_straight(const NodeConstraint& c) const {
+        return c.freedom == NodeFreedom::surface ? surfaces_[c.shape].flat : c.freedom != NodeFreedom::curve || curves_[c.shape].straight;
+    }
     bool is_straight(int curve) const { return curves_[curve].straight; }
     bool is_internal(int surface) const { return surfaces_[surface].internal; }
 
@@ -111,6 +124,8 @@ private:
     struct Facet {               // a reference triangle, by input positions
         std::array<Vec3, 3> corner;
         std::array<Vec3, 3> mid;  // of edges 01, 12, 20
+        Vec3 centre = Vec3::Zero();
+        double radius = 0;  // of a ball around the centre that holds the facet
         bool curved = false;
         std::array<int, 3> node;
         int surface = -1;
@@ -126,6 +141,8 @@ private:
     struct Segment {
         std::array<Vec3, 2> end;
         Vec3 mid = Vec3::Zero();
+        Vec3 centre = Vec3::Zero();
+        double radius = 0;
         bool curved = false;
         std::array<int, 2> node;
         int curve = -1;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "deformation/curved_shape.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
@@ -133,8 +134,9 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), membership(band, mesh), contact(static_cast<std::size_t>(band.size())),
-      side(static_cast<std::size_t>(band.size()), 0) {
+    : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh), membership(band, mesh),
+      contact(static_cast<std::size_t>(band.size())), side(static_cast<std::size_t>(band.size()), 0),
+      off_tool(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -144,22 +146,29 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 }
 
 int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
+    mids.split(band, a, b, band.size(), fraction(band.nodes[a].at, band.nodes[b].at, at));
     const bool fixed = constraints.has_fixed_middle(a, b);
     const int node = band.split_edge(a, b, at);
     contact.push_back(tools);
     const double distance = barrier && !tools.has(barrier) ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
+    off_tool.push_back(0);
     constraints.add_node(band, node);
     if (fixed) constraints.fix_node(node);
     membership.add_node(band, node);
     return node;
 }
 
-Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools) const {
+Vec3 Deformable::along_edge(int a, int b, double t) const {
+    const Vec3 &pa = band.nodes[a].at, &pb = band.nodes[b].at;
+    Vec3 x = pa + t * (pb - pa);
+    if (mids.any()) x += 4 * t * (1 - t) * (mid_side(*this, a, b).at - (pa + pb) / 2);
     const NodeConstraint constraint = constraints.on_edge(band, a, b);
-    if (constraint.freedom == NodeFreedom::free && !tools) return at;
-    Vec3 fitted = at;
-    if (!constraints.project(constraint, tools, fitted) || fitted == at) return at;
+    if (!constraints.is_straight(constraint)) constraints.project(constraint, {}, x);
+    return x;
+}
+
+Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools) const {
     const auto worst_child = [&](const Vec3& p) {
         double worst = 1;
         const auto look = [&](const auto& list, auto quality) {
@@ -180,7 +189,17 @@ Vec3 Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools
         });
         return worst;
     };
-    return worst_child(fitted) > 0.2 * worst_child(at) ? fitted : at;
+    const NodeConstraint constraint = constraints.on_edge(band, a, b);
+    if (constraint.freedom == NodeFreedom::free && !tools) return {at, true, worst_child(at)};
+    Vec3 fitted = at;
+    const bool found = constraints.project(constraint, tools, fitted) && (fitted - at).norm() < (band.nodes[a].at - band.nodes[b].at).norm();
+    const double worst = worst_child(at);
+    if (found) {
+        const double worst_fitted = fitted == at ? worst : worst_child(fitted);
+        if (worst_fitted > 0.2 * worst) return {fitted, true, worst_fitted};
+    }
+    if (constraint.freedom == NodeFreedom::free) return {at, true, worst};
+    return {at, constraints.distance(constraint, at) <= 1e-6 * (band.nodes[a].at - band.nodes[b].at).norm(), worst};
 }
 
 Contact Deformable::edge_contact(int a, int b) const {
@@ -289,7 +308,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
                     Vec3 x = node.at + length * step;
                     if (!d.constraints.project(v, tools, x) || d.is_barred(v, x)) continue;
                     const double tried = star.value(x, doublings);
-                    if (tried < value) {
+                    if (tried < value && keeps_curved_shape(d, v, x)) {
                         accepted = true;
                         const bool little = value - tried < 1e-3 * value;
                         node.at = x;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "deformation/mid_sides.h"
 #include "deformation/node_constraints.h"
 #include "groups/node_membership.h"
 #include "mesh/band_mesh.h"
@@ -14,20 +15,33 @@ namespace femscalpel {
 struct Deformable {
     BandMesh band;
     NodeConstraints constraints;
+    MidSides mids;
     NodeMembership membership;         ///< node groups of each node
     std::vector<Contact> contact;      ///< by node: the tools it must stay on
     std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
     const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0
     std::vector<signed char> side;     ///< by node: sign of its distance to `barrier`
+    std::vector<char> off_tool;        ///< by node: it may slide, but is not to be put on a tool
 
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
 
     /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
     int split_edge(int a, int b, const Vec3& at, const Contact& tools);
 
+    /// The point at the fraction t of the edge a-b, which is bent if it is one of a second-order element or lies on
+    /// a curved surface or curve.
+    Vec3 along_edge(int a, int b, double t) const;
+
+    /// A place to split the edge a-b, near `at`.
+    struct SplitPoint {
+        Vec3 at;
+        bool fits;     ///< on the surface or curve the edge is on, and on the tools
+        double worst;  ///< smallest mean ratio of the parts
+    };
+
     /// The point near `at` on the surface or curve the edge a-b is on (and on `tools`), if elements split
     /// there are nearly as good as those split at `at`; else `at` itself.
-    Vec3 fitted_split(int a, int b, const Vec3& at, const Contact& tools) const;
+    SplitPoint fitted_split(int a, int b, const Vec3& at, const Contact& tools) const;
 
     /// The tools the edge a-b lies on: both its ends do, and it is not the chord of a curved tool, unless it is an edge
     /// of the faces that stand for that tool.

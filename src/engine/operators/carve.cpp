@@ -97,33 +97,37 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()});
     Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) { return deep_inside(whole, level, depths); });
     const Mesh& mesh = operation.mesh();
-    Index removed = static_cast<Index>(f.deep_inside.size());
-    std::size_t blade = 0;
-    for (const Body& body : bodies) {
-        std::vector<const Tool*> tools;
-        const int first_tag = static_cast<int>(blade);
-        for (const Body::Wall& wall : body.walls) {
-            tools.push_back(wall.tool);
-            if (options.method == Method::deform) deform_to_tool(f, *wall.tool, mesh);
-            else cut_along(f, blades[blade]);
-            ++blade;
+    const auto carve_once = [&](Interface& g) {
+        Index removed = static_cast<Index>(g.deep_inside.size());
+        std::size_t blade = 0;
+        for (const Body& body : bodies) {
+            std::vector<const Tool*> tools;
+            const int first_tag = static_cast<int>(blade);
+            for (const Body::Wall& wall : body.walls) {
+                tools.push_back(wall.tool);
+                if (options.method == Method::deform) deform_to_tool(g, *wall.tool, mesh);
+                else cut_along(g, blades[blade]);
+                ++blade;
+            }
+            removed += remove_inside(g, tools, first_tag);
         }
-        removed += remove_inside(f, tools, first_tag);
-    }
-    if (removed == 0)
-        throw ToolError("the " + blades.front().tool->kind() + " removes nothing: what it would take off is thinner than the elements there. Move the " +
-                        blades.front().tool->kind() + " into the material");
-    const bool left = [&] {
-        for (int t = 0; t < f.d.band.tetras.size(); ++t)
-            if (f.d.band.tetras.alive(t)) return true;
-        for (int t = 0; t < f.d.band.triangles.size(); ++t)
-            if (f.d.band.triangles.alive(t)) return true;
-        return false;
-    }();
-    if (!left && removed >= solid_count(operation.whole()))
-        throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: it is larger than the part");
-    release_all_but_walls(f, tool_of_tag);
-    if (options.method == Method::snap) relax_band(f);
+        if (removed == 0)
+            throw ToolError("the " + blades.front().tool->kind() + " removes nothing: what it would take off is thinner than the elements there. Move the " +
+                            blades.front().tool->kind() + " into the material");
+        const bool left = [&] {
+            for (int t = 0; t < g.d.band.tetras.size(); ++t)
+                if (g.d.band.tetras.alive(t)) return true;
+            for (int t = 0; t < g.d.band.triangles.size(); ++t)
+                if (g.d.band.triangles.alive(t)) return true;
+            return false;
+        }();
+        if (!left && removed >= solid_count(operation.whole()))
+            throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: it is larger than the part");
+        release_all_but_walls(g, tool_of_tag);
+        if (options.method == Method::snap) relax_band(g);
+    };
+    if (options.method == Method::snap) cut_soundly(f, carve_once);
+    else carve_once(f);
     operation.take_laps(f.seconds);
     check_resolution(f, bodies);
     check_shape(f, mesh);

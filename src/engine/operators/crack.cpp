@@ -64,7 +64,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     }
     Interface f = operation.begin({&blade, 1});
     if (patch) {
-        snap_to_patch(f, blade, *patch);
+        cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
     } else if (operation.location().crossed > 0) {
         if (tool.bounded()) {
             cut_along(f, blade);

@@ -8,6 +8,7 @@
 
 #include "deformation/bar_network.h"
 #include "operators/interface.h"
+#include "operators/mend_curved.h"
 #include "operators/stopwatch.h"
 
 namespace femscalpel {
@@ -25,6 +26,8 @@ constexpr int cuts = 40;
 constexpr double largest_penalty = 1e4;
 /// An interface node may move by so many mean edge lengths.
 constexpr double reach = 2;
+/// Having nothing else, this method may dent bent lines deeper than others, by this factor.
+constexpr double dented = 3;
 
 /// Least weight of nodes that separates two sides of a graph: a maximum flow through nodes split in an
 /// entrance and an exit. Dinic, "Algorithm for solution of a problem of maximum flow in networks with
@@ -268,7 +271,7 @@ private:
             bool accepted = false;
             for (int halving = 0; halving < 6 && !accepted; ++halving, step /= 2) {
                 Vec3 x = node.at + step;
-                if (!d_.constraints.project(v, d_.contact[v], x) || !(value(x - origin, nullptr, nullptr) < now)) continue;
+                if (!d_.constraints.project(v, d_.contact[v], x) || d_.is_barred(v, x) || !(value(x - origin, nullptr, nullptr) < now)) continue;
                 node.at = x;
                 accepted = true;
             }
@@ -317,7 +320,7 @@ public:
         for (std::size_t k = 0; k < f_.transition.size(); ++k) {
             const int v = f_.transition[k];
             Vec3 x = band_.nodes[v].at + spread[k];
-            if (d_.constraints.project(v, nullptr, x)) band_.nodes[v].at = x;
+            if (d_.constraints.project(v, nullptr, x) && !d_.is_barred(v, x)) band_.nodes[v].at = x;
         }
         for (const int v : f_.nodes) band_.nodes[v].at = target_[v];
         std::vector<int> movable = f_.nodes;
@@ -325,7 +328,9 @@ public:
         worst_ = Untangler(d_).run(movable, 0.2);
         if (worst_ > 0) {
             relax(d_, movable);
-            worst_ = worst_quality();
+            mend_curved(f_, tool_, false);
+            folded_ = folded_elements(f_, least_curved);
+            worst_ = folded_.empty() ? worst_quality() : 0;
         }
         find_misplaced();
         return misplaced_.empty() ? worst_ : -1;
@@ -411,7 +416,7 @@ private:
     void for_bad(auto visit) const {
         const double limit = misplaced_.empty() ? std::max(good_enough, worst_) : acceptable;
         for (int t = 0; t < band_.tetras.size(); ++t)
-            if (tetra_quality(d_, t) <= limit) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
+            if (tetra_quality(d_, t) <= limit || std::ranges::find(folded_, t) != folded_.end()) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
         for (int t = 0; t < band_.triangles.size(); ++t)
             if (is_shell(t) && shell_quality(d_, t) <= limit) visit(band_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)]);
     }
@@ -427,7 +432,9 @@ private:
             target_[v] = band_.nodes[v].at;
             if (band_.tetras.around(v).empty() && band_.triangles.around(v).empty()) continue;
             if (!band_.nodes[v].movable() || std::abs(f_.distance[v]) > reach * length_[v]) continue;
-            if (d_.constraints.project(v, &tool_, target_[v])) slide_[v] = (target_[v] - band_.nodes[v].at).norm() / length_[v];
+            if (!d_.constraints.project(v, &tool_, target_[v])) continue;
+            const double way = (target_[v] - band_.nodes[v].at).norm();
+            if (way <= dented * d_.constraints.leash(v)) slide_[v] = way / length_[v];
         }
     }
 
@@ -588,6 +595,7 @@ private:
     std::vector<Vec3> target_;    ///< on the tool
     std::vector<double> slide_;   ///< distance to it in mean edge lengths
     std::vector<double> length_;  ///< mean edge lengths
+    std::vector<int> folded_;     ///< second-order elements, by slot
     std::vector<int> misplaced_;  ///< nodes that ended on the wrong side of the tool
     double worst_ = 1;
 };

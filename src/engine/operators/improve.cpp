@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "deformation/curved_shape.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
@@ -46,7 +47,8 @@ public:
             // An earlier split of this round may have taken the edge.
             if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
             const Contact tools = d_.edge_contact(a, b);
-            const Vec3 at = d_.fitted_split(a, b, (band_.nodes[a].at + band_.nodes[b].at) / 2, tools);
+            const auto [at, fits, worst] = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
+            if (!fits || curved_children(d_, a, b, at, tools) < curved_limit) continue;
             d_.split_edge(a, b, at, tools);
             f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
             any = true;
@@ -152,7 +154,7 @@ private:
         for (const int t : candidates_) {
             if (!may_merge(p, t)) continue;
             const double q = quality_merged(p, t);
-            if (q > best && link_is_sound(p, t)) {
+            if (q > best && link_is_sound(p, t) && curved_merged(d_, p, t) >= curved_limit) {
                 best = q;
                 target = t;
             }

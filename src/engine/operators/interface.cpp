@@ -5,6 +5,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "operators/mend_curved.h"
+
 namespace femscalpel {
 
 Method method_from_name(const std::string& name) {
@@ -140,6 +142,14 @@ void check_shape(const Interface& f, const Mesh& mesh) {
     if (!bad.empty())
         throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +
                            "): the tool passes too close to a corner or crease there. Move it a little");
+    std::vector<Bad> folded;
+    for (const int t : folded_elements(f, 0)) {
+        const CellRef& c = f.d.band.tetra_cells[f.d.band.tetras.origin(t)];
+        folded.push_back({mesh.block(c.type).ids[c.cell], 0});
+    }
+    if (!folded.empty())
+        throw QualityError(std::to_string(folded.size()) + " second-order element(s) would be folded (" + name_them(folded) +
+                           "): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh");
 }
 
 }  // namespace femscalpel

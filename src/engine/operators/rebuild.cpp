@@ -2,10 +2,9 @@
 #include "operators/rebuild.h"
 
 #include <algorithm>
-#include <set>
 #include <unordered_map>
 
-#include "mesh/quality.h"
+#include "deformation/curved_shape.h"
 #include "semantics/solver_input.h"
 
 namespace femscalpel {
@@ -30,7 +29,6 @@ public:
         write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
         write_lips(groups);
         if (!lips_.front_chains.empty()) write_front(front);
-        if (!f_.mid_side) straighten_bad_tetrahedra();
         write_facets();
         for (const CellRef& c : f_.deep_inside) note_removed(c);
         remove_cells();
@@ -131,7 +129,12 @@ private:
             note_born(a, b);
             return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
         }
-        if (moved(a) || moved(b)) mesh.points[original->second] = half_way(a, b);
+        if (moved(a) || moved(b) || f_.d.edge_contact(a, b)) {
+            const Vec3 at = half_way(a, b);
+            // Straight to within the digits of a text file stays as it is.
+            if (moved(a) || moved(b) || (at - mesh.points[original->second]).norm() > 1e-8 * (band_.nodes[a].at - band_.nodes[b].at).norm())
+                mesh.points[original->second] = at;
+        }
         return original->second;
     }
 
@@ -140,9 +143,7 @@ private:
         const std::uint64_t base = edge_key(a, b), image = edge_key(image_a, image_b);
         MidNodes& mids = mids_[base];
         if (mids.nodes.empty()) {
-            mids.ends = {a, b};
             mids.nodes.push_back({owner_.at(base), make_mid_node(a, b)});
-            edge_of_mid_.emplace(mids.nodes[0].second, base);
         }
         for (const auto& [key, node] : mids.nodes)
             if (key == image) return node;
@@ -152,18 +153,10 @@ private:
         const Index copy = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
         ++out_.nodes_doubled;
         mids.nodes.push_back({image, copy});
-        edge_of_mid_.emplace(copy, base);
         return copy;
     }
 
-    Vec3 half_way(int a, int b) const {
-        if (f_.mid_side) return f_.mid_side(a, b);
-        const Vec3 chord = (band_.nodes[a].at + band_.nodes[b].at) / 2;
-        Vec3 at = chord;
-        const double length = (band_.nodes[a].at - band_.nodes[b].at).norm();
-        if (f_.d.constraints.project(f_.d.constraints.on_edge(band_, a, b), f_.d.edge_contact(a, b), at) && (at - chord).norm() < 0.25 * length) return at;
-        return chord;
-    }
+    Vec3 half_way(int a, int b) const { return f_.mid_side ? f_.mid_side(a, b) : mid_side(f_.d, a, b).at; }
 
     /// Full connectivity of an element from its corners.
     template <std::size_t N>
@@ -295,37 +288,6 @@ private:
             }
     }
 
-    /// Curved mid-side nodes can fold an element whose corners are sound: then they go to the chord.
-    void straighten_bad_tetrahedra() {
-        Mesh& mesh = out_.mesh;
-        const CellBlock& block = mesh.block(CellType::tetra10);
-        std::set<std::uint64_t> straightened;
-        for (bool again = true; again;) {
-            again = false;
-            for (const CellRef& cell : out_.after) {
-                if (cell.type != CellType::tetra10) continue;
-                const auto n = block.nodes(cell.cell);
-                std::array<Vec3, 10> at;
-                for (int k = 0; k < 10; ++k) at[k] = mesh.points[n[k]];
-                if (smallest_jacobian(at) > 1e-3 * signed_volume(at[0], at[1], at[2], at[3])) continue;
-                for (int k = 4; k < 10; ++k) {
-                    const auto edge = edge_of_mid_.find(n[k]);
-                    if (edge == edge_of_mid_.end()) continue;
-                    const MidNodes& mids = mids_.at(edge->second);
-                    const Vec3 chord = (band_.nodes[mids.ends[0]].at + band_.nodes[mids.ends[1]].at) / 2;
-                    const bool untouched = n[k] < input_.node_count() && mesh.points[n[k]] == input_.points[n[k]];
-                    if (mesh.points[n[k]] == chord || untouched) continue;
-                    for (const auto& [image, node] : mids.nodes) mesh.points[node] = chord;  // both lips alike
-                    straightened.insert(edge->second);
-                    again = true;
-                }
-            }
-        }
-        if (!straightened.empty())
-            out_.warnings.push_back(std::to_string(straightened.size()) +
-                                    " mid-side node(s) were put half way between their corners, off the curved skin, to keep elements valid");
-    }
-
     void write_facets() {
         if (band_.facet_faces.size() == 0 && band_.facet_edges.size() == 0 && band_.facet_sides.empty()) return;
         Mesh& mesh = out_.mesh;
@@ -450,12 +412,10 @@ private:
     std::vector<CellRef> removed_;
     std::unordered_map<int, std::vector<Index>> ancestors_;  // by new band node
     struct MidNodes {
-        std::array<int, 2> ends;
         std::vector<std::pair<std::uint64_t, Index>> nodes;  // (image edge, node), the owner first
     };
     std::unordered_map<std::uint64_t, MidNodes> mids_;        // by uncopied edge
     std::unordered_map<std::uint64_t, std::uint64_t> owner_;  // uncopied edge -> image that keeps its node
-    std::unordered_map<Index, std::uint64_t> edge_of_mid_;
 };
 
 }  // namespace

@@ -44,8 +44,7 @@ Numbering next_numbers(const Mesh& mesh);
 ///
 /// The segments of Lips::front_chains go to the element group `front`, in their order.
 ///
-/// Mid-side nodes follow their edges in the band: half way, on the surface or curve the edge is on; where
-/// that would spoil an element's Jacobian at its integration points, on the chord. Or where Interface::mid_side says.
+/// Mid-side nodes follow their edges in the band, see mid_side(); or lie where Interface::mid_side says.
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
                 const std::vector<std::vector<std::string>>& groups, const Numbering& numbering, const std::string& front = {});
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
 #include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
 
+#include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "mesh/quality.h"
 #include "operators/improve.h"
 #include "operators/interface.h"
+#include "operators/mend_curved.h"
 #include "operators/stopwatch.h"
 
 namespace femscalpel {
@@ -22,6 +27,14 @@ constexpr double improvement_goal = 0.45;
 constexpr double forced_reach = 1e-7;
 /// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
 constexpr double dip = 0.15;
+
+/// A new node may be this many edge lengths off the curved surface or curve it was born on.
+constexpr double largest_misfit = 5e-4;
+/// How often cutting a curved mesh is tried, each time with more nodes left alone.
+constexpr int attempts = 8;
+/// Elements of a curved mesh below this mean ratio are refined before another try, of which there are so many.
+constexpr double poor_quality = 0.1;
+constexpr int polishings = 3;
 
 class Snapper {
 public:
@@ -52,7 +65,7 @@ public:
         });
         for (const Edge& e : edges) {
             const Contact tools = d_.edge_contact(e.a, e.b);
-            split(e.a, e.b, d_.fitted_split(e.a, e.b, (band_.nodes[e.a].at + band_.nodes[e.b].at) / 2, tools), tools);
+            split(e.a, e.b, d_.fitted_split(e.a, e.b, d_.along_edge(e.a, e.b, 0.5), tools).at, tools);
         }
         if (!edges.empty()) find_region();
     }
@@ -206,7 +219,21 @@ private:
         f_.distance.push_back(tools.has(f_.tool) ? 0 : f_.tool->distance(at));
     }
 
+    /// Whether, with v on the tool, a face of a curved skin (a segment of a curved line) would lie on it with all its
+    /// nodes: the tool nearly touches the skin there, and curved elements have no room between the two.
+    bool would_lie_flat(int v) const {
+        if (!d_.mids.any()) return false;
+        const auto rest_lies = [&](const auto& nodes) {
+            return std::ranges::all_of(nodes, [&](int w) { return w == v || d_.contact[w]; });
+        };
+        return std::ranges::any_of(band_.skin.around(v), [&](int s) { return !d_.constraints.is_flat(band_.skin.tag(s)) && rest_lies(band_.skin[s]); }) ||
+               std::ranges::any_of(band_.creases.around(v), [&](int s) {
+                   return !d_.constraints.is_straight(d_.constraints.on_edge(band_, band_.creases[s][0], band_.creases[s][1])) && rest_lies(band_.creases[s]);
+               });
+    }
+
     void snap(int v, double length, double ratio) {
+        if (d_.off_tool[v] || would_lie_flat(v)) return;
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
         const Contact tools = d_.contact[v].with(&tool_);
@@ -218,21 +245,21 @@ private:
         if ((target - node.start).norm() > d_.constraints.leash(v)) return;
         const double before = quality_around(d_, v, node.at);
         const double after = quality_around(d_, v, target);
-        if (!(after >= std::min(0.1, before / 4)) || !(after > 0)) return;
+        if (!(after >= std::min(0.1, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return;
         node.at = target;
         d_.contact[v] = tools;
         value_[v] = 0;
     }
 
-    /// The point of the edge a-b on the tool, moved along the tool onto the surface or curve the edge is on.
+    /// The point of the edge a-b on the tool, and on the surface or curve the edge is on.
     Vec3 crossing(int a, int b, const Contact& tools) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
         double ta = 0, tb = 1, da = value_[a], db = value_[b];
         Vec3 at = pa;
-        // Regula falsi, Illinois variant; exact in one step for a plane.
+        // Regula falsi, Illinois variant; exact in one step for a plane and a straight edge.
         for (int i = 0; i < 60; ++i) {
             const double t = ta + (tb - ta) * da / (da - db);
-            at = pa + t * (pb - pa);
+            at = d_.along_edge(a, b, t);
             const double dt = tool_.distance(at);
             if (std::abs(dt) <= 1e-3 * f_.tolerance) break;
             if ((dt < 0) == (da < 0)) {
@@ -245,7 +272,12 @@ private:
                 da /= 2;
             }
         }
-        return d_.fitted_split(a, b, at, tools);
+        const Deformable::SplitPoint bent = d_.fitted_split(a, b, at, tools);
+        if (bent.fits && bent.worst > 0) return bent.at;
+        // On the chord elements stay sound; the surface has to wait.
+        const double t = value_[a] / (value_[a] - value_[b]);
+        Vec3 straight = pa + t * (pb - pa);
+        return d_.constraints.project(NodeConstraint{}, tools, straight) ? straight : bent.at;
     }
 
     Interface& f_;
@@ -275,18 +307,91 @@ bool fit_to_shapes(const Interface& f, Deformable& d) {
     return any;
 }
 
-void warn_of_misfits(Interface& f) {
-    int count = 0;
-    double worst = 0;
-    for (int v = f.d.band.original_nodes(); v < f.d.band.size(); ++v) {
-        if (!f.d.band.in_use(v)) continue;
-        const double off = f.d.constraints.distance(f.d.constraints[v], f.d.band.nodes[v].at) / f.d.band.mean_edge_length(v);
-        count += off > 1e-3;
-        worst = std::max(worst, off);
+/// Elements of the input, by slot.
+struct Slots {
+    std::vector<int> tetras, triangles;
+
+    bool empty() const { return tetras.empty() && triangles.empty(); }
+    void tidy() {
+        for (std::vector<int>* list : {&tetras, &triangles}) {
+            std::ranges::sort(*list);
+            list->erase(std::unique(list->begin(), list->end()), list->end());
+        }
     }
-    if (count > 0)
-        f.warnings.push_back(std::to_string(count) + " new node(s) lie off the curved skin by up to " + std::to_string(worst) +
-                             " edge lengths: on it, elements would be flat");
+};
+
+/// Those in which new nodes are off the curved skin they were born on, or parts came out as folded second-order elements.
+Slots misfits(const Interface& f) {
+    const BandMesh& band = f.d.band;
+    Slots found;
+    for (const int t : folded_elements(f, least_curved)) found.tetras.push_back(band.tetras.origin(t));
+    for (int v = band.original_nodes(); v < band.size(); ++v) {
+        if (!band.in_use(v) || f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) <= largest_misfit * band.mean_edge_length(v)) continue;
+        for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
+        for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
+    }
+    found.tidy();
+    return found;
+}
+
+/// The smallest mean ratio of the tetrahedra that were changed, and those that have parts below `limit`.
+double poorest(const Interface& f, double limit, Slots& poor) {
+    const BandMesh& band = f.d.band;
+    double worst = 1;
+    for (int t = 0; t < band.tetras.size(); ++t) {
+        if (!band.tetras.alive(t)) continue;
+        if (std::ranges::none_of(band.tetras[t], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
+        const double quality = tetra_quality(f.d, t);
+        worst = std::min(worst, quality);
+        if (quality < limit) poor.tetras.push_back(band.tetras.origin(t));
+    }
+    poor.tidy();
+    return worst;
+}
+
+/// Calls visit(nodes) for the parts of some elements.
+void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
+    const auto look = [&](const auto& list, const std::vector<int>& origins) {
+        if (origins.empty()) return;
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && std::ranges::binary_search(origins, list.origin(s))) visit(list[s]);
+    };
+    look(band.tetras, slots.tetras);
+    look(band.triangles, slots.triangles);
+}
+
+/// Bisects the edges of some elements, longest first. Halves bulge a quarter as far, so that a tool finds room between a
+/// curved skin and its chords where it found none.
+void refine(Interface& f, const Slots& slots) {
+    BandMesh& band = f.d.band;
+    std::vector<std::tuple<double, int, int>> edges;
+    for_parts(band, slots, [&](const auto& nodes) {
+        for (const int a : nodes)
+            for (const int b : nodes)
+                if (a < b && (band.nodes[a].movable() || band.nodes[b].movable())) edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
+    });
+    std::ranges::sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const auto& [length, a, b] : edges) {
+        // With both ends on the tool the halves would have to be, too.
+        if (f.d.contact[a].common(f.d.contact[b]) || f.d.constraints.has_fixed_middle(a, b)) continue;
+        const Deformable::SplitPoint point = f.d.fitted_split(a, b, f.d.along_edge(a, b, 0.5), {});
+        if (!point.fits || !(point.worst > 0.1)) continue;
+        f.d.split_edge(a, b, point.at, {});
+        f.distance.push_back(f.tool->distance(point.at));
+    }
+}
+
+[[noreturn]] void fail_at(const Interface& f, const Slots& slots) {
+    std::ostringstream text;
+    text << "no sound elements were found on the curved skin near (";
+    bool first = true;
+    for_parts(f.d.band, slots, [&](const auto& nodes) {
+        if (std::exchange(first, false)) text << f.d.band.nodes[nodes[0]].start.transpose();
+    });
+    text << "): the mesh is too coarse for the way the " << f.tool->kind() << " meets the skin there. Move the " << f.tool->kind()
+         << " a little, or refine the mesh";
+    throw QualityError(text.str());
 }
 
 }  // namespace
@@ -320,16 +425,58 @@ void relax_band(Interface& f) {
         movable.insert(movable.end(), f.transition.begin(), f.transition.end());
         relax(f.d, movable);
     }
-    warn_of_misfits(f);
+    mend_curved(f, *f.tool);
     watch.lap("improve");
 }
 
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut) {
+    if (!f.d.mids.any() && !f.d.constraints.any_curved()) return cut(f);
+    Interface start = f;
+    std::optional<Interface> best;
+    double best_quality = -1;
+    for (int attempt = 1, polished = 0;; ++attempt) {
+        cut(f);
+        Slots bad = misfits(f);
+        bool polish = false;
+        if (bad.empty()) {
+            const double quality = poorest(f, 1.5 * poor_quality, bad);
+            if (quality >= poor_quality) return;
+            if (quality > best_quality) {
+                best_quality = quality;
+                best = f;
+            }
+            polish = true;
+            if (++polished == polishings) break;
+        }
+        if (attempt == attempts) {
+            if (!best) fail_at(f, bad);
+            break;
+        }
+        // First the nodes of these elements are not put on the tool, then the elements are refined.
+        std::vector<char>& off_tool = start.d.off_tool;
+        if (attempt % 2 == 1 && !polish) {
+            for_parts(start.d.band, bad, [&](const auto& nodes) {
+                for (const int v : nodes) off_tool[v] = 1;
+            });
+        } else {
+            refine(start, bad);
+            std::ranges::fill(off_tool, 0);
+        }
+        const auto seconds = f.seconds;
+        f = start;
+        f.seconds = seconds;
+    }
+    f = std::move(*best);
+}
+
 void snap_to_tool(Interface& f, const Blade& blade) {
-    cut_along(f, blade);
-    f.d.barrier = blade.tool;
-    for (int v = 0; v < f.d.band.size(); ++v)
-        f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
-    relax_band(f);
+    cut_soundly(f, [&blade](Interface& g) {
+        cut_along(g, blade);
+        g.d.barrier = blade.tool;
+        for (int v = 0; v < g.d.band.size(); ++v)
+            g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
+        relax_band(g);
+    });
 }
 
 }  // namespace femscalpel

@@ -4,4 +4,5 @@
 from femscalpelguitest.test_crack_panel import CrackCommand, CrackMessages, CrackPicks  # noqa: F401
 from femscalpelguitest.test_inspection import GroupInspector, MeshQuality  # noqa: F401
 from femscalpelguitest.test_macro import Macro  # noqa: F401
-from femscalpelguitest.test_other_commands import CylindricalCrack, Drill, Export, Preferences  # noqa: F401
+from femscalpelguitest.test_other_commands import CylindricalCrack, Drill, Export, Preferences, Refine  # noqa: F401
+from femscalpelguitest.test_tour import Tour  # noqa: F401

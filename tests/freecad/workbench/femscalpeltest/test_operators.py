@@ -5,6 +5,7 @@ import os
 
 import FreeCAD
 import numpy as np
+import Part
 
 import femmesh_bridge
 import femscalpel as fs
@@ -38,7 +39,7 @@ class Operators(DocumentTest):
                          {k: v for k, v in expected_groups.items() if v and k[0] not in made})
         self.assertLessEqual({name for name in made if expected_groups.get((name, "element"))}, {name for name, _ in groups})
         self.assertEqual(obj.NodesAdded, expected.report.nodes_added)
-        self.assertEqual(obj.MinimumQuality, expected.report.quality.after.minimum)
+        self.assertAlmostEqual(obj.MinimumQuality, expected.report.quality.after.minimum, places=9)
         self.assertEqual(obj.Warnings, expected.report.warnings)
         self.assertIn("LEFT", "\n".join(obj.GroupReport))
         self.assertEqual(obj.Proxy.Type, "FemScalpel::" + type(obj.Proxy).__name__)
@@ -68,6 +69,23 @@ class Operators(DocumentTest):
                 crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool=tool, origin=ORIGIN, axis=AXIS, **options)
                 self.check(crack, fs.crack(self.mesh, expected))
                 self.doc.removeObject(crack.Name)
+
+    def test_crack_along_a_face(self):
+        part = self.doc.addObject("Part::Feature", "Blade")
+        part.Shape = Part.makeCylinder(9, 12, FreeCAD.Vector(3.2, -7, -3), FreeCAD.Vector(0, 0, 1))
+        expected = fs.crack(self.mesh, fs.Face(part.Shape.Faces[0]))
+        crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Face", face=(part, "Face1"))
+        mesh = self.check(crack, expected)
+        lip = mesh.points[np.isin(mesh.node_ids, mesh.groups["CRACK_P"].ids)]
+        self.assertLess(np.abs(np.hypot(lip[:, 0] - 3.2, lip[:, 1] + 7) - 9).max(), 1e-6)
+        part.Placement = FreeCAD.Placement(FreeCAD.Vector(0, 0.4, 0), FreeCAD.Rotation())
+        self.doc.recompute()
+        mesh = femmesh_bridge.from_femmesh(crack.FemMesh)
+        lip = mesh.points[np.isin(mesh.node_ids, mesh.groups["CRACK_P"].ids)]
+        self.assertLess(np.abs(np.hypot(lip[:, 0] - 3.2, lip[:, 1] + 6.6) - 9).max(), 1e-6)
+        crack.ToolFace = None
+        self.doc.recompute()
+        self.assertIn("ToolFace is not set", crack.getStatusString())
 
     def test_refine(self):
         for tool, expected in (("Plane", fs.Plane(ORIGIN, AXIS)), ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 0.5)),

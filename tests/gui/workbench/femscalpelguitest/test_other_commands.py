@@ -176,6 +176,29 @@ class Drill(CylinderTest):
         self.reported = len(report_view())  # FreeCAD reports an error in a recompute with a traceback
 
 
+class Refine(CylinderTest):
+    def test_made_edited(self):
+        self.run_command("FemScalpel_Refine")
+        spin(0.2)
+        self.enter_axis((7.0, 2.5, 4.0), (0.0, 0.0, 1.0), 1.0)
+        type_into("edgeSize", "0.7")
+        expected = fs.refine(femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Cylinder((7, 2.5, 4), (0, 0, 1), 1), 0.7)
+        wait_until(lambda: f" {expected.report.elements_added} " in widget("status").text(), "the preview")
+        screenshot("refine_preview")
+        press_ok()
+        self.assertEqual(self.doc.Refine.FemMesh.NodeCount, expected.mesh.node_count)
+        self.doc.Refine.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertAlmostEqual(value("edgeSize"), 0.7)
+        choose("toolShape", "Plane")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual(self.doc.Refine.ToolShape, "Plane")
+        self.doc.undo()
+        self.assertEqual(self.doc.Refine.ToolShape, "Cylinder")
+        self.assertEqual(self.doc.Refine.FemMesh.NodeCount, expected.mesh.node_count)
+
+
 class Export(GuiTest):
     def test_files(self):
         from femscalpelgui.commands.base import Unusable

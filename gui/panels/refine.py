@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Task panel: refine near a cylinder, sphere or plane."""
+
+import FreeCAD
+import FreeCADGui
+
+import femscalpel
+
+from ..translate import QT_TRANSLATE_NOOP, form, translate
+from . import fields
+from .cylinder_panel import CylinderPanel
+
+SHAPES = ("Cylinder", "Sphere", "Plane")
+
+
+class RefinePanel(CylinderPanel):
+    """Asks for a tool and for the size of the elements near it."""
+
+    TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Refine")
+    ICON = "FemScalpel_Refine"
+    GROUP_NAME, OBJECT_NAME, MAKE = "REFINED", "Refine", "makeRefine"
+
+    def add_inputs(self):
+        self.sizes = FreeCADGui.PySideUic.loadUi(form("refine.ui"))
+        self.options.rows.insertWidget(0, self.sizes)
+        texts = (translate("FemScalpel", "Cylinder"), translate("FemScalpel", "Sphere"), translate("FemScalpel", "Plane"))
+        for text, shape in zip(texts, SHAPES):
+            self.sizes.toolShape.addItem(text, shape)
+        size = self.geometry.size
+        self._size = fields.Number(self.sizes.edgeSize, self.update, size / 30)
+        self._reach = fields.Number(self.sizes.reach, self.update, 0)
+        self.sizes.gradation.valueChanged.connect(lambda *_: self.update())
+        self.sizes.toolShape.currentIndexChanged.connect(lambda *_: self.update())
+        # Refining makes no groups and knows one method.
+        for name in ("groupName", "nameError", "method", "transition"):
+            getattr(self.options, name).hide()
+        for row in (0, 2, 4):
+            self.options.grid.itemAtPosition(row, 0).widget().hide()
+
+    def _shape(self):
+        return self.sizes.toolShape.currentData()
+
+    def tool(self):
+        origin, direction, radius = self.geometry.origin(), self.geometry.direction(), self.geometry.radius()
+        if self._shape() == "Plane":
+            return femscalpel.Plane(origin, direction)
+        return femscalpel.Sphere(origin, radius) if self._shape() == "Sphere" else femscalpel.Cylinder(origin, direction, radius)
+
+    def operation(self, tool, options):
+        size, reach, gradation, angle = self._size.value, self._reach.value, self.sizes.gradation.value(), options["feature_angle"]
+        return lambda scalpel: femscalpel.refine(scalpel.mesh, tool, size, gradation=gradation, reach=reach, feature_angle=angle)
+
+    def read(self, obj):
+        placement = obj.AxisPlacement
+        self._feature_angle.set(obj.FeatureAngle.Value)
+        self._size.set(obj.Size.Value)
+        self._reach.set(obj.Reach.Value)
+        self.sizes.gradation.setValue(obj.Gradation)
+        self.sizes.toolShape.setCurrentIndex(max(self.sizes.toolShape.findData(obj.ToolShape), 0))
+        self.geometry.set_pose(placement.Base, placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), obj.Radius.Value)
+
+    def _common(self, naming):
+        names = {"tool": "ToolShape", "radius": "Radius", "size": "Size", "reach": "Reach", "gradation": "Gradation",
+                 "feature_angle": "FeatureAngle"}
+        values = {"tool": self._shape(), "radius": self.geometry.radius(), "size": self._size.value, "reach": self._reach.value,
+                  "gradation": self.sizes.gradation.value(), "feature_angle": self._feature_angle.value}
+        return {names[k] if naming == "properties" else k: repr(v) for k, v in values.items()}
+
+    def arguments(self):
+        return {"origin": repr(tuple(self.geometry.origin())), "axis": repr(tuple(self.geometry.direction())), **self._common("arguments")}
+
+    def settings(self):
+        return {"AxisPlacement": self.placement_text(), **self._common("properties")}
+
+    def forget_widgets(self):
+        super().forget_widgets()
+        self.sizes = self._size = self._reach = None

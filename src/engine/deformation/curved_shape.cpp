@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deformation/curved_shape.h"
+
+#include <algorithm>
+
+#include "mesh/cell_type.h"
+
+namespace femscalpel {
+namespace {
+
+/// What an edge is on, and how it bulges.
+struct EdgeShape {
+    NodeConstraint constraint;
+    Contact tools;
+    Vec3 bulge;
+};
+
+MidSide fit(const Deformable& d, const Vec3& a, const Vec3& b, const EdgeShape& shape) {
+    const Vec3 chord = (a + b) / 2;
+    MidSide mid{chord + shape.bulge, true};
+    const bool curved_tool = std::ranges::any_of(shape.tools.tools(), [](const Tool* t) { return std::isfinite(t->feature_size()); });
+    if (shape.bulge.isZero(0) && !curved_tool && d.constraints.is_straight(shape.constraint)) return mid;
+    const double reach = 0.2 * (b - a).norm();
+    Vec3 x = mid.at;
+    if (d.constraints.project(shape.constraint, shape.tools, x) && (x - chord).norm() < reach) {
+        mid.at = x;
+        return mid;
+    }
+    // On its tools at least, for the lips; whoever made the edge has to look for another.
+    mid.fits = false;
+    x = chord;
+    if (shape.tools && d.constraints.project(NodeConstraint{}, shape.tools, x) && (x - chord).norm() < reach) mid.at = x;
+    else mid.at = chord;
+    return mid;
+}
+
+/// Whether elements of both sides of the barrier share the edge a-b.
+bool is_between_sides(const Deformable& d, int a, int b) {
+    bool positive = false, negative = false;
+    const auto look = [&](const auto& list) {
+        for (const int s : list.around(a))
+            if (std::ranges::find(list[s], b) != list[s].end())
+                for (const int v : list[s]) (d.side[v] > 0 ? positive : negative) |= d.side[v] != 0;
+    };
+    look(d.band.tetras);
+    look(d.band.triangles);
+    return positive && negative;
+}
+
+EdgeShape shape_of(const Deformable& d, int a, int b) {
+    return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b)};
+}
+
+bool is_second_order(const Deformable& d, int tetra) { return d.band.tetra_cells[d.band.tetras.origin(tetra)].type == CellType::tetra10; }
+
+/// curved_ratio() of the tetrahedron with these corners, or 1 if it is straight, -1 if a mid-side node does not fit.
+/// `mid(i, j)`: of the edge between two corners.
+double ratio(const std::array<Vec3, 4>& corner, auto mid) {
+    std::array<Vec3, 10> x;
+    std::ranges::copy(corner, x.begin());
+    bool straight = true;
+    const auto& edges = traits(CellType::tetra10).edges;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const int i = edges[k][0], j = edges[k][1];
+        const MidSide m = mid(i, j);
+        if (!m.fits) return -1;
+        x[4 + k] = m.at;
+        straight = straight && m.at == (corner[i] + corner[j]) / 2;
+    }
+    return straight ? 1 : curved_ratio(x);
+}
+
+}  // namespace
+
+Contact edge_tools(const Deformable& d, int a, int b) {
+    const Contact tools = d.edge_contact(a, b);
+    if (!tools.has(d.barrier) || d.constraints.is_straight(d.constraints.on_edge(d.band, a, b)) || is_between_sides(d, a, b)) return tools;
+    return tools.without(d.barrier);
+}
+
+MidSide mid_side(const Deformable& d, int a, int b) {
+    const BandNode &na = d.band.nodes[a], &nb = d.band.nodes[b];
+    const bool untouched = !d.band.is_new(a) && !d.band.is_new(b) && na.at == na.start && nb.at == nb.start;
+    if (untouched && !d.contact[a].common(d.contact[b])) return {(na.at + nb.at) / 2 + d.mids.bulge(a, b), true};
+    return fit(d, na.at, nb.at, shape_of(d, a, b));
+}
+
+double curved_shape(const Deformable& d, int tetra) {
+    if (!is_second_order(d, tetra)) return 1;
+    const auto& v = d.band.tetras[tetra];
+    const auto& n = d.band.nodes;
+    return ratio({n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at}, [&](int i, int j) { return mid_side(d, v[i], v[j]); });
+}
+
+double curved_around(Deformable& d, int node, const Vec3& x) {
+    Vec3& at = d.band.nodes[node].at;
+    const Vec3 home = at;
+    at = x;
+    double worst = 1;
+    for (const int t : d.band.tetras.around(node)) worst = std::min(worst, curved_shape(d, t));
+    at = home;
+    return worst;
+}
+
+bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) {
+    if (!d.mids.any()) return true;
+    const double after = curved_around(d, node, x);
+    return after >= curved_limit || after >= curved_around(d, node, d.band.nodes[node].at);
+}
+
+double curved_children(const Deformable& d, int a, int b, const Vec3& at, const Contact& tools) {
+    if (!d.mids.any()) return 1;
+    const BandMesh& band = d.band;
+    const double t = fraction(band.nodes[a].at, band.nodes[b].at, at);
+    const NodeConstraint along = d.constraints.on_edge(band, a, b);
+    double worst = 1;
+    for (const int s : band.tetras.around(a)) {
+        const auto& v = band.tetras[s];
+        if (std::ranges::find(v, b) == v.end() || !is_second_order(d, s)) continue;
+        for (const int replaced : {a, b}) {
+            std::array<Vec3, 4> corner;
+            for (int k = 0; k < 4; ++k) corner[k] = v[k] == replaced ? at : band.nodes[v[k]].at;
+            worst = std::min(worst, ratio(corner, [&](int i, int j) {
+                if (v[i] != replaced && v[j] != replaced) return mid_side(d, v[i], v[j]);
+                const int other = v[i] == replaced ? v[j] : v[i];
+                const Contact both = tools.common(d.contact[other]);
+                if (other == a) return fit(d, corner[i], corner[j], {along, both, t * t * d.mids.bulge(a, b)});
+                if (other == b) return fit(d, corner[i], corner[j], {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b)});
+                return fit(d, corner[i], corner[j], {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t)});
+            }));
+        }
+    }
+    return worst;
+}
+
+double curved_merged(const Deformable& d, int p, int t) {
+    if (!d.mids.any()) return 1;
+    const BandMesh& band = d.band;
+    double worst = 1;
+    for (const int s : band.tetras.around(p)) {
+        const auto& v = band.tetras[s];
+        if (std::ranges::find(v, t) != v.end() || !is_second_order(d, s)) continue;
+        std::array<Vec3, 4> corner;
+        for (int k = 0; k < 4; ++k) corner[k] = band.nodes[v[k] == p ? t : v[k]].at;
+        worst = std::min(worst, ratio(corner, [&](int i, int j) {
+            if (v[i] != p && v[j] != p) return mid_side(d, v[i], v[j]);
+            const int other = v[i] == p ? v[j] : v[i];
+            return fit(d, corner[i], corner[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero()});
+        }));
+    }
+    return worst;
+}
+
+}  // namespace femscalpel

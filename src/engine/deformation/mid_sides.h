@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <unordered_map>
+
+#include "mesh/band_mesh.h"
+
+namespace femscalpel {
+
+/// The shape of second-order edges while a band is worked on by its corners: how far each edge's mid-side node is off
+/// its chord. An edge keeps that when its ends move.
+///
+/// A split edge and the edges born in the faces and elements around it get what the parent's own shape functions
+/// say: subdivision of a quadratic element is exact, so a split alone changes neither geometry nor volume.
+class MidSides {
+public:
+    MidSides(const BandMesh& band, const Mesh& mesh);
+
+    /// Whether the band has second-order elements at all.
+    bool any() const { return any_; }
+
+    /// Mid-side node minus middle of the chord of the edge a-b; zero for a straight edge.
+    Vec3 bulge(int a, int b) const {
+        const auto it = bulges_.find(edge_key(a, b));
+        return it == bulges_.end() ? Vec3(Vec3::Zero()) : it->second;
+    }
+
+    /// Bulges of the edges between node `p`, at the fraction t of the edge a-b, and a third node c of a face a-b-c.
+    Vec3 bulge_across(int a, int b, int c, double t) const {
+        return (1 - t) * bulge(a, c) + t * bulge(b, c) - t * (1 - t) * bulge(a, b);
+    }
+
+    /// The edge a-b is about to be split at node p, at the fraction t of its length.
+    void split(const BandMesh& band, int a, int b, int p, double t);
+
+    void set_bulge(int a, int b, const Vec3& bulge) {
+        if (bulge.isZero(0)) bulges_.erase(edge_key(a, b));
+        else bulges_[edge_key(a, b)] = bulge;
+    }
+
+private:
+    bool any_ = false;
+    std::unordered_map<std::uint64_t, Vec3> bulges_;
+};
+
+/// How far along from a to b the point `at` is, as a fraction of the chord.
+inline double fraction(const Vec3& a, const Vec3& b, const Vec3& at) {
+    const Vec3 chord = b - a;
+    return std::clamp(chord.dot(at - a) / chord.squaredNorm(), 0.0, 1.0);
+}
+
+/// Smallest Jacobian determinant of a ten-node tetrahedron at its four integration points and its four corners, over
+/// that of the straight element with the same corners: 1 if it is straight, not positive if it is folded.
+double curved_ratio(const std::array<Vec3, 10>& nodes);
+
+}  // namespace femscalpel

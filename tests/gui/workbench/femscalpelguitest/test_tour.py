@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The guided tour of resources/docs/tour.md, step by step; its pictures are these screenshots, scaled down."""
+
+import FreeCADGui
+
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest
+from .test_crack_panel import enter_plane, long_box
+
+
+class Tour(GuiTest):
+    def test_tour(self):
+        self.add_mesh(long_box(2), "Bracket")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Bracket")
+        screenshot("tour_1_mesh")
+        FreeCADGui.Selection.clearSelection()
+        self.run_command("FemScalpel_Crack")
+        self.wait_for_preview()
+        enter_plane((6.2, 2.5, 2.0), (1.0, 0.25, 0.15))
+        wait_until(lambda: points_drawn("FemScalpelMoved") > 0, "the preview of the tilted plane")
+        screenshot("tour_2_crack")
+        choose("colouring", "groups")
+        click_row("groups", "CORE")
+        screenshot("tour_3_groups")
+        press_ok()
+        self.assertGreater(self.doc.Crack.NodesDoubled, 0)
+        screenshot("tour_4_cracked")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Crack")
+        self.run_command("FemScalpel_Drill")
+        spin(0.3)
+        for name, text in (("originX", "10.5"), ("originZ", "4"), ("normalX", "0"), ("normalZ", "-1"), ("radius", "1.2")):
+            type_into(name, text)
+        wait_until(lambda: faces_drawn("FemScalpelRemoved") > 0, "the preview of the hole")
+        spin(0.5)
+        screenshot("tour_5_drill")
+        press_ok()
+        self.assertEqual(self.doc.Drill.Source, self.doc.Crack)
+        screenshot("tour_6_drilled")
+        self.doc.undo()
+        self.doc.undo()
+        self.assertEqual([o.Name for o in self.doc.Objects], ["Bracket"])
