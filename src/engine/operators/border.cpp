@@ -79,7 +79,7 @@ private:
     }
 
     int split(int a, int b, const Vec3& at, const Contact& tools) {
-        const int node = d_.split_edge(a, b, d_.fitted_split(a, b, at, tools), tools);
+        const int node = d_.split_edge(a, b, d_.fitted_split(a, b, at, tools).at, tools);
         f_.distance.push_back(tools.has(f_.tool) ? 0 : f_.tool->distance(at));
         value_.resize(static_cast<std::size_t>(band_.size()));
         measure(node);
