@@ -63,13 +63,20 @@ def measure(path, out):
     spin(1)
     del shown[:], worked[:]
     turns = [time.perf_counter()]
-    before, begin, k = resource.getrusage(resource.RUSAGE_SELF).ru_utime, time.perf_counter(), 0
-    while time.perf_counter() - begin < 10:
-        k += 1
+    before, begin = resource.getrusage(resource.RUSAGE_SELF).ru_utime, time.perf_counter()
+
+    def move():
         # Back and forth by half an edge and more, as a hand on the arrow does.
-        widget("offset").setProperty("rawValue", 0.013 * (k % 60))
-        spin(0.01)
+        widget("offset").setProperty("rawValue", 0.013 * (len(turns) % 60))
         turns.append(time.perf_counter())
+
+    # In an event loop of Qt's, as when a user drags: Gui.updateGui() would keep Python's lock from the worker thread.
+    loop, timer = QtCore.QEventLoop(), QtCore.QTimer()
+    timer.timeout.connect(move)
+    timer.start(15)
+    QtCore.QTimer.singleShot(10000, loop.quit)
+    getattr(loop, "exec_", getattr(loop, "exec", None))()
+    timer.stop()
     seconds = time.perf_counter() - begin
     processor = resource.getrusage(resource.RUSAGE_SELF).ru_utime - before
     screenshot(os.path.splitext(os.path.basename(path))[0])
