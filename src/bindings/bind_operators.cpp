@@ -111,11 +111,29 @@ void bind_operators(py::module_& module) {
         out.depth = depth;
         return out;
     };
-    module.def("crack", [](const Mesh& mesh, const Tool& tool, const CommonOptions& common) {
-        return run([&, o = options<CrackOptions>(common)] { return crack(mesh, tool, o); });
+    const auto crack_options = [](const CommonOptions& common, const Within* within) {
+        auto out = options<CrackOptions>(common);
+        out.within = within;
+        return out;
+    };
+    module.def("crack", [=](const Mesh& mesh, const Tool& tool, const CommonOptions& common, const Within* within) {
+        return run([&, o = crack_options(common, within)] { return crack(mesh, tool, o); });
     });
     module.def("drill", [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
         return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
+    });
+
+    // Two tools, or a plane and a width.
+    const auto cut_options = [](const CommonOptions& common, const Tool* bottom) {
+        auto out = options<CutOptions>(common);
+        out.bottom = bottom;
+        return out;
+    };
+    module.def("cut", [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common, const Tool* bottom) {
+        return run([&, o = cut_options(common, bottom)] { return cut(mesh, positive, negative, o); });
+    });
+    module.def("cut", [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+        return run([&, o = cut_options(common, bottom)] { return cut(mesh, plane, width, o); });
     });
 
     module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
@@ -138,11 +156,17 @@ void bind_operators(py::module_& module) {
         .def(py::init([](const Mesh& mesh) { return Scalpel(std::make_shared<const Mesh>(mesh)); }),
              py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
-        .def("crack", [](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common) {
-            return run([&, o = options<CrackOptions>(common)] { return scalpel.crack(tool, o); });
+        .def("crack", [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
+            return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });
         })
         .def("drill", [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
             return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
+        })
+        .def("cut", [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common, const Tool* bottom) {
+            return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
+        })
+        .def("cut", [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+            return run([&, o = cut_options(common, bottom)] { return scalpel.cut(plane, width, o); });
         });
 }
 

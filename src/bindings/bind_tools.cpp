@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <array>
+#include <optional>
+#include <tuple>
+#include <vector>
 
 #include <pybind11/stl.h>
 
@@ -9,6 +12,7 @@
 #include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/face.h"
+#include "tools/patch.h"
 #include "tools/plane.h"
 #include "tools/sphere.h"
 #include "tools/torus.h"
@@ -83,6 +87,26 @@ void bind_tools(py::module_& module) {
             for (py::ssize_t i = 0; i < points.shape(0); ++i) out.mutable_at(i) = face.beyond(Eigen::Map<const Eigen::Vector3d>(points.data() + 3 * i));
             return out;
         });
+
+    py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
+    py::class_<Disk, Within>(module, "Disk").def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }));
+    py::class_<Ellipse, Within>(module, "Ellipse").def(py::init([](const Triple& center, double first, double second, const Triple& direction) {
+        return Ellipse(vector(center), first, second, vector(direction));
+    }));
+    py::class_<Polygon, Within>(module, "Polygon").def(py::init([](const std::vector<Triple>& corners) {
+        std::vector<Eigen::Vector3d> out;
+        for (const Triple& c : corners) out.push_back(vector(c));
+        return Polygon(std::move(out));
+    }));
+    py::class_<HalfPlane, Within>(module, "HalfPlane").def(py::init([](const Triple& origin, const Triple& direction) {
+        return HalfPlane(vector(origin), vector(direction));
+    }));
+    py::class_<CylinderPart, Within>(module, "CylinderPart")
+        .def(py::init([](double low, double high, std::optional<std::tuple<double, double, Triple>> angles) {
+            if (!angles) return CylinderPart(low, high);
+            const auto& [start, end, zero] = *angles;
+            return CylinderPart(low, high, CylinderPart::Angles{start, end, vector(zero)});
+        }));
 }
 
 }  // namespace femscalpel::bindings

@@ -209,8 +209,14 @@ Contact Deformable::edge_contact(int a, int b) const {
     for (const Tool* t : both.tools()) {
         const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
         const double length = (band.nodes[a].at - band.nodes[b].at).norm();
-        if (std::abs(t->distance(middle)) <= 1e-9 * length || band.is_cut_edge(a, b)) out = out.with(t);
+        if (std::abs(t->distance(middle)) <= 1e-9 * length) out = out.with(t);
     }
+    if (out.count() == both.count() || !band.is_cut_edge(a, b)) return out;
+    // A chord on a surface of cut faces: if it is the surface's border it lies on all tools of its ends, else on one.
+    if (both.count() == 1 || band.is_cut_border(a, b)) return both;
+    if (out) return out;
+    const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
+    return *std::ranges::min_element(both.tools(), {}, [&](const Tool* t) { return std::abs(t->distance(middle)); });
     return out;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mesh/band_mesh.h"
 
+#include <map>
+
 #include <optional>
 #include <string>
 
@@ -46,6 +48,13 @@ void BandMesh::merge_node(int p, int t) {
 bool BandMesh::is_cut_edge(int a, int b) const {
     return cut_edges.find({a, b}) >= 0 ||
            std::ranges::any_of(cut_faces.around(a), [&](int s) { return std::ranges::find(cut_faces[s], b) != cut_faces[s].end(); });
+}
+
+bool BandMesh::is_cut_border(int a, int b) const {
+    std::map<int, int> count;
+    for (const int s : cut_faces.around(a))
+        if (std::ranges::find(cut_faces[s], b) != cut_faces[s].end()) ++count[cut_faces.tag(s)];
+    return std::ranges::any_of(count, [](const auto& c) { return c.second == 1; });
 }
 
 void BandMesh::neighbours(int node, std::vector<int>& out) const {

@@ -179,6 +179,9 @@ public:
     /// Whether a-b is an edge of `cut_faces` or `cut_edges`.
     bool is_cut_edge(int a, int b) const;
 
+    /// Whether, of the `cut_faces` of some tag, only one is at the edge a-b.
+    bool is_cut_border(int a, int b) const;
+
     /// Splits the edge a-b in every list at a new node and returns it.
     int split_edge(int a, int b, const Vec3& at);
 

@@ -15,10 +15,10 @@ namespace {
 constexpr double deepest_bulge = 0.25;
 
 /// The surfaces of a body, each bounded by the others, in the order they are cut.
-std::vector<Blade> blades_of(const Body& body) {
+std::vector<Blade> blades_of(const Body& body, int first_tag) {
     std::vector<Blade> blades;
     for (std::size_t k = 0; k < body.walls.size(); ++k) {
-        Blade blade{body.walls[k].tool, {}, {}};
+        Blade blade{body.walls[k].tool, {}, {}, first_tag + static_cast<int>(k)};
         if (body.walls.size() > 1)
             blade.bound = [&body, k](const Vec3& x) {
                 double depth = -std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     Naming naming;
     naming.sets = sets;
     for (const Body& body : bodies) {
-        std::ranges::move(blades_of(body), std::back_inserter(blades));
+        std::ranges::move(blades_of(body, static_cast<int>(blades.size())), std::back_inserter(blades));
         depths.push_back([&body](const Vec3& x) { return body.depth(x); });
         for (const Body::Wall& wall : body.walls) {
             tool_of_tag.push_back(wall.tool);

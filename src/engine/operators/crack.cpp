@@ -1,34 +1,87 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/crack.h"
 
+#include <cmath>
 #include <sstream>
 
+#include "operators/border.h"
+
 namespace femscalpel {
+namespace {
 
 /// A face whose border lies this far inside the skin, in edge lengths, still counts as cutting through: the skin is faceted.
 constexpr double outside = 0.05;
+
+/// Mean edge length at a node of the crack, in radii of curvature of the tool, from which the mesh counts as coarse.
+constexpr double coarse = 0.75;
+
+/// Tag of the tool's faces in the band.
+constexpr int whole_tool = 0;
+
+void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
+    const Tool& tool = *blade.tool;
+    cut_along(f, blade);
+    cut_border(f, patch);
+    keep_patch(f, patch);
+    f.patched = true;
+    f.d.barrier = &tool;
+    for (int v = 0; v < f.d.band.size(); ++v) f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
+    relax_band(f);
+    // Nodes beyond the front are free to leave the tool.
+    for (int v = 0; v < f.d.band.size(); ++v)
+        if (!f.d.contact[v] && f.distance[v] == 0) f.distance[v] = tool.distance(f.d.band.nodes[v].at);
+}
+
+/// Faces of elements that are long against a tool's curvature cut its corners off, or miss parts of it.
+void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
+    const double radius = f.tool->feature_size();
+    if (!std::isfinite(radius)) return;
+    double longest = 0;
+    for (const int v : lips.interface_nodes) longest = std::max(longest, f.d.band.mean_edge_length(v));
+    if (longest <= coarse * radius) return;
+    std::ostringstream message;
+    message << "the mesh is coarse for the " << f.tool->kind() << ": edges of " << longest << " against a radius of curvature of " << radius
+            << "; the crack is flatter and smaller than the tool. Refine the mesh there first, to edges of at most " << radius / 2;
+    f.warnings.push_back(message.str());
+}
+
+}  // namespace
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
     Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
     Blade blade;
     blade.tool = &tool;
+    if (options.method == Method::snap && std::isfinite(tool.feature_size())) blade.tag = whole_tool;
     if (tool.bounded()) blade.bound = [&tool](const Vec3& x) { return tool.beyond(x); };
     if (tool.bounded() && options.method == Method::deform)
         throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " + tool.kind());
+    std::optional<Patch> patch;
+    if (options.within) {
+        if (options.method == Method::deform) throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
+        patch = options.within->on(tool);
+        blade.bound = patch->distance;
+        blade.tag = whole_tool;
+    }
     Interface f = operation.begin({&blade, 1});
-    if (operation.location().crossed > 0) {
+    if (patch) {
+        cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
+    } else if (operation.location().crossed > 0) {
         if (tool.bounded()) {
             cut_along(f, blade);
             relax_band(f);
-        } else if (options.method == Method::snap) snap_to_tool(f, tool);
+        } else if (options.method == Method::snap) snap_to_tool(f, blade);
         else deform_to_tool(f, tool, operation.mesh());
-        operation.take_laps(f.seconds);
-        check_shape(f, operation.mesh());
     }
+    operation.take_laps(f.seconds);
+    if (patch || operation.location().crossed > 0) check_shape(f, operation.mesh());
     const Lips lips = open_lips(f);
     if (lips.copy_of.empty())
         throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
                         " into the material");
+    if (patch) {
+        find_node_sets(f);
+        check_contacts(f);
+    }
     if (tool.bounded())
         for (const int v : lips.interface_nodes)
             if (const Vec3& x = f.d.band.nodes[v].at; tool.beyond(x) > outside * f.d.band.mean_edge_length(v)) {
@@ -36,6 +89,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
                 message << "the " << tool.kind() << " ends inside the material, near (" << x.transpose() << "); it must cut right through. Make it larger";
                 throw ToolError(message.str());
             }
+    warn_of_coarse_mesh(f, lips);
     return operation.finish(f, lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 

@@ -2,19 +2,27 @@
 #pragma once
 
 #include "operators/operation.h"
+#include "tools/patch.h"
 
 namespace femscalpel {
 
 struct CrackOptions : OperatorOptions {
     CrackOptions() { name = "CRACK"; }  // new groups: NAME_P, NAME_N, NAME_FRONT
+
+    /// The part of the tool that cracks; the whole when null.
+    const Within* within = nullptr;
 };
 
-/// Cracks `mesh` along the whole of `tool` (paper, 3.1): makes element faces lie on the tool, then gives
+/// Cracks `mesh` along `tool` (paper, 3.1): makes element faces lie on the tool, then gives
 /// each side its own copy of the interface nodes. Lips are coincident. The input is not changed.
 ///
 /// New groups: NAME_P and NAME_N, the lip faces on the tool's positive and negative side (triangles of a
 /// volume mesh, segments of a shell mesh). The original nodes stay with the negative side. Where the two
 /// sides hang together at interface nodes, these are the front: node group NAME_FRONT.
+///
+/// A crack `within` a part of the tool ends in the material: edges of the interface are made to lie on the border of
+/// that part. There, in a solid, NAME_FRONT is an element group: new segments along the front, in order (each chain
+/// from end to end, a closed one once around). Front nodes are single and lie on the border curve.
 ///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///

@@ -28,6 +28,9 @@ struct Blade {
     std::function<double(const Vec3&)> bound;
     /// Of tools that were cut along before: it is wanted on their negative side only.
     std::vector<const Tool*> inside;
+    /// Faces made to lie on it are collected in BandMesh::cut_faces (edges of shells in cut_edges) under this tag; not
+    /// if negative.
+    int tag = -1;
 };
 
 /// Elements farther than this from where a blade is wanted, in their longest edges, are not cut by it.
@@ -47,6 +50,7 @@ struct Interface {
     std::vector<std::pair<std::string, double>> seconds;
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side;
+    bool patched = false;            ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
     /// the side its elements are on.
@@ -76,7 +80,7 @@ void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cu
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.
-void snap_to_tool(Interface& interface, const Tool& tool);
+void snap_to_tool(Interface& interface, const Blade& blade);
 
 /// Collects `nodes` (all with contact) and `transition` anew.
 void find_node_sets(Interface& interface);

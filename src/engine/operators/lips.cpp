@@ -2,6 +2,7 @@
 #include "operators/lips.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -37,6 +38,7 @@ public:
         for (const int v : out_.interface_nodes) part_node(v);
         place_attached();
         make_lips();
+        if (f_.patched) chain_front();
         return std::move(out_);
     }
 
@@ -45,8 +47,9 @@ private:
 
     template <std::size_t N>
     int side(const std::array<int, N>& nodes) const {
+        // A node off the interface can still lie in its plane, beyond the front.
         for (const int v : nodes)
-            if (!on_tool(v)) return f_.distance[v] > 0 ? 1 : -1;
+            if (!on_tool(v) && f_.distance[v] != 0) return f_.distance[v] > 0 ? 1 : -1;
         if constexpr (N < 3) return 0;
         // All corners lie on a curved tool: the element fills a bulge of it, and its middle tells on which side. A
         // triangle may also lie along the tool.
@@ -86,6 +89,7 @@ private:
         for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
             const Seen &one = faces[i], &other = faces[i + 1];
             if (one.key != other.key || side(band_.tetras[one.tetra]) * side(band_.tetras[other.tetra]) >= 0) continue;
+            if (f_.patched && band_.cut_faces.find(one.key) < 0) continue;
             for (const Seen* s : {&one, &other}) open_faces_.push_back({s->nodes, s->tetra});
             for (int k = 0; k < 3; ++k) open_edges_.insert(edge_key(one.key[k], one.key[(k + 1) % 3]));
             face_keys_.push_back(one.key);
@@ -107,7 +111,7 @@ private:
                     positive = positive || side(band_.triangles[t]) > 0;
                     negative = negative || side(band_.triangles[t]) < 0;
                 }
-                if (!positive || !negative) continue;
+                if (!positive || !negative || (f_.patched && band_.cut_edges.find({v, w}) < 0)) continue;
                 open_edges_.insert(edge_key(v, w));
                 shell_edges_.push_back({v, w});
                 is_interface_[v] = is_interface_[w] = 1;
@@ -326,6 +330,42 @@ private:
                                       band_.triangle_cells[band_.triangles.origin(t)].type == CellType::triangle6});
             }
         }
+    }
+
+    bool is_skin_edge(int a, int b) const {
+        return std::ranges::any_of(band_.skin.around(a), [&](int s) {
+            return !f_.d.constraints.is_internal(band_.skin.tag(s)) && std::ranges::find(band_.skin[s], b) != band_.skin[s].end();
+        });
+    }
+
+    /// Edges of one open face only, but for those in the skin, put in order.
+    void chain_front() {
+        std::map<std::array<int, 2>, int> faces_at;
+        for (const auto& key : face_keys_)
+            for (int k = 0; k < 3; ++k) ++faces_at[sorted(std::array{key[k], key[(k + 1) % 3]})];
+        std::map<int, std::vector<int>> next;
+        for (const auto& [edge, faces] : faces_at) {
+            if (faces != 1 || is_skin_edge(edge[0], edge[1])) continue;
+            next[edge[0]].push_back(edge[1]);
+            next[edge[1]].push_back(edge[0]);
+        }
+        const auto walk = [&](int from) {
+            std::vector<int> chain{from};
+            while (!next[chain.back()].empty()) {
+                const int v = chain.back(), w = next[v].front();
+                next[v].erase(next[v].begin());
+                std::erase(next[w], v);
+                chain.push_back(w);
+            }
+            out_.front_chains.push_back(std::move(chain));
+        };
+        // Open chains from their ends, then closed ones.
+        std::vector<int> nodes;
+        for (const auto& [v, neighbours] : next) nodes.push_back(v);
+        for (const int v : nodes)
+            if (next[v].size() % 2 == 1) walk(v);
+        for (const int v : nodes)
+            if (!next[v].empty()) walk(v);
     }
 
     template <std::size_t N>

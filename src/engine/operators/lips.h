@@ -43,6 +43,9 @@ struct Lips {
     std::vector<Face<2>> edges;
 
     std::vector<int> interface_nodes;  ///< nodes of open faces and edges, ascending
+    /// The front inside a solid as chains of nodes, each joined to the next by an edge; a closed one ends where it begins.
+    /// Only of a crack that is bounded by a patch.
+    std::vector<std::vector<int>> front_chains;
     bool removes = false;              ///< elements were taken out, and their nodes may have to go
     std::vector<int> front_nodes;      ///< of them, those that stay single
     std::vector<std::string> warnings;

@@ -374,8 +374,8 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
-    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_);
-    add_front(lips, naming.front, rebuilt);
+    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
+    if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
     if (input_.solver_input && !part_) {

@@ -48,7 +48,7 @@ struct Prepared {
 /// How an operator calls what it made.
 struct Naming {
     std::vector<std::vector<std::string>> groups;  ///< of faces, by Lips::Face::group: each face is in all of its list
-    std::string front;                             ///< of the front's nodes
+    std::string front;                             ///< of the front: its segments if they form chains, else its nodes
     /// Node sets of the report: interface nodes inside and on the outside, transition nodes inside and on the outside.
     std::array<const char*, 4> sets{"ICN", "ECN", "ITN", "ETN"};
 };

@@ -17,7 +17,7 @@ public:
         out_.mesh = std::move(copy);
     }
 
-    Rebuilt run(const std::vector<std::vector<std::string>>& groups) {
+    Rebuilt run(const std::vector<std::vector<std::string>>& groups, const std::string& front) {
         Mesh& mesh = out_.mesh;
         write_nodes();
         find_mid_owners();
@@ -28,6 +28,7 @@ public:
         write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
         write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
         write_lips(groups);
+        if (!lips_.front_chains.empty()) write_front(front);
         write_facets();
         for (const CellRef& c : f_.deep_inside) note_removed(c);
         remove_cells();
@@ -268,6 +269,25 @@ private:
         write(lips_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_, CellType::line, CellType::line3);
     }
 
+    /// Segments along the front. One that is already there is taken; order then follows the numbers.
+    void write_front(const std::string& name) {
+        Mesh& mesh = out_.mesh;
+        const GroupIndex group = mesh.add_group(name, GroupKind::element);
+        for (const std::vector<int>& chain : lips_.front_chains)
+            for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+                const std::array<int, 2> ends{chain[k], chain[k + 1]};
+                if (const int old = band_.lines.find(ends); old >= 0) {
+                    const CellType type = band_.line_cells[band_.lines.origin(old)].type;
+                    FamilyIndex& family = mesh.block(type).families[line_cell_[old]];
+                    family = mesh.families.with(family, group);
+                    continue;
+                }
+                const CellType type = owner_.contains(edge_key(ends[0], ends[1])) ? CellType::line3 : CellType::line;
+                const Index made = mesh.add_cell(type, connectivity(type, ends, ends), next_cell_++, mesh.families.with(0, group));
+                out_.after.push_back({type, made});
+            }
+    }
+
     void write_facets() {
         if (band_.facet_faces.size() == 0 && band_.facet_edges.size() == 0 && band_.facet_sides.empty()) return;
         Mesh& mesh = out_.mesh;
@@ -407,8 +427,8 @@ Numbering next_numbers(const Mesh& mesh) {
 }
 
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
-                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering) {
-    return Rebuilder(input, std::move(copy), interface, lips, numbering).run(groups);
+                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering, const std::string& front) {
+    return Rebuilder(input, std::move(copy), interface, lips, numbering).run(groups, front);
 }
 
 }  // namespace femscalpel

@@ -30,6 +30,8 @@ public:
             if (band_.tetras.alive(t) && is_inside(band_.tetras[t])) tetras.push_back(t);
         for (int t = 0; t < band_.triangles.size(); ++t)
             if (band_.triangles.alive(t) && is_shell(t) && is_inside(band_.triangles[t])) shells.push_back(t);
+        drop_tags(band_.cut_faces);
+        drop_tags(band_.cut_edges);
         make_walls(tetras, shells);
         for (const int t : tetras) take(band_.tetras, t);
         for (const int t : shells) take(band_.triangles, t);
@@ -76,6 +78,12 @@ private:
             throw QualityError(message.str());
         }
         return first_tag_ + best;
+    }
+
+    /// Faces collected on the way: of them only the walls count.
+    void drop_tags(auto& list) {
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && list.tag(s) >= first_tag_ && list.tag(s) < first_tag_ + static_cast<int>(tools_.size())) list.remove(s);
     }
 
     void make_walls(const std::vector<int>& tetras, const std::vector<int>& shells) {

@@ -34,4 +34,12 @@ Result Scalpel::drill(std::span<const Tool* const> tools, const DrillOptions& op
     return femscalpel::drill(*state_->mesh, tools, options, state_->prepared());
 }
 
+Result Scalpel::cut(const Tool& positive, const Tool& negative, const CutOptions& options) const {
+    return femscalpel::cut(*state_->mesh, positive, negative, options, state_->prepared());
+}
+
+Result Scalpel::cut(const Plane& plane, double width, const CutOptions& options) const {
+    return femscalpel::cut(*state_->mesh, plane, width, options, state_->prepared());
+}
+
 }  // namespace femscalpel

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "operators/crack.h"
+#include "operators/cut.h"
 #include "operators/drill.h"
 
 namespace femscalpel {
@@ -24,6 +25,10 @@ public:
 
     /// As femscalpel::drill().
     Result drill(std::span<const Tool* const> tools, const DrillOptions& options = {}) const;
+
+    /// As femscalpel::cut().
+    Result cut(const Tool& positive, const Tool& negative, const CutOptions& options = {}) const;
+    Result cut(const Plane& plane, double width, const CutOptions& options = {}) const;
 
 private:
     struct State;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -96,11 +97,54 @@ public:
         }
     }
 
+    /// Collects the faces, and edges of shells, that part elements on one side of the tool from those on the other.
+    void collect_faces(int tag) {
+        constexpr int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+        const auto touches = [&](int v) { return d_.contact[v].has(&tool_); };
+        std::map<std::array<int, 3>, int> sides;      // side of the first tetrahedron met
+        std::map<std::array<int, 2>, int> edge_sides;
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!touches(v)) continue;
+            for (const int t : band_.tetras.around(v)) {
+                const auto& n = band_.tetras[t];
+                for (const auto& f : faces) {
+                    std::array<int, 3> key{n[f[0]], n[f[1]], n[f[2]]};
+                    if (!std::ranges::all_of(key, touches) || std::ranges::min(key) != v) continue;
+                    std::ranges::sort(key);
+                    const int side = side_of(n);
+                    const auto [first, fresh] = sides.emplace(key, side);
+                    if (!fresh && first->second * side < 0) band_.cut_faces.add(key, tag);
+                }
+            }
+            for (const int t : band_.triangles.around(v)) {
+                if (!d_.constraints.is_shell(band_.triangles.origin(t))) continue;
+                for (const int w : band_.triangles[t]) {
+                    if (w <= v || !touches(w)) continue;
+                    const int side = side_of(band_.triangles[t]);
+                    const auto [first, fresh] = edge_sides.emplace(std::array{v, w}, side);
+                    if (!fresh && first->second * side < 0 && band_.cut_edges.find({v, w}) < 0) band_.cut_edges.add({v, w}, tag);
+                }
+            }
+        }
+    }
+
 private:
     struct Edge {
         double length;
         int a, b;
     };
+
+    /// The side an element lies on: of its node farthest from the tool, or of its middle when all are on it.
+    int side_of(const auto& nodes) const {
+        double furthest = 0;
+        Vec3 middle = Vec3::Zero();
+        for (const int v : nodes) {
+            if (std::abs(value_[v]) > std::abs(furthest)) furthest = value_[v];
+            middle += band_.nodes[v].at / static_cast<double>(nodes.size());
+        }
+        if (std::abs(furthest) <= f_.tolerance) furthest = tool_.distance(middle);
+        return furthest > 0 ? 1 : -1;
+    }
 
     /// The elements in which the blade is wanted.
     void find_region() {
@@ -367,6 +411,7 @@ void cut_along(Interface& f, const Blade& blade) {
     snapper.snap_nodes();
     watch.lap("snap");
     snapper.split_edges();
+    if (blade.tag >= 0) snapper.collect_faces(blade.tag);
     watch.lap("split");
 }
 
@@ -426,10 +471,10 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut) {
     f = std::move(*best);
 }
 
-void snap_to_tool(Interface& f, const Tool& tool) {
-    cut_soundly(f, [&tool](Interface& g) {
-        cut_along(g, {&tool, {}, {}});
-        g.d.barrier = &tool;
+void snap_to_tool(Interface& f, const Blade& blade) {
+    cut_soundly(f, [&blade](Interface& g) {
+        cut_along(g, blade);
+        g.d.barrier = blade.tool;
         for (int v = 0; v < g.d.band.size(); ++v)
             g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
         relax_band(g);

@@ -17,10 +17,11 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
-from .operators import Result, Scalpel, crack, drill, refine
+from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Report
 from .tools import Cone, Cylinder, Face, Plane, Sphere, Tool, Torus
+from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within
 
 __version__ = "0.1.0"
 
@@ -28,6 +29,9 @@ __all__ = [
     "BoundaryPart",
     "Cone",
     "Cylinder",
+    "CylinderPart",
+    "Disk",
+    "Ellipse",
     "ElementaryGroup",
     "ElementQuality",
     "Error",
@@ -35,8 +39,10 @@ __all__ = [
     "Group",
     "GroupRecord",
     "Groups",
+    "HalfPlane",
     "Mesh",
     "Plane",
+    "Polygon",
     "Quality",
     "QualityError",
     "QualitySummary",
@@ -50,8 +56,10 @@ __all__ = [
     "Torus",
     "UnsupportedElementError",
     "VirtualBoundary",
+    "Within",
     "WriteError",
     "crack",
+    "cut",
     "drill",
     "from_meshio",
     "mean_ratio",

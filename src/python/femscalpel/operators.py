@@ -9,7 +9,8 @@ import numpy as np
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
 from .report import Report
-from .tools import Tool, check_tool
+from .tools import Plane, Tool, check_tool
+from .within import Within, check_within
 
 METHODS = ("snap", "deform")
 
@@ -49,8 +50,8 @@ def _common_options(name, method, transition, feature_angle, strict, preserve, b
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          band_only: bool = False) -> Result:
-    """Cracks a mesh along the whole of a tool.
+          band_only: bool = False, within: Optional[Within] = None) -> Result:
+    """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
     nodes on it. The lips are coincident; the original nodes stay with the negative side. Only elements near the
@@ -87,6 +88,11 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         carrying a CalculiX deck over has to say. With a :class:`Scalpel` this costs little more than the elements near
         the tool.
 
+    within : Disk, Ellipse, Polygon, HalfPlane or CylinderPart, optional
+        The part of the tool that cracks; the whole when not given. Its border is the crack front: nodes there lie on it
+        and stay single, and ``name_FRONT`` is an element group of segments along it, in order (in a shell mesh, the
+        nodes at its tips). It may reach out of the mesh.
+
     Returns
     -------
     Result
@@ -113,7 +119,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only), check_within(within)))
 
 
 def _tools(tools) -> list:
@@ -177,6 +183,71 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
     """
     return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only),
                                       _depth(depth)))
+
+
+def _walls(tool, width, other, bottom) -> tuple:
+    """The two positional and the last argument of the engine's cut()."""
+    if (width is None) == (other is None):
+        raise ValueError("give either width or other: the slot's width around a plane, or its other wall")
+    if bottom is not None:
+        check_tool(bottom, "bottom")
+    if other is not None:
+        return check_tool(tool), check_tool(other, "other"), bottom
+    if not isinstance(tool, Plane):
+        raise TypeError(f"tool must be a femscalpel.Plane when width is given, not {_arguments.describe(tool)}")
+    return tool, _arguments.real(width, "width"), bottom
+
+
+def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
+        name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
+        preserve: Optional[Iterable[str]] = None, band_only: bool = False) -> Result:
+    """Cuts a slot: an incision between two planes.
+
+    The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself is
+    not changed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Triangles (shells) and tetrahedra, linear or quadratic, near the planes; anything elsewhere.
+    tool : Tool
+        With `width`: the :class:`Plane` in the middle of the slot. With `other`: the wall on the positive side.
+    width : number, optional
+        Width of the slot.
+    other : Tool, optional
+        The second wall. What lies on the negative side of both `tool` and `other` is removed: their normals point into
+        the material that stays. They need not be parallel; then they make a notch.
+    bottom : Tool, optional
+        Where the slot ends: it stays on the negative side of this plane (or cylinder: a circular saw). Through the whole
+        part when not given.
+    name : str
+        Prefix of the new groups: ``name_P`` and ``name_N``, the walls on the positive and negative side of the slot's
+        middle plane (of `tool` and `other`), normals out of the material, and ``name_BOTTOM``.
+    method : {"snap"}
+        "deform" is for a single surface only.
+    transition, feature_angle, strict, preserve, band_only
+        As for :func:`crack`.
+
+    Returns
+    -------
+    Result
+        The report's node sets are ICN and ECN (nodes of the walls, interior and on the skin), ITN and ETN.
+
+    Raises
+    ------
+    ToolError
+        The name is bad or taken, the width is not positive, a plane misses the mesh, or nothing or everything
+        would be removed.
+    UnsupportedElementError, QualityError, Error, TypeError, ValueError
+        As for :func:`crack`.
+
+    Examples
+    --------
+    >>> saw = cut(mesh, Plane((5, 0, 0), (1, 0, 0)), width=0.2, bottom=Plane((0, 0, 3), (0, 0, -1)))
+    >>> saw.mesh.groups["CUT_BOTTOM"].ids
+    """
+    first, second, bottom = _walls(tool, width, other, bottom)
+    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only), bottom))
 
 
 def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
@@ -273,12 +344,20 @@ class Scalpel:
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              band_only: bool = False) -> Result:
+              band_only: bool = False, within: Optional[Within] = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only)))
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only),
+                                                check_within(within)))
 
     def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
               depth: Optional[float] = None, band_only: bool = False) -> Result:
         """As :func:`femscalpel.drill`, on the session's mesh."""
         return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only), _depth(depth)))
+
+    def cut(self, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
+            name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
+            preserve: Optional[Iterable[str]] = None, band_only: bool = False) -> Result:
+        """As :func:`femscalpel.cut`, on the session's mesh."""
+        first, second, bottom = _walls(tool, width, other, bottom)
+        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only), bottom))
