@@ -16,6 +16,7 @@ import femscalpel
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.curved_crack import CurvedCrack
+from femscalpelobjects.cut import Cut
 from femscalpelobjects.cylindrical_crack import CylindricalCrack
 from femscalpelobjects.drill import Drill
 from femscalpelobjects.group_names import rename_group
@@ -26,8 +27,9 @@ if FreeCAD.GuiUp:
 
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
-              group_name="CRACK", feature_angle=30.0, preserve=None):
-    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane.
+              group_name="CRACK", feature_angle=30.0, preserve=None, patch="Whole", patch_radius=1.0, patch_second_radius=0.5,
+              patch_corners=()):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane or a part of it.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
 
@@ -54,6 +56,13 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         Degrees; skin edges sharper than this keep their shape.
     preserve : names of mesh groups, optional
         The groups whose border keeps its shape; all when not given. Borders of others may drift.
+    patch : {"Whole", "Disk", "Ellipse", "Polygon", "HalfPlane"}
+        The part of the plane that cracks; its border is the crack front, group ``group_name_FRONT``. Disk and ellipse have
+        their centre at the placement's origin, the half plane is on the side of the placement's x axis.
+    patch_radius, patch_second_radius : float
+        Of a disk; of an ellipse along the placement's x and y axis. In mm.
+    patch_corners : sequence of App.Vector or (x, y) or (x, y, z)
+        Of a polygon, in order around it, in the placement's own axes; z does not count.
 
     Returns
     -------
@@ -69,19 +78,25 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     """
     _check_source(doc, source)
     plane = _placement(source, placement, origin, normal, "normal")
-    return _make(doc, Crack, source, name, PlanePlacement=plane, Method=method, Transition=transition, GroupName=group_name,
+    corners = [FreeCAD.Vector(*tuple(corner)[:2], 0) for corner in patch_corners]
+    return _make(doc, Crack, source, name, PlanePlacement=plane, Patch=patch, PatchRadius=patch_radius,
+                 PatchSecondRadius=patch_second_radius, PatchCorners=corners, Method=method, Transition=transition, GroupName=group_name,
                  FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
 
 
 def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, origin=None, axis=None, radius=1.0, method="snap",
-                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None):
-    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder.
+                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None, along=None, angles=(0, 360)):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder or a part of it.
 
-    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. The lip ``_P`` is outside. Everything else is as for makeCrack().
+    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. With `along`, two
+    numbers, it cracks from there to there on the axis, measured from the placement's origin; then `angles`, in degrees from
+    the placement's x axis, can bound it too. The lip ``_P`` is outside. Everything else is as for makeCrack().
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
-    return _make(doc, CylindricalCrack, source, name, AxisPlacement=placement, Radius=radius, Method=method, Transition=transition,
+    low, high = (0, 1) if along is None else along
+    return _make(doc, CylindricalCrack, source, name, AxisPlacement=placement, Radius=radius, Bounded=along is not None, Low=low,
+                 High=high, StartAngle=angles[0], EndAngle=angles[1], Method=method, Transition=transition,
                  GroupName=group_name, FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
 
 
@@ -130,6 +145,33 @@ def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None,
     placement = _placement(source, placement, origin, axis, "axis")
     return _make(doc, Drill, source, name, AxisPlacement=placement, Radius=radius, Positions=[FreeCAD.Vector(*p) for p in positions],
                  Through=depth is None, Depth=depth or 0, Method=method, Transition=transition, GroupName=group_name,
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+
+
+def makeCut(doc, source, name="Cut", placement=None, origin=None, normal=None, width=1.0, bottom=None, transition=0, group_name="CUT",
+            feature_angle=30.0, preserve=None):
+    """Adds a parametric mesh object to `doc`: the mesh of `source` with a slot, an incision between two parallel planes.
+
+    Parameters
+    ----------
+    doc, source, name, transition, feature_angle, preserve
+        As for makeCrack().
+    placement, origin, normal
+        The plane in the middle of the slot, as for makeCrack().
+    width : float
+        Of the slot, in mm.
+    bottom : App.Placement, optional
+        The slot ends at the XY plane of this placement, whose z axis points into the material that stays; it goes through
+        the whole part when not given.
+    group_name : str
+        Prefix of the new mesh groups: ``_P`` and ``_N``, the walls, and ``_BOTTOM``; see femscalpel.cut.
+
+    Returns and raises as makeCrack().
+    """
+    _check_source(doc, source)
+    plane = _placement(source, placement, origin, normal, "normal")
+    return _make(doc, Cut, source, name, PlanePlacement=plane, Width=width, Through=bottom is None,
+                 BottomPlacement=bottom or FreeCAD.Placement(), Transition=transition, GroupName=group_name,
                  FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
 
 

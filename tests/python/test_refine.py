@@ -69,6 +69,19 @@ def test_relax_pays():
     assert relaxed.mean > plain.mean and relaxed.minimum > plain.minimum
 
 
+def test_for_a_tool_finer_than_the_mesh():
+    """A crack along a small sphere: coarse, a good part of it is missing, and a warning says so; refined it is not."""
+    mesh, sphere = grid_box(), fs.Sphere((3, 2.5, 2), 1.2)
+    def crack(m):
+        result = fs.crack(m, sphere)
+        return next(g.measure_after for g in result.report.groups if g.name == "CRACK_P"), " ".join(result.report.warnings)
+    whole = 4 * np.pi * sphere.radius ** 2
+    coarse, warning = crack(mesh)
+    assert coarse < 0.9 * whole and "the mesh is coarse for the sphere" in warning
+    fine, warning = crack(fs.refine(mesh, sphere, size=sphere.radius / 3).mesh)
+    assert fine == pytest.approx(whole, rel=0.05) and "coarse" not in warning
+
+
 def test_nothing_to_do():
     mesh = grid_box()
     result = fs.refine(mesh, (0, 0, 0), size=5)

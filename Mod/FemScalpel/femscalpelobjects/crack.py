@@ -1,26 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Document object: a FEM mesh, cracked along a plane."""
+"""Document object: a FEM mesh, cracked along a plane or a part of it."""
 
 import femscalpel
 
 from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
+from .patch_properties import PATCH_DEFAULTS, PATCH_INPUTS, fronts_of, patch_of
 from .tool_properties import plane_of
 
 
 class Crack(MeshOperation):
-    """Proxy of a Fem::FemMeshObjectPython that holds its Source's mesh, cracked along a plane."""
+    """Proxy of a Fem::FemMeshObjectPython that holds its Source's mesh, cracked along a plane or a part of it."""
 
     Type = "FemScalpel::Crack"
 
     INPUTS = (
         ("App::PropertyPlacement", "PlanePlacement", "The crack's plane: XY plane of this placement, z is the positive side"),
+        *PATCH_INPUTS,
         *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips"),
+        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips, NAME_FRONT the front"),
     )
-    DEFAULTS = {**SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
+    DEFAULTS = {**PATCH_DEFAULTS, **SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
 
     def tools(self, obj):
-        return [plane_of(obj.PlanePlacement)]
+        return [plane_of(obj.PlanePlacement), *fronts_of(obj)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], **surface_options(obj, mesh))
+        return femscalpel.crack(mesh, tools[0], within=patch_of(obj), **surface_options(obj, mesh))

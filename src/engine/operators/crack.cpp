@@ -12,6 +12,9 @@ namespace {
 /// A face whose border lies this far inside the skin, in edge lengths, still counts as cutting through: the skin is faceted.
 constexpr double outside = 0.05;
 
+/// Mean edge length at a node of the crack, in radii of curvature of the tool, from which the mesh counts as coarse.
+constexpr double coarse = 0.75;
+
 /// Tag of the tool's faces in the band.
 constexpr int whole_tool = 0;
 
@@ -27,6 +30,19 @@ void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
     // Nodes beyond the front are free to leave the tool.
     for (int v = 0; v < f.d.band.size(); ++v)
         if (!f.d.contact[v] && f.distance[v] == 0) f.distance[v] = tool.distance(f.d.band.nodes[v].at);
+}
+
+/// Faces of elements that are long against a tool's curvature cut its corners off, or miss parts of it.
+void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
+    const double radius = f.tool->feature_size();
+    if (!std::isfinite(radius)) return;
+    double longest = 0;
+    for (const int v : lips.interface_nodes) longest = std::max(longest, f.d.band.mean_edge_length(v));
+    if (longest <= coarse * radius) return;
+    std::ostringstream message;
+    message << "the mesh is coarse for the " << f.tool->kind() << ": edges of " << longest << " against a radius of curvature of " << radius
+            << "; the crack is flatter and smaller than the tool. Refine the mesh there first, to edges of at most " << radius / 2;
+    f.warnings.push_back(message.str());
 }
 
 }  // namespace
@@ -73,6 +89,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
                 message << "the " << tool.kind() << " ends inside the material, near (" << x.transpose() << "); it must cut right through. Make it larger";
                 throw ToolError(message.str());
             }
+    warn_of_coarse_mesh(f, lips);
     return operation.finish(f, lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 

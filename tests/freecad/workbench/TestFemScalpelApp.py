@@ -6,3 +6,4 @@ from femscalpeltest.test_bridge import Bridge  # noqa: F401
 from femscalpeltest.test_crack import CrackObject, Macro  # noqa: F401
 from femscalpeltest.test_on_shape import OnShape  # noqa: F401
 from femscalpeltest.test_operators import Operators  # noqa: F401
+from femscalpeltest.test_finite_crack import FiniteCrack, NotchedCantilever  # noqa: F401

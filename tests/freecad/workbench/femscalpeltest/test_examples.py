@@ -31,9 +31,16 @@ ITERATED = 1e-5
 
 
 class Example:
-    def __init__(self, module, origin, normal, tie=False, measure=1e-9, load=EXACT, reaction=EXACT, frequency=False, solve=True):
-        self.module = module
-        self.crack = {"origin": origin, "normal": normal}
+    def __init__(self, module, origin, normal, tie=False, measure=1e-9, load=EXACT, reaction=EXACT, frequency=False, solve=True,
+                 into=None, radius=None):
+        """A plane; with `into`, the half of it in that direction from `origin`; with `radius`, a disk."""
+        self.module, self.finite = module, into is not None or radius is not None
+        rotation = FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(*normal))
+        if into is not None:
+            rotation = FreeCAD.Rotation(FreeCAD.Vector(*into), FreeCAD.Vector(0, 0, 0), FreeCAD.Vector(*normal), "ZXY")
+        self.crack = {"placement": FreeCAD.Placement(FreeCAD.Vector(*origin), rotation)}
+        if self.finite:
+            self.crack.update(patch="Disk", patch_radius=radius) if radius else self.crack.update(patch="HalfPlane")
         self.tie, self.frequency, self.solve = tie, frequency, solve
         self.measure, self.load, self.reaction = measure, load, reaction  # largest relative changes
 
@@ -72,6 +79,20 @@ SHELLS = (
     Example("rc_wall_2d", (2050, 0, 0), (1, 0.05, 0)),
     Example("square_pipe_end_twisted_edgeforces", (0, 3, 0), (0.1, 1, 0)),
     Example("square_pipe_end_twisted_nodeforces", (0, 3, 0), (0.1, 1, 0)),
+)
+
+# Cracks that end inside the part, which stays in one piece: nothing is tied.
+FINITE = (
+    Example("boxanalysis_static", (5, 5, 5.2), (0, 0.15, 1), into=(1, 0, 0)),
+    Example("ccx_cantilever_ele_tetra4", (2000, 500, 480), (1, 0.1, 0), into=(0, 0, 1)),
+    Example("constraint_tie", (0, 1210, 500), (1, 0, 0.1), into=(0, 0, 1), measure=CURVED),
+    Example("constraint_transform_torque", (4.2, 0, 20), (0, 0.3, 1), radius=1.5, measure=CURVED, load=CURVED),
+    Example("material_multiple_bendingbeam_fiveboxes", (58, 5, 5), (1, 0.1, 0.2), into=(0, 0, 1)),
+    Example("material_multiple_tensionrod_twoboxes", (5, 5, 9), (0, 1, 2), into=(1, 0, 0)),
+    Example("thermomech_bimetall", (48, 2.5, 1), (1, 0.1, 0), into=(0, 1, 0)),
+    Example("buckling_platebuckling", (4000, 3000, 0), (1, 0.3, 0), into=(0, 1, 0)),
+    Example("rc_wall_2d", (2050, 600, 0), (1, 0.05, 0), into=(0, 1, 0)),
+    Example("square_pipe_end_twisted_edgeforces", (0, 3, 400), (0.1, 1, 0), into=(0, 0, -1)),
 )
 
 
@@ -195,7 +216,7 @@ class ExamplesTest(unittest.TestCase):
         for name, change in {**held, **sets}.items():
             self.assertLessEqual(change, example.measure, name)
         self.table.append((
-            example.module + (" (tied)" if example.tie else ""),
+            example.module + (" (tied)" if example.tie else "") + (" (finite)" if example.finite else ""),
             f"{crack.Source.FemMesh.VolumeCount or crack.Source.FemMesh.FaceCount} -> "
             f"{crack.FemMesh.VolumeCount or crack.FemMesh.FaceCount}",
             str(crack.NodesDoubled), f"{crack.MinimumQuality:.2f}", f"{np.linalg.norm(after.load):.6g}", f"{load:.0e}",
@@ -231,6 +252,12 @@ class ExamplesTest(unittest.TestCase):
 
 
 class Examples(ExamplesTest):
+    """One test per example, made below."""
+
+    table = []
+
+
+class ExamplesWithFiniteCracks(ExamplesTest):
     """One test per example, made below."""
 
     table = []
@@ -288,3 +315,6 @@ for _example in SOLIDS + SHELLS:
     if _example.module in ("boxanalysis_static", "ccx_cantilever_prescribeddisplacement", "constraint_transform_beam_hinged",
                            "material_multiple_tensionrod_twoboxes", "material_multiple_bendingbeam_fiveboxes", "thermomech_bimetall"):
         setattr(ExamplesByGroupName, "test_" + _example.module, _test_of(_example, "check_groups"))
+
+for _example in FINITE:
+    setattr(ExamplesWithFiniteCracks, "test_" + _example.module, _test_of(_example, "check"))

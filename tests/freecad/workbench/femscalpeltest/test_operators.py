@@ -119,6 +119,17 @@ class Operators(DocumentTest):
         mesh = self.check(drill, fs.drill(fine, tools, name="BOLT"))
         self.assertLessEqual({"BOLT_WALL", "BOLT_WALL1", "BOLT_WALL2"}, set(mesh.groups))
 
+    def test_cut(self):
+        plane = fs.Plane((3.1, 2.5, 2), (1, 0, 0))
+        cut = ObjectsFemScalpel.makeCut(self.doc, self.source, origin=(3.1, 2.5, 2), normal=(1, 0, 0), width=1.5)
+        mesh = self.check(cut, fs.cut(self.mesh, plane, width=1.5))
+        self.assertAlmostEqual(tetra_volumes(mesh.points, mesh.cells["tetra"]).sum(), 120 - 1.5 * 5 * 4, places=7)
+        cut.Through = False
+        cut.BottomPlacement = FreeCAD.Placement(FreeCAD.Vector(0, 0, 2), FreeCAD.Rotation(FreeCAD.Vector(1, 0, 0), 180))
+        mesh = self.check(cut, fs.cut(self.mesh, plane, width=1.5, bottom=fs.Plane((0, 0, 2), (0, 0, -1))))
+        self.assertAlmostEqual(tetra_volumes(mesh.points, mesh.cells["tetra"]).sum(), 120 - 1.5 * 5 * 2, places=7)
+        self.assertIn("CUT_BOTTOM", mesh.groups)
+
     def test_chain_in_order_through_a_file(self):
         refined = ObjectsFemScalpel.makeRefine(self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=0.8, size=0.7)
         drill = ObjectsFemScalpel.makeDrill(self.doc, refined, origin=ORIGIN, axis=AXIS, radius=0.8)
@@ -155,6 +166,8 @@ class Operators(DocumentTest):
                     function(self.doc, self.source, axis=(0, 0, 0))
                 with self.assertRaisesRegex(ValueError, "origin and axis, not both"):
                     function(self.doc, self.source, placement=FreeCAD.Placement(), axis=(0, 0, 1))
+        with self.assertRaisesRegex(ValueError, "normal is the zero vector"):
+            ObjectsFemScalpel.makeCut(self.doc, self.source, normal=(0, 0, 0))
         with self.assertRaises(ValueError):
             ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Saw")
         self.assertEqual(self.doc.Objects, objects, "a refused call left an object behind")
