@@ -12,7 +12,7 @@ namespace femscalpel {
 namespace {
 
 /// Elements that stay may bulge so deep into a hole, in its radii.
-constexpr double deepest_bulge = 0.25;
+constexpr double deepest_bulge = 0.5;
 
 /// The surfaces of a body, each bounded by the others, in the order they are cut.
 std::vector<Blade> blades_of(const Body& body, int first_tag) {
