@@ -11,6 +11,9 @@
 namespace femscalpel {
 namespace {
 
+/// Refining again and again does not help a hole much: its own wall bends the elements.
+constexpr int carve_attempts = 4;
+
 /// Elements that stay may bulge so deep into a hole, in its radii.
 constexpr double deepest_bulge = 0.5;
 
@@ -126,7 +129,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
         release_all_but_walls(g, tool_of_tag);
         if (options.method == Method::snap) relax_band(g);
     };
-    if (options.method == Method::snap) cut_soundly(f, carve_once);
+    if (options.method == Method::snap) cut_soundly(f, carve_once, carve_attempts);
     else carve_once(f);
     operation.take_laps(f.seconds);
     check_resolution(f, bodies);

@@ -73,10 +73,10 @@ void relax_band(Interface& interface);
 
 /// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out of a curved mesh: where new nodes could not be
 /// brought onto the skin they were born on, or second-order elements came out folded, it starts again with other
-/// choices there: nodes not put on the tool, then elements refined before the cut.
+/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times in all.
 ///
 /// Throws QualityError naming the place when nothing helps.
-void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut);
+void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12);
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.

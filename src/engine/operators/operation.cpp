@@ -235,7 +235,6 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
         r.nodes_moved = motion[g].moved;
         r.boundary_drift = motion[g].drift;
         if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after) r.status = "untouched";
-        if (r.status == "became empty") report.warnings.push_back("group '" + r.name + "' became empty");
     }
 }
 

@@ -30,8 +30,6 @@ constexpr double dip = 0.15;
 
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
-/// How often cutting a curved mesh is tried, each time with more nodes left alone.
-constexpr int attempts = 12;
 /// Elements of a curved mesh below this mean ratio are refined before another try, of which there are so many.
 constexpr double poor_quality = 0.1;
 constexpr int polishings = 3;
@@ -431,7 +429,7 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut) {
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts) {
     if (!f.d.mids.any() && !f.d.constraints.any_curved()) return cut(f);
     Interface start = f;
     std::optional<Interface> best;
