@@ -15,7 +15,7 @@ namespace {
 constexpr int carve_attempts = 4;
 
 /// Elements that stay may bulge so deep into a hole, in its radii.
-constexpr double deepest_bulge = 0.5;
+constexpr double deepest_bulge = 0.25;
 
 /// The surfaces of a body, each bounded by the others, in the order they are cut.
 std::vector<Blade> blades_of(const Body& body, int first_tag) {
@@ -46,8 +46,13 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
             for (int s = 0; s < list.size(); ++s) {
                 if (!list.alive(s)) continue;
                 Vec3 middle = Vec3::Zero();
-                for (const int v : list[s]) middle += band.nodes[v].at / static_cast<double>(list[s].size());
-                if (body.depth(middle) > -deepest_bulge * radius) continue;
+                double longest = 0;
+                for (const int v : list[s]) {
+                    middle += band.nodes[v].at / static_cast<double>(list[s].size());
+                    for (const int w : list[s]) longest = std::max(longest, (band.nodes[v].at - band.nodes[w].at).squaredNorm());
+                }
+                // No deeper than the chords of the wall are, either: what is deeper was to be removed.
+                if (body.depth(middle) >= -std::min(deepest_bulge * radius, longest / (8 * radius))) continue;
                 std::ostringstream message;
                 message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius " << radius << " near (" << middle.transpose()
                         << "): elements would reach deep into it. Refine the mesh there first, to edges of at most " << radius;
