@@ -48,7 +48,8 @@ public:
             if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
             const Contact tools = d_.edge_contact(a, b);
             const auto [at, fits, worst] = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
-            if (!fits || curved_children(d_, a, b, at, tools) < curved_limit) continue;
+            const bool bent = !d_.constraints.is_straight(d_.constraints.on_edge(band_, a, b));
+            if ((bent && !fits) || curved_children(d_, a, b, at, tools) < curved_limit) continue;
             d_.split_edge(a, b, at, tools);
             f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
             any = true;
