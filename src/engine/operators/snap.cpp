@@ -452,9 +452,10 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
             if (!best) fail_at(f, bad);
             break;
         }
-        // First the nodes of these elements are not put on the tool, then the elements are refined.
+        // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would get
+        // farther into elements whose nodes are not put on it.
         std::vector<char>& off_tool = start.d.off_tool;
-        if (attempt % 2 == 1 && !polish) {
+        if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
             for_parts(start.d.band, bad, [&](const auto& nodes) {
                 for (const int v : nodes) off_tool[v] = 1;
             });
