@@ -29,6 +29,7 @@ constexpr int described = 6;
 struct Subject {
     const char* name;
     bool flat;
+    int share = 1;  ///< one in so many of the tools: curved second-order elements take seconds each, or minutes
 };
 
 std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.name; }
@@ -49,12 +50,13 @@ protected:
 
     /// Runs `attempt` (returns a result and what was to be carved) on random tools; counts and prints.
     void try_many(const char* what, std::uint64_t seed, auto attempt) {
+        const int tools = std::max(1, random_tools / GetParam().share);
         Random random(seed);
         int valid = 0, refused = 0, failed = 0, good = 0;
         double worst = 1;
         std::map<std::string, int> reasons;
         const Mesh before = model_.mesh;
-        for (int k = 0; k < random_tools; ++k) {
+        for (int k = 0; k < tools; ++k) {
             try {
                 const auto [result, carved, text] = attempt(random);
                 const std::vector<std::string> findings = check_carved(model_, carved, result);
@@ -73,8 +75,8 @@ protected:
             }
         }
         EXPECT_TRUE(identical(model_.mesh, before) && identical(session_.mesh(), before)) << "the input was changed";
-        EXPECT_GT(valid, random_tools / 3);
-        std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam().name << ", " << what << ": " << valid << " of " << random_tools << " valid, " << refused
+        EXPECT_GT(valid, tools / 3);
+        std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam().name << ", " << what << ": " << valid << " of " << tools << " valid, " << refused
                   << " refused, " << failed << " fail; minimum " << worst << ", mean ratio >= 0.25 (or the input's) in " << good << "\n";
         for (const auto& [reason, count] : reasons) std::cout << "             " << count << " x " << reason << "...\n";
     }
@@ -86,7 +88,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Meshes, CarveProperties,
                          testing::Values(Subject{"two_boxes", true}, Subject{"flanged_cylinder", false}, Subject{"l_shape", true},
-                                         Subject{"quadratic_elbow", false}, Subject{"caisson_shell", true}),
+                                         Subject{"quadratic_elbow", false, 10}, Subject{"caisson_shell", true}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(CarveProperties, ThroughHoles) {
