@@ -65,7 +65,7 @@ class OnShape(DocumentTest):
 
     def test_every_face_is_found_after_random_cracks(self):
         random = np.random.default_rng(7)
-        cracks = off = 0
+        cracks = off = refused = 0
         for name in SHAPES:
             for order in ("1st", "2nd"):
                 with self.subTest(shape=name, order=order):
@@ -76,17 +76,23 @@ class OnShape(DocumentTest):
                         center = np.array(shape.BoundBox.Center) + random.uniform(-3, 3, 3)
                         crack = ObjectsFemScalpel.makeCrack(self.doc, source, origin=center, normal=normal)
                         self.doc.recompute()
-                        self.assertNotIn("Invalid", crack.State)
                         cracks += 1
-                        if crack.OffShape:
+                        if "Invalid" in crack.State:
+                            # A coarse curved second-order mesh may leave no room; then there is no mesh, and a reason.
+                            self.assertEqual(order, "2nd")
+                            self.assertIn("too coarse", crack.getStatusString())
+                            self.assertEqual(crack.FemMesh.NodeCount, 0)
+                            refused += 1
+                        elif crack.OffShape:
                             off += 1
                         else:
                             self.check(shape, crack)
                         self.doc.removeObject(crack.Name)
                     self.doc.removeObject(source.Name)
                     self.doc.removeObject("Geometry")
-        print(f"\n{cracks} cracks in curved geometry: {cracks - off} keep all nodes on it, {off} say which they cannot")
-        self.assertLess(off, 0.2 * cracks)
+        print(f"\n{cracks} cracks in curved geometry: {cracks - off - refused} keep all nodes on it, {off} say which they cannot, "
+              f"{refused} are refused on a mesh too coarse")
+        self.assertLess(off + refused, 0.2 * cracks)
 
     def check(self, shape, crack):
         femmesh = crack.FemMesh
