@@ -2,6 +2,7 @@
 #include "simple_meshes.h"
 
 #include <array>
+#include <map>
 
 namespace femscalpel::checks {
 
@@ -44,6 +45,27 @@ void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int
             mesh.add_cell(CellType::triangle, std::array{a, b, c}, mesh.largest_cell_id() + 1, family);
             mesh.add_cell(CellType::triangle, std::array{a, c, d}, mesh.largest_cell_id() + 1, family);
         }
+}
+
+Mesh second_order(const Mesh& mesh) {
+    Mesh out = mesh;
+    std::map<std::pair<Index, Index>, Index> mids;
+    for (const auto& [linear, quadratic] : {std::pair(CellType::triangle, CellType::triangle6), std::pair(CellType::tetra, CellType::tetra10)}) {
+        CellBlock& b = out.block(linear);
+        for (Index c = 0; c < b.size(); ++c) {
+            std::vector<Index> nodes(b.nodes(c).begin(), b.nodes(c).end());
+            for (const auto& e : traits(quadratic).edges) {
+                const std::pair<Index, Index> ends = std::minmax(nodes[e[0]], nodes[e[1]]);
+                if (!mids.contains(ends)) mids[ends] = out.add_node((out.points[ends.first] + out.points[ends.second]) / 2, out.largest_node_id() + 1);
+                nodes.push_back(mids[ends]);
+            }
+            out.add_cell(quadratic, nodes, b.ids[c], b.families[c]);
+        }
+        b.connectivity.clear();
+        b.ids.clear();
+        b.families.clear();
+    }
+    return out;
 }
 
 FamilyIndex family_of(Mesh& mesh, const char* name, GroupKind kind) {

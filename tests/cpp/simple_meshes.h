@@ -13,6 +13,9 @@ Mesh grid(int nx, int ny, int nz);
 /// A plate of 2 nx ny triangles with corner `origin` and cube edges `x`, `y`, sharing nodes that are already there.
 void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int nx, int ny, FamilyIndex family = 0);
 
+/// The same mesh with second-order triangles and tetrahedra, their mid-side nodes in the middle of straight edges.
+Mesh second_order(const Mesh& mesh);
+
 /// A new group's family.
 FamilyIndex family_of(Mesh& mesh, const char* name, GroupKind kind);
 

@@ -16,6 +16,7 @@
 #include "mesh/quality.h"
 #include "operators/crack.h"
 #include "operators/refine.h"
+#include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
 
@@ -352,6 +353,28 @@ TEST(Refine, CurvedElementsKeepTheirGeometry) {
     for (Index n = 0; n < 10; ++n) EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
     std::set<Index> used(result.mesh.block(CellType::tetra10).connectivity.begin(), result.mesh.block(CellType::tetra10).connectivity.end());
     EXPECT_EQ(static_cast<Index>(used.size()), result.mesh.node_count());
+}
+
+TEST(Refine, StraightSecondOrderElementsStayStraight) {
+    // New nodes are relaxed between rounds of bisection; nodes born beside them later must not go back to where they were.
+    Mesh plate = grid(20, 10, 1);
+    for (Vec3& x : plate.points) x = x.cwiseProduct(Vec3(2, 2, 0.3));
+    const Mesh mesh = second_order(plate);
+    const Cylinder cylinder({20, 10, 0}, {0, 0, 1}, 1);
+    RefineOptions options;
+    options.size = 0.15;
+    options.gradation = 0.4;
+    const DistanceField distance = distance_to(std::vector<const Tool*>{&cylinder});
+    const Result result = refine(mesh, distance, options);
+    EXPECT_THAT(check_refinement(mesh, distance, options, result), testing::IsEmpty());
+    int bent = 0;
+    std::vector<std::string> ignored;
+    for (const auto& [e, mid] : edges_of(result.mesh, 3, ignored)) {
+        const Vec3 &a = result.mesh.points[e.first], &b = result.mesh.points[e.second];
+        bent += (result.mesh.points[mid] - (a + b) / 2).norm() > 1e-9 * (b - a).norm();
+    }
+    EXPECT_EQ(bent, 0) << "edges";
+    EXPECT_GT(result.report.elements_added, 1000);
 }
 
 TEST(Refine, NothingToDo) {

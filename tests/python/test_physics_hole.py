@@ -38,8 +38,7 @@ def nodal_stresses(folder, component):
 
 
 @needs_ccx
-@pytest.mark.parametrize("kind", ["CPS6", pytest.param("C3D10", marks=pytest.mark.xfail(
-    raises=fs.QualityError, reason="known defect: this hole in second-order tetrahedra is refused as too coarse"))])
+@pytest.mark.parametrize("kind", ["CPS6", "C3D10"])
 def test_kirsch(tmp_path, kind):
     flat = kind == "CPS6"
     if flat:

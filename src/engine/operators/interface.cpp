@@ -5,6 +5,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "mesh/quality.h"
 #include "operators/mend_curved.h"
 
 namespace femscalpel {
@@ -132,6 +133,15 @@ void check_input_shape(Interface& f, const Mesh& mesh) {
     if (!bad.empty())
         throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
                            name_them(bad) + "); repair them first");
+    for (const CellRef& c : f.d.band.tetra_cells) {
+        if (c.type != CellType::tetra10) continue;
+        std::array<Vec3, 10> x;
+        std::ranges::transform(mesh.block(c.type).nodes(c.cell), x.begin(), [&](Index n) { return mesh.points[n]; });
+        if (!(smallest_jacobian(x) > 0)) bad.push_back({mesh.block(c.type).ids[c.cell], 0});
+    }
+    if (!bad.empty())
+        throw QualityError("the mesh already has " + std::to_string(bad.size()) + " second-order element(s) near the tool that are folded (" +
+                           name_them(bad) + "): move their mid-side nodes nearer to the middle of their edges first");
     if (!poor.empty())
         f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) + " element(s) with mean ratio below 0.1 near the tool (" +
                              name_them(poor) + ")");

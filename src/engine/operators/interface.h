@@ -107,7 +107,7 @@ void deform_to_tool(Interface& interface, const Tool& tool, const Mesh& mesh);
 /// split in that node, where it is; the blade then crosses one half. To be called first.
 void split_at_fixed_middles(Interface& interface, const Blade& blade, const Mesh& mesh);
 
-/// Throws QualityError that names the elements when the input itself has inverted ones in the band; counts
+/// Throws QualityError that names the elements when the input itself has inverted or folded ones in the band; counts
 /// poor ones (mean ratio below 0.1) as a warning.
 void check_input_shape(Interface& interface, const Mesh& mesh);
 

@@ -212,7 +212,10 @@ public:
         return split_long_edges();  // what relaxing has stretched
     }
 
-    const InputGeometry& geometry() const { return geometry_; }
+    /// The middle of an edge: in the input's geometry, unless relaxing took an end of it from where it was there.
+    Vec3 middle(int a, int b) const {
+        return strayed_[a] || strayed_[b] ? Vec3((band_.nodes[a].at + band_.nodes[b].at) / 2) : geometry_.middle(a, b);
+    }
 
 private:
     /// Edges in the order they are bisected in. Lengths are rounded, so that rounding does not decide between equal ones.
@@ -287,10 +290,11 @@ private:
     }
 
     void split(int a, int b) {
-        Vec3 at = moved(a) || moved(b) ? Vec3((band_.nodes[a].at + band_.nodes[b].at) / 2) : geometry_.middle(a, b);
+        Vec3 at = middle(a, b);
         if (const auto mid = band_.mid_nodes.find(edge_key(a, b)); mid != band_.mid_nodes.end()) at = mesh_.points[mid->second];
         geometry_.add_node(a, b);
         d_.split_edge(a, b, at, {});
+        strayed_.push_back(strayed_[a] || strayed_[b]);
         distance_.push_back(target_.distance(at));
         if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_) return;
         std::ostringstream message;
@@ -298,8 +302,6 @@ private:
                 << " elements. Choose a larger size or gradation, or a larger max_elements";
         throw ToolError(message.str());
     }
-
-    bool moved(int v) const { return band_.nodes[v].at != band_.nodes[v].start; }
 
     /// Relaxes new nodes wherever that changes neither the geometry nor a border.
     void improve() {
@@ -313,7 +315,10 @@ private:
             movable.push_back(v);
         }
         relax(d_, movable);
-        for (const int v : movable) distance_[v] = target_.distance(band_.nodes[v].at);
+        for (const int v : movable) {
+            distance_[v] = target_.distance(band_.nodes[v].at);
+            strayed_[v] = strayed_[v] || band_.nodes[v].at != band_.nodes[v].start;
+        }
     }
 
     Deformable& d_;
@@ -326,6 +331,8 @@ private:
     const Index count_at_start_ = band_.tetras.size() + band_.triangles.size();
     const std::unordered_set<std::uint64_t> blocked_;
     InputGeometry geometry_;
+    /// By band node: it is not where its place in the input's elements says, as it or a node it was born between moved.
+    std::vector<char> strayed_ = std::vector<char>(static_cast<std::size_t>(band_.size()), 0);
 };
 
 /// Points in the form nanoflann asks for, and its search tree.
@@ -434,13 +441,9 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     }
     watch.lap("bisect");
 
-    const BandMesh& band = f->d.band;
-    f->mid_side = [&](int a, int b) {
-        const bool moved = band.nodes[a].at != band.nodes[a].start || band.nodes[b].at != band.nodes[b].start;
-        return moved ? Vec3((band.nodes[a].at + band.nodes[b].at) / 2) : bisector->geometry().middle(a, b);
-    };
+    f->mid_side = [&](int a, int b) { return bisector->middle(a, b); };
     auto [output, totals] = copy.get();
-    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(band), {}, next_numbers(mesh));
+    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
     watch.lap("rebuild");
     report.warnings = f->warnings;
     report.warnings.insert(report.warnings.end(), rebuilt.warnings.begin(), rebuilt.warnings.end());
