@@ -17,6 +17,11 @@ Mesh random_mesh(std::mt19937& rng, int dimension, int n, double attached) {
     for (Index k = 0; k < (dimension == 3 ? m : 1); ++k)
         for (Index j = 0; j < m; ++j)
             for (Index i = 0; i < m; ++i) mesh.add_node({double(i), double(j), double(k)}, 1000 - mesh.node_count());
+    // Sheared and stretched at random: no element is like another model's, and what is flat stays flat.
+    Eigen::Matrix3d shape = Eigen::Matrix3d::Identity();
+    for (int r = 0; r < dimension; ++r)
+        for (int c = 0; c < dimension; ++c) shape(r, c) += std::uniform_real_distribution(-0.25, 0.25)(rng);
+    for (Vec3& x : mesh.points) x = shape * x;
     std::vector<std::vector<Index>> cells;
     const Index step[3] = {1, m, m * m};
     for (Index k = 0; k < (dimension == 3 ? n : 1); ++k)
@@ -94,6 +99,7 @@ Expected slow_boundary(const Mesh& mesh, GroupIndex group) {
     std::set<Nodes> by_size[5], members;
     const GroupMembers m = group_members(mesh, group);
     const std::set<Index> ids(m.ids.begin(), m.ids.end());
+    for (Index n = 0; n < mesh.node_count(); ++n) by_size[1].insert({n});  // also one without elements
     for (const CellBlock& b : mesh.blocks())
         for (Index c = 0; c < b.size(); ++c) {
             const Nodes cell(b.nodes(c).begin(), b.nodes(c).end());

@@ -15,7 +15,7 @@ using Nodes = std::set<Index>;  ///< of an edge, a face, an element
 void add_cells(Mesh& mesh, CellType type, const std::vector<std::vector<Index>>& cells);
 
 /// A box of n^3 bricks (dimension 3, six tetrahedra each) or n^2 squares, thinned out at random, with faces,
-/// edges and nodes of it as elements at random; `attached` scales how many.
+/// edges and nodes of it as elements at random; `attached` scales how many. The box is sheared at random.
 Mesh random_mesh(std::mt19937& rng, int dimension, int n, double attached = 1);
 
 /// Members near a random point with a probability, so that areas, faces and lone ones all occur.
