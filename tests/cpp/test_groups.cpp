@@ -320,6 +320,8 @@ TEST_P(RandomGroups, BandHasTheBoundaries) {
         Nodes isolated;
     };
     std::map<GroupIndex, Found> found;
+    Nodes in_band;
+    for (const auto& n : band.nodes) in_band.insert(n.global);
     std::set<Nodes> kept_anyway;  // skin, shells, members, and borders of element groups
     std::size_t distinct = 0;
     std::set<Nodes> all;
@@ -382,7 +384,10 @@ TEST_P(RandomGroups, BandHasTheBoundaries) {
         }
         EXPECT_EQ(found[g].faces, faces);
         EXPECT_EQ(found[g].lines, lines);
-        EXPECT_EQ(found[g].isolated, e.isolated);
+        Nodes isolated;
+        for (const Index n : e.isolated)
+            if (in_band.contains(n)) isolated.insert(n);  // a node without elements does not move anyway
+        EXPECT_EQ(found[g].isolated, isolated);
     }
 }
 
