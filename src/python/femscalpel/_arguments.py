@@ -42,6 +42,15 @@ def real(value, name):
     return float(value)
 
 
+def pair(value, name):
+    """Two finite numbers as a tuple of float."""
+    try:
+        first, second = value
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be two numbers, not {describe(value)}") from None
+    return real(first, name), real(second, name)
+
+
 def whole(value, name, minimum):
     """An integer that is at least `minimum`."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):

@@ -42,11 +42,7 @@ class Ellipse(_engine.Ellipse):
 
     def __init__(self, center: Sequence[float], half_axes: Sequence[float], direction: Sequence[float]):
         self.center, self.direction = _arguments.vector(center, "center"), _arguments.vector(direction, "direction")
-        try:
-            first, second = half_axes
-        except (TypeError, ValueError):
-            raise TypeError(f"half_axes must be two numbers, not {_arguments.describe(half_axes)}") from None
-        self.half_axes = _arguments.real(first, "half_axes"), _arguments.real(second, "half_axes")
+        self.half_axes = _arguments.pair(half_axes, "half_axes")
         super().__init__(self.center, *self.half_axes, self.direction)
 
     def __repr__(self) -> str:
@@ -111,18 +107,10 @@ class CylinderPart(_engine.CylinderPart):
     def __init__(self, along: Tuple[float, float], angles: Optional[Tuple[float, float]] = None, zero: Optional[Sequence[float]] = None):
         if (angles is None) != (zero is None):
             raise ValueError("give both angles and zero, or neither")
-        self.along, self.angles, self.zero = self._pair(along, "along"), None, None
+        self.along, self.angles, self.zero = _arguments.pair(along, "along"), None, None
         if angles is not None:
-            self.angles, self.zero = self._pair(angles, "angles"), _arguments.vector(zero, "zero")
+            self.angles, self.zero = _arguments.pair(angles, "angles"), _arguments.vector(zero, "zero")
         super().__init__(*self.along, None if angles is None else (*self.angles, self.zero))
-
-    @staticmethod
-    def _pair(values, name: str) -> Tuple[float, float]:
-        try:
-            first, second = values
-        except (TypeError, ValueError):
-            raise TypeError(f"{name} must be two numbers, not {_arguments.describe(values)}") from None
-        return _arguments.real(first, name), _arguments.real(second, name)
 
     def __repr__(self) -> str:
         return f"CylinderPart(along={self.along}, angles={self.angles}, zero={self.zero})"
