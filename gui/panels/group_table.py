@@ -23,7 +23,7 @@ def set_up(table):
 def fill(table, records):
     """Shows femscalpel.GroupRecord rows, those that changed first; keeps the selected group."""
     chosen = selected(table)
-    order = sorted(records, key=lambda r: ("new", "became empty", "changed", "kept", "untouched").index(r.status))
+    order = sorted(records, key=lambda r: ("new", "became empty", "reduced", "changed", "kept", "untouched").index(r.status))
     blocked = table.blockSignals(True)
     table.clearSelection()
     table.setRowCount(len(order))
@@ -61,7 +61,7 @@ def _kind(record):
 
 def _status(status):
     return {"new": translate("FemScalpel", "new"), "became empty": translate("FemScalpel", "became empty"),
-            "changed": translate("FemScalpel", "changed"), "kept": translate("FemScalpel", "kept"),
+            "reduced": translate("FemScalpel", "reduced"), "changed": translate("FemScalpel", "changed"), "kept": translate("FemScalpel", "kept"),
             "untouched": translate("FemScalpel", "untouched")}[status]
 
 

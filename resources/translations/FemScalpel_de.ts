@@ -459,6 +459,10 @@
       <translation>Punkte</translation>
     </message>
     <message>
+      <source>reduced</source>
+      <translation>verkleinert</translation>
+    </message>
+    <message>
       <source>snap: move and split</source>
       <translation>snap: bewegen und teilen</translation>
     </message>

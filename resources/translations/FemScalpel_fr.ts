@@ -459,6 +459,10 @@
       <translation>points</translation>
     </message>
     <message>
+      <source>reduced</source>
+      <translation>réduit</translation>
+    </message>
+    <message>
       <source>snap: move and split</source>
       <translation>snap : déplacer et diviser</translation>
     </message>

@@ -4,24 +4,29 @@
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepTools.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS_Face.hxx>
+#include <gp_Circ.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "crack_checks.h"
 #include "error.h"
 #include "io/inp.h"
+#include "mesh/quality.h"
 #include "operators/crack.h"
 #include "tools/cylinder.h"
 #include "tools/face.h"
@@ -138,11 +143,118 @@ TEST(Face, CracksAsThePlaneDoes) {
     EXPECT_THAT(checks::check_crack(model, plane, result, "CRACK"), testing::Each(testing::HasSubstr("plane constraints are not as many")));
     EXPECT_GT(result.report.constraints.at("face"), 20);
     EXPECT_GE(result.report.quality_after.minimum, 0.3);
-    const Face small = Face::from_brep(brep(BRepBuilderAPI_MakeFace(pln, -3, 3, -3, 3)));
-    EXPECT_THAT([&] { crack(model.mesh, small); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("ends inside the material")));
     CrackOptions deform;
     deform.method = Method::deform;
     EXPECT_THAT([&] { crack(model.mesh, large, deform); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("snap")));
+}
+
+/// What a crack along a face that ends inside the material has to be.
+struct FrontOfFace {
+    double area;                        ///< of a lip
+    std::vector<Vec3> nodes;            ///< of the front, in order
+    std::size_t closed = 0, faces = 0;  ///< of the lip; closed: all its nodes are on both lips
+
+    FrontOfFace(const Mesh& mesh, const Face& face, const Mesh& input) {
+        mesh.validate();
+        double volume = 0, before = 0;
+        for (Index c = 0; c < mesh.block(CellType::tetra).size(); ++c) {
+            const double v = cell_measure(mesh, CellType::tetra, c);
+            EXPECT_GT(v, 0);
+            volume += v;
+        }
+        for (Index c = 0; c < input.block(CellType::tetra).size(); ++c) before += cell_measure(input, CellType::tetra, c);
+        EXPECT_NEAR(volume, before, 1e-9 * before);
+        area = checks::group_sums(mesh)[*mesh.find_group("CRACK_P")].measure;
+        EXPECT_NEAR(area, checks::group_sums(mesh)[*mesh.find_group("CRACK_N")].measure, 1e-9);
+        const auto in_group = [&](CellType type, const char* name, auto visit) {
+            const CellBlock& b = mesh.block(type);
+            for (Index c = 0; c < b.size(); ++c)
+                if (mesh.families.contains(b.families[c], *mesh.find_group(name))) visit(b.nodes(c));
+        };
+        std::set<std::set<Index>> positive;
+        in_group(CellType::triangle, "CRACK_P", [&](const auto& n) {
+            positive.insert({n.begin(), n.end()});
+            for (const Index v : n) EXPECT_LT(std::abs(face.distance(mesh.points[v])), 1e-9);
+        });
+        faces = positive.size();
+        in_group(CellType::triangle, "CRACK_N", [&](const auto& n) { closed += positive.contains({n.begin(), n.end()}); });
+        EXPECT_EQ(closed, 0) << "faces of the crack that cannot open";
+        in_group(CellType::line, "CRACK_FRONT", [&](const auto& n) {
+            if (nodes.empty()) nodes.push_back(mesh.points[n[0]]);
+            EXPECT_EQ(nodes.back(), mesh.points[n[0]]) << "the front is not in order";
+            nodes.push_back(mesh.points[n[1]]);
+        });
+    }
+};
+
+TEST(Face, ThatEndsInsideCracksUpToItsBorder) {
+    const Mesh mesh = read_inp(FEMSCALPEL_TEST_MESHES "/two_boxes.inp");
+    const gp_Pln pln(gp_Ax3(gp_Pnt(6, 5, 5), gp_Dir(1, 0.3, 0.2), gp_Dir(-0.3, 1, 0)));
+    const Vec3 middle(6, 5, 5), normal = Vec3(1, 0.3, 0.2).normalized(), u = Vec3(-0.3, 1, 0).normalized(), v = normal.cross(u);
+    {
+        SCOPED_TRACE("round");
+        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(pln, BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(pln.Position().Ax2(), 2.7))).Wire())));
+        const Result result = crack(mesh, face);
+        const FrontOfFace front(result.mesh, face, mesh);
+        EXPECT_GT(front.nodes.size(), 12);
+        EXPECT_EQ(front.nodes.front(), front.nodes.back()) << "the front is closed";
+        for (const Vec3& x : front.nodes) EXPECT_NEAR((x - middle).norm(), 2.7, 1e-8);
+        // The same as of the disk, the face's border being a disk's.
+        CrackOptions options;
+        const Disk disk(middle, 2.7);
+        options.within = &disk;
+        const Result same = crack(mesh, Plane(middle, normal), options);
+        EXPECT_NEAR(front.area, checks::group_sums(same.mesh)[*same.mesh.find_group("CRACK_P")].measure, 1e-6);
+        EXPECT_GE(result.report.quality_after.minimum, 0.1);
+    }
+    {
+        SCOPED_TRACE("rectangle");
+        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(pln, -2.6, 2.6, -3.1, 3.1)));
+        const Result result = crack(mesh, face);
+        const FrontOfFace front(result.mesh, face, mesh);
+        EXPECT_NEAR(front.area, 5.2 * 6.2, 1e-7);
+        for (const int i : {-1, 1})
+            for (const int j : {-1, 1}) {
+                const Vec3 corner = middle + 2.6 * i * u + 3.1 * j * v;
+                double nearest = 1;
+                for (const Vec3& x : front.nodes) nearest = std::min(nearest, (x - corner).norm());
+                EXPECT_LT(nearest, 1e-8) << "a corner of the face is a node of the front";
+            }
+        for (const Vec3& x : front.nodes) EXPECT_LT(std::abs(face.beyond(x)), 1e-8);
+    }
+    {
+        // From outside to the middle: a straight front from skin to skin.
+        SCOPED_TRACE("half in");
+        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(pln, -9, 0.4, -9, 9)));
+        const Result result = crack(mesh, face);
+        const FrontOfFace front(result.mesh, face, mesh);
+        CrackOptions options;
+        const HalfPlane half(middle + 0.4 * u, -u);
+        options.within = &half;
+        const Result same = crack(mesh, Plane(middle, normal), options);
+        EXPECT_NEAR(front.area, checks::group_sums(same.mesh)[*same.mesh.find_group("CRACK_P")].measure, 1e-8);
+        for (const Vec3& x : front.nodes) EXPECT_NEAR((x - middle).dot(u), 0.4, 1e-9);
+    }
+    {
+        // Drawn in the CAD program to end in the skin, not beyond it.
+        SCOPED_TRACE("flush with the skin");
+        const gp_Pln level(gp_Ax3(gp_Pnt(0, 0, 4.4), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)));
+        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(level, 0, 7.3, 0, 10)));
+        const Result result = crack(mesh, face);
+        const FrontOfFace front(result.mesh, face, mesh);
+        EXPECT_NEAR(front.area, 73, 1e-8);
+        for (const Vec3& x : front.nodes) EXPECT_NEAR(x.x(), 7.3, 1e-9);
+        EXPECT_NEAR(std::abs(front.nodes.front().y() - front.nodes.back().y()), 10, 1e-9);
+    }
+    {
+        SCOPED_TRACE("part of a cylinder");
+        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(gp_Cylinder(frame, 3), 1.2, 3.2, -2.5, 2.5)));
+        const Result result = crack(mesh, face);
+        const FrontOfFace front(result.mesh, face, mesh);
+        EXPECT_GT(front.area, 0.93 * 2 * 3 * 5);
+        EXPECT_LT(front.area, 2 * 3 * 5);
+        for (const Vec3& x : front.nodes) EXPECT_LT(std::abs(face.beyond(x)), 1e-8);
+    }
 }
 
 TEST(Face, CracksAlongASpline) {

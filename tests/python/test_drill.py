@@ -48,6 +48,26 @@ def test_groups_and_report(drilled):
     assert len(mesh.node_ids) + report.nodes_added - report.nodes_removed == len(result.mesh.node_ids)
 
 
+def test_groups_that_lose_members_are_reported():
+    mesh = box_with_groups()
+    inside = np.linalg.norm(mesh.points[:, :2] - HOLE.origin[:2], axis=1) < 0.9
+    numbers = {"GONE": mesh.node_ids[inside], "FEWER": mesh.node_ids[mesh.points[:, 2] == 4], "FAR": mesh.node_ids[mesh.points[:, 0] == 6]}
+    for name, ids in numbers.items():
+        mesh.add_group(name, "node", ids)
+    result = fs.drill(mesh, HOLE)
+    status = {(g.name, g.kind): g.status for g in result.report.groups}
+    assert status["GONE", "node"] == "became empty" and status["FEWER", "node"] == "reduced" and status["FAR", "node"] == "untouched"
+    # Nodes born at the hole may make up in number for those that are gone; still it lost some.
+    after = set(result.mesh.groups["FEWER"].ids.tolist())
+    assert not set(numbers["FEWER"].tolist()) <= after and after
+    assert status["LEFT", "element"] == "reduced" and status["EMPTY", "node"] in ("kept", "untouched")
+    assert [w for w in result.report.warnings if "'GONE'" in w and "stays, empty" in w]
+    assert not [w for w in result.report.warnings if "'FEWER'" in w or "'EMPTY'" in w]
+    assert "became empty" in result.report.to_text() and "reduced" in result.report.to_text()
+    # A crack takes nothing away.
+    assert not {g.status for g in fs.crack(mesh, fs.Plane((2.9, 0, 0), (1, 0.2, 0))).report.groups} & {"reduced", "became empty"}
+
+
 def test_blind_hole_has_a_flat_bottom():
     mesh = grid_box((12, 10, 8), (6, 5, 4))
     drill = fs.Cylinder(origin=(2.9, 2.6, 4), axis=(0, 0, -1), radius=1.4)

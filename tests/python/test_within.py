@@ -43,7 +43,15 @@ def check(result, volume=120.0):
     places = [tuple(p) for p in result.mesh.points]
     assert all(places.count(p) == 1 for p in list(where)[:20])
     assert lip(result, "P")[1] == pytest.approx(lip(result, "N")[1], rel=1e-12)
+    check_no_face_is_closed(result)
     return edges
+
+
+def check_no_face_is_closed(result, name="CRACK"):
+    """No face of the crack has all its nodes on the front: it could not open."""
+    triangles, ids = result.mesh.cells["triangle"], result.mesh.cell_ids["triangle"]
+    sides = [{tuple(sorted(t)) for t in triangles[np.isin(ids, result.mesh.groups[f"{name}_{side}"].ids)].tolist()} for side in "PN"]
+    assert sides[0] and not sides[0] & sides[1]
 
 
 def test_disk_inside(mesh):
@@ -97,6 +105,19 @@ def test_polygon(mesh, corners):
         assert np.linalg.norm(result.mesh.points - p, axis=1).min() < 1e-9
 
 
+def test_squares_however_they_lie(mesh):
+    random = np.random.default_rng(11)
+    for _ in range(25):
+        n = random.normal(size=3)
+        u = np.cross(n, (0.3, 0.5, 0.8))
+        u /= np.linalg.norm(u)
+        v = np.cross(n, u) / np.linalg.norm(n)
+        corners = [CENTER + a * u + b * v for a, b in ((-1.1, -1.1), (1.1, -1.1), (1.1, 1.1), (-1.1, 1.1))]
+        result = fs.crack(mesh, fs.Plane(CENTER, n), within=fs.Polygon(corners))
+        check(result)
+        assert lip(result, "P")[1] == pytest.approx(2.2 ** 2, rel=1e-9)
+
+
 def test_part_of_a_cylinder(mesh):
     cylinder = fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 1.5)
     result = fs.crack(mesh, cylinder, within=fs.CylinderPart((1, 3), (-20, 100), (1, 0, 0)))
@@ -109,14 +130,94 @@ def test_cracks_that_cross(mesh):
     first = fs.crack(mesh, fs.Plane((3.1, 2.4, 1.9), (0, 0, 1)), within=fs.Disk((3.1, 2.4, 1.9), 1.5), name="A")
     areas = [lip(first, side, "A")[1] for side in "PN"]
     second = fs.crack(first.mesh, fs.Plane((3.1, 2.4, 1.9), (1, 0, 0)), within=fs.Disk((3.1, 2.4, 1.9), 1.2), name="B")
+    check_no_face_is_closed(second, "B")
     second.mesh.validate()
     volumes = tetra_volumes(second.mesh.points, second.mesh.cells["tetra"])
     assert volumes.min() > 0 and volumes.sum() == pytest.approx(120, rel=1e-12)
-    # The first crack keeps both lips, flat and whole; where nodes of its front slide along it, they cut its round a little.
+    # The first crack keeps both lips, flat and whole.
     for side, area in zip("PN", areas):
         corners, now = lip(second, side, "A")
-        assert now == pytest.approx(area, rel=3e-3) and np.abs(corners[..., 2] - 1.9).max() < 1e-9
+        assert now == pytest.approx(area, rel=1e-12) and np.abs(corners[..., 2] - 1.9).max() < 1e-12
     assert lip(second, "P", "B")[1] > 0.9 * np.pi * 1.2 ** 2
+
+
+@pytest.mark.parametrize("shape", ["disk", "half plane", "whole plane"])
+def test_a_crack_through_a_crack_leaves_it_its_area_and_front(mesh, shape):
+    random = np.random.default_rng(1)
+    for _ in range(6):
+        normals = random.normal(size=(2, 3))
+        u = np.cross(normals[0], (0.3, 0.5, 0.8))
+        within = {"disk": fs.Disk(CENTER, 1.4), "half plane": fs.HalfPlane(CENTER, u), "whole plane": None}[shape]
+        first = fs.crack(mesh, fs.Plane(CENTER, normals[0]), within=within, name="A")
+        center = CENTER + random.uniform(-0.3, 0.3, 3)
+        second = fs.crack(first.mesh, fs.Plane(center, normals[1]), within=random.choice([None, fs.Disk(center, 1.2)]), name="B")
+        second.mesh.validate()
+        volumes = tetra_volumes(second.mesh.points, second.mesh.cells["tetra"])
+        assert volumes.min() > 0 and volumes.sum() == pytest.approx(120, rel=1e-12)
+        for side in "PN":
+            assert lip(second, side, "A")[1] == pytest.approx(lip(first, side, "A")[1], rel=1e-12)
+        if within is not None:
+            # The nodes of the first front stay where they are; what the second crack adds is between them.
+            old, new = (r.mesh.points[np.unique(front(r, "A"))] for r in (first, second))
+            assert shape != "disk" or {tuple(p) for p in old} <= {tuple(p) for p in new}
+            length = [np.linalg.norm(r.mesh.points[e[:, 1]] - r.mesh.points[e[:, 0]], axis=1).sum()
+                      for r, e in ((first, front(first, "A")), (second, front(second, "A")))]
+            assert length[1] >= length[0] * (1 - 1e-12)
+            assert shape != "disk" or np.abs(np.linalg.norm(old - CENTER, axis=1) - 1.4).max() < 1e-9
+
+
+def test_every_face_of_a_crack_can_open(mesh):
+    random = np.random.default_rng(5)
+    for _ in range(40):
+        center = CENTER + random.uniform(-0.3, 0.3, 3)
+        result = fs.crack(mesh, fs.Plane(center, random.normal(size=3)), within=fs.Disk(center, random.uniform(0.6, 1.8)))
+        check_no_face_is_closed(result)
+        assert not any("cannot open" in w for w in result.report.warnings)
+
+
+@pytest.mark.parametrize("within", [fs.Disk(CENTER, 1.4), fs.HalfPlane(CENTER, U)])
+def test_a_front_is_the_same_after_a_file(mesh, tmp_path, within):
+    result = fs.crack(mesh, PLANE, within=within)
+    fs.write(result.mesh, tmp_path / "cracked.med")
+    back = fs.read(tmp_path / "cracked.med")
+    lines, ids = back.cells["line"], back.cell_ids["line"]
+    chosen = np.isin(ids, back.groups["CRACK_FRONT"].ids)
+    chain = back.node_ids[lines[chosen]]
+    np.testing.assert_array_equal(chain, result.mesh.node_ids[front(result)])
+    # In the order of their numbers the segments follow each other.
+    assert (np.diff(ids[chosen]) > 0).all() and (chain[1:, 0] == chain[:-1, 1]).all()
+    # CalculiX would take a segment for a beam: there the front is the set of its nodes.
+    fs.write(result.mesh, tmp_path / "cracked.inp")
+    group = fs.read(tmp_path / "cracked.inp").groups["CRACK_FRONT"]
+    assert group.kind == "node" and set(group.ids.tolist()) == set(chain.ravel().tolist())
+
+
+def test_fronts_in_a_shell(tmp_path):
+    n = 14
+    points = [(0.5 * i, 0.5 * j, 0) for j in range(n + 1) for i in range(n + 1)]
+    cells = [t for j in range(n) for i in range(n) for a in [i + (n + 1) * j]
+             for t in ((a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1))]
+    mesh = fs.Mesh(points, {"triangle": cells})
+    plane = fs.Plane((3.6, 3.3, 0), (0.3, 1, 0))
+    along = np.array((1, -0.3, 0)) / np.hypot(1, 0.3)
+    center = np.array(plane.origin)
+    for within, tips in ((fs.Disk(center, 1.7), [center - 1.7 * along, center + 1.7 * along]),
+                         (fs.HalfPlane(center, along), [center]),
+                         (fs.Disk(center, 0.3), [center - 0.3 * along, center + 0.3 * along])):
+        result = fs.crack(mesh, plane, within=within)
+        group = result.mesh.groups["CRACK_FRONT"]
+        assert group.kind == "node" and len(group.ids) == len(tips)
+        nodes = result.mesh.points[np.isin(result.mesh.node_ids, group.ids)]
+        for tip in tips:
+            assert np.linalg.norm(nodes - tip, axis=1).min() < 1e-9
+        # It opens: between the tips there are two nodes at each place, at the tips one.
+        lines, ids = result.mesh.cells["line"], result.mesh.cell_ids["line"]
+        lips = [set(lines[np.isin(ids, result.mesh.groups[f"CRACK_{side}"].ids)].ravel().tolist()) for side in "PN"]
+        assert {int(result.mesh.node_ids[k]) for k in lips[0] & lips[1]} == set(group.ids.tolist())
+        assert lips[0] - lips[1]
+        for suffix in (".med", ".inp"):
+            fs.write(result.mesh, tmp_path / f"shell{suffix}")
+            assert set(fs.read(tmp_path / f"shell{suffix}").groups["CRACK_FRONT"].ids.tolist()) == set(group.ids.tolist())
 
 
 def test_quadratic_front_is_round():

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace femscalpel {
 namespace {
@@ -20,6 +21,12 @@ constexpr double flat_tolerance = 1e-9;
 
 /// A node that moves along a bent line may dent it by this many edge lengths.
 constexpr double deepest_dent = 0.05;
+
+/// Faces at a smaller angle than this (cosine) are the two lips of a crack.
+constexpr double closed_fold = 0.9999;
+
+/// Sine of the angle up to which the segments of a crack front are in line.
+constexpr double straight_front = 1e-6;
 
 class UnionFind {
 public:
@@ -109,8 +116,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     for (const BandBoundaries::Line& l : boundaries.lines())
         if (movable(l.nodes)) line_family.emplace(edge_key(l.nodes[0], l.nodes[1]), l.kind * 2 + l.element);
     const double smooth = -std::cos(options.feature_angle * std::numbers::pi / 180);
-    const auto is_smooth = [&](std::uint64_t key, int f, int g) {
-        if (faces[f].kind != faces[g].kind) return false;
+    // Cosine of the angle between two faces around an edge; 1 if they lie on each other.
+    const auto opening = [&](std::uint64_t key, int f, int g) {
         const int a = static_cast<int>(key >> 32), b = static_cast<int>(key & 0xffffffffu);
         const Vec3 along = (band.nodes[b].at - band.nodes[a].at).normalized();
         const auto across = [&](int face) {
@@ -121,7 +128,16 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                 }
             return Vec3(Vec3::Zero());
         };
-        return across(f).dot(across(g)) < smooth;
+        return across(f).dot(across(g));
+    };
+    const auto is_smooth = [&](std::uint64_t key, int f, int g) { return faces[f].kind == faces[g].kind && opening(key, f, g) < smooth; };
+    const auto folds_back = [&](std::uint64_t key, const auto& at_edge) {
+        for (std::size_t k = 0; k < at_edge.size(); ++k)
+            for (std::size_t j = 0; j < k; ++j) {
+                const int f = at_edge[j].second, g = at_edge[k].second;
+                if (!faces[f].internal && !faces[g].internal && opening(key, f, g) > closed_fold) return true;
+            }
+        return false;
     };
     UnionFind joined(static_cast<int>(faces.size()));
     std::map<std::vector<int>, int> crease_kinds;
@@ -130,6 +146,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         int kind;
         bool border;
         int groups;
+        bool fold;  // the skin comes back along itself: the front of a crack
     };
     std::vector<Crease> creases;
     const auto groups_of_line = [](int line_family) { return line_family / 2; };
@@ -148,14 +165,15 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             if (end - i == 2 && is_smooth(key, edges[i].second, edges[i + 1].second)) joined.unite(edges[i].second, edges[i + 1].second);
             const int k = crease_kinds.emplace(std::move(kind), static_cast<int>(crease_kinds.size())).first->second;
             creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k,
-                               end - i == 1 && faces[edges[i].second].shell, line == line_family.end() ? 0 : groups_of_line(line->second)});
+                               end - i == 1 && faces[edges[i].second].shell, line == line_family.end() ? 0 : groups_of_line(line->second),
+                               folds_back(key, std::span(edges).subspan(i, end - i))});
         }
         if (line != line_family.end()) line_family.erase(line);
         i = end;
     }
     for (const auto& [key, family] : line_family) {  // segments inside the material
         const int k = crease_kinds.emplace(std::vector<int>{family}, static_cast<int>(crease_kinds.size())).first->second;
-        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false, groups_of_line(family)});
+        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false, groups_of_line(family), false});
     }
 
     // 3. Surfaces.
@@ -305,7 +323,9 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                     length = std::min(length, (s.end[1] - s.end[0]).norm());
                 }
                 const double bend = away[0].cross(away[1]).norm();
-                if (bend > 0) leash_[v] = deepest_dent / bend * length;
+                const bool front = creases[creases_at[v][0]].fold && creases[creases_at[v][1]].fold;
+                if (front && bend > straight_front && !segments_[creases_at[v][0]].curved && !segments_[creases_at[v][1]].curved) c.freedom = NodeFreedom::fixed;
+                else if (bend > 0) leash_[v] = deepest_dent / bend * length;
             }
         } else if (!around.empty()) {
             // One closed fan of one surface; two sheets that touch in this node alone pin it.
@@ -359,6 +379,12 @@ void NodeConstraints::add_node(const BandMesh& band, int node) {
     }
     for (const int s : band.creases.around(node))
         if (curves_[band.creases.tag(s)].border) exterior_[node] = 1;
+}
+
+bool NodeConstraints::is_skin_edge(const BandMesh& band, int a, int b) const {
+    return std::ranges::any_of(band.skin.around(a), [&](int s) {
+        return !surfaces_[band.skin.tag(s)].internal && std::ranges::find(band.skin[s], b) != band.skin[s].end();
+    });
 }
 
 bool NodeConstraints::is_on_skin(const BandMesh& band, int node) const {

@@ -99,6 +99,9 @@ public:
     /// or, where there are only shells, on an edge of only one triangle.
     bool is_exterior(int node) const { return exterior_[node] != 0; }
 
+    /// Whether the edge a-b lies on the skin of a solid or on a shell.
+    bool is_skin_edge(const BandMesh& band, int a, int b) const;
+
     /// Whether a node lies on the skin of a solid or on a shell.
     bool is_on_skin(const BandMesh& band, int node) const;
 

@@ -28,7 +28,7 @@ struct GroupRecord {
     Index nodes_on_surface = 0;
     Index nodes_on_line = 0;
     Index nodes_fixed = 0;
-    std::string status;           ///< "untouched", "kept", "changed", "became empty" or "new"
+    std::string status;           ///< "untouched", "kept", "changed", "reduced" (lost members to a tool), "became empty" or "new"
 };
 
 /// Number and measure of the members of each elementary group (family), by dimension.

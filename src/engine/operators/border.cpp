@@ -30,6 +30,8 @@ public:
         for (int v = 0; v < band_.size(); ++v) measure(v);
         split_dipping_edges();
         snap_nodes();
+        // A node put on one side of a corner may have closed it; the other side has to be found again.
+        if (!patch_.corners.empty()) split_dipping_edges();
         for (const auto& [a, b] : edges([&](int a, int b) { return value_[a] * value_[b] < 0; })) {
             const Vec3 at = crossing(a, b);
             split(a, b, at, Contact(f_.tool).with(&side_at(at)));
@@ -269,6 +271,34 @@ bool is_inside(const Interface& f, const Patch& patch, const auto& nodes) {
     return furthest < 0;
 }
 
+/// A face of the crack all of whose nodes are on the front would stay closed: its longest edge inside the crack, or on the
+/// skin, gets a node in between. So does an edge of a shell's crack between two tips.
+void part_closed_faces(Interface& f, const Patch& patch) {
+    BandMesh& band = f.d.band;
+    const auto on_front = [&](int v) { return std::ranges::any_of(f.d.contact[v].tools(), [&](const Tool* t) { return patch.has(t); }); };
+    const auto split = [&](int a, int b) {
+        const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
+        f.d.split_edge(a, b, f.d.fitted_split(a, b, f.tool->project(middle), f.tool).at, f.tool);
+        f.distance.push_back(0);
+    };
+    for (int s = 0; s < band.cut_faces.size(); ++s) {
+        if (!band.cut_faces.alive(s) || !std::ranges::all_of(band.cut_faces[s], on_front)) continue;
+        const std::array<int, 3> n = band.cut_faces[s];
+        double longest = 0;
+        int side = -1;
+        for (int k = 0; k < 3; ++k) {
+            const int a = n[k], b = n[(k + 1) % 3];
+            const double length = (band.nodes[a].at - band.nodes[b].at).norm();
+            if (length <= longest || (band.is_cut_border(a, b) && !f.d.constraints.is_skin_edge(band, a, b))) continue;
+            longest = length;
+            side = k;
+        }
+        if (side >= 0) split(n[side], n[(side + 1) % 3]);
+    }
+    for (int s = 0; s < band.cut_edges.size(); ++s)
+        if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front)) split(band.cut_edges[s][0], band.cut_edges[s][1]);
+}
+
 }  // namespace
 
 void cut_border(Interface& f, const Patch& patch) {
@@ -317,6 +347,7 @@ void keep_patch(Interface& f, const Patch& patch) {
             message << "the crack front cannot be led around its corner at (" << band.nodes[v].at.transpose() << "): the mesh is too coarse there. Refine it near the corner first";
             throw QualityError(message.str());
         }
+    part_closed_faces(f, patch);
     for (int v = 0; v < band.size(); ++v)
         if (f.d.contact[v] && band.cut_faces.around(v).empty() && band.cut_edges.around(v).empty()) f.d.contact[v] = {};
 }

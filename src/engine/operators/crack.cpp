@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/crack.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "operators/border.h"
+#include "tools/face.h"
 
 namespace femscalpel {
 namespace {
 
-/// A face whose border lies this far inside the skin, in edge lengths, still counts as cutting through: the skin is faceted.
+/// A face whose border lies this far inside the skin, in edge lengths, still counts as reaching it: the skin is faceted.
 constexpr double outside = 0.05;
 
 /// Mean edge length at a node of the crack, in radii of curvature of the tool, from which the mesh counts as coarse.
@@ -30,6 +32,23 @@ void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
     // Nodes beyond the front are free to leave the tool.
     for (int v = 0; v < f.d.band.size(); ++v)
         if (!f.d.contact[v] && f.distance[v] == 0) f.distance[v] = tool.distance(f.d.band.nodes[v].at);
+}
+
+/// The chains of a face's border that lie inside the material: nodes of the opened surface are beyond them.
+std::vector<int> inner_border(const Interface& f, const Lips& lips) {
+    const auto* face = dynamic_cast<const Face*>(f.tool);
+    std::vector<int> out;
+    if (!face) return out;
+    for (const int v : lips.interface_nodes) {
+        const Vec3& x = f.d.band.nodes[v].at;
+        const double clearance = outside * f.d.band.mean_edge_length(v);
+        if (face->beyond(x) <= clearance) continue;
+        const std::vector<int> chains = face->chains_before(x, clearance);
+        out.insert(out.end(), chains.begin(), chains.end());
+    }
+    std::ranges::sort(out);
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
 }
 
 /// Faces of elements that are long against a tool's curvature cut its corners off, or miss parts of it.
@@ -63,6 +82,8 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
         blade.tag = whole_tool;
     }
     Interface f = operation.begin({&blade, 1});
+    // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut along.
+    const std::optional<Interface> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
     if (patch) {
         cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
     } else if (operation.location().crossed > 0) {
@@ -72,25 +93,32 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
         } else if (options.method == Method::snap) snap_to_tool(f, blade);
         else deform_to_tool(f, tool, operation.mesh());
     }
+    std::optional<Lips> lips;
+    if (start) {
+        if (operation.location().crossed > 0) lips = open_lips(f);
+        if (const std::vector<int> inner = lips ? inner_border(f, *lips) : std::vector<int>(); !inner.empty()) {
+            patch = dynamic_cast<const Face&>(tool).within(inner);
+            blade.bound = patch->distance;
+            blade.tag = whole_tool;
+            const auto seconds = f.seconds;
+            f = *start;
+            f.seconds = seconds;
+            cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
+            lips.reset();
+        }
+    }
     operation.take_laps(f.seconds);
     if (patch || operation.location().crossed > 0) check_shape(f, operation.mesh());
-    const Lips lips = open_lips(f);
-    if (lips.copy_of.empty())
+    if (!lips) lips = open_lips(f);
+    if (lips->copy_of.empty())
         throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
                         " into the material");
     if (patch) {
         find_node_sets(f);
         check_contacts(f);
     }
-    if (tool.bounded())
-        for (const int v : lips.interface_nodes)
-            if (const Vec3& x = f.d.band.nodes[v].at; tool.beyond(x) > outside * f.d.band.mean_edge_length(v)) {
-                std::ostringstream message;
-                message << "the " << tool.kind() << " ends inside the material, near (" << x.transpose() << "); it must cut right through. Make it larger";
-                throw ToolError(message.str());
-            }
-    warn_of_coarse_mesh(f, lips);
-    return operation.finish(f, lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
+    warn_of_coarse_mesh(f, *lips);
+    return operation.finish(f, *lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 
 }  // namespace femscalpel

@@ -24,6 +24,8 @@ struct CrackOptions : OperatorOptions {
 /// that part. There, in a solid, NAME_FRONT is an element group: new segments along the front, in order (each chain
 /// from end to end, a closed one once around). Front nodes are single and lie on the border curve.
 ///
+/// A Face whose border lies inside the material, or a part of its border does, is a crack within that border: the front lies on it.
+///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
 /// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches

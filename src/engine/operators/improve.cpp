@@ -100,7 +100,21 @@ private:
             return false;
         }
         if (!band_.lines.around(p).empty() && !joined(band_.lines, p, t)) return false;
+        if (f_.patched && closes(p, t)) return false;
         return !d_.membership.merge_links(band_, p, t);
+    }
+
+    /// Whether, with p moved onto t, all nodes of a face or edge of a bounded crack would be on its front: it could not open.
+    bool closes(int p, int t) const {
+        const auto on_front = [&](int v) { return d_.contact[v].count() > 1; };
+        if (!on_front(t)) return false;
+        const auto any_closed = [&](const auto& list) {
+            return std::ranges::any_of(list.around(p), [&](int s) {
+                const auto& nodes = list[s];
+                return std::ranges::find(nodes, t) == nodes.end() && std::ranges::all_of(nodes, [&](int v) { return v == p || on_front(v); });
+            });
+        };
+        return any_closed(band_.cut_faces) || any_closed(band_.cut_edges);
     }
 
     /// Link condition: every node next to both p and t forms a triangle (tetrahedron face) with them.

@@ -311,6 +311,11 @@ private:
             out_.faces.push_back({image, side(band_.tetras[tetra]) > 0, at == triangle_at.end() ? Lips::fresh : at->second,
                                   band_.tetra_cells[band_.tetras.origin(tetra)].type == CellType::tetra10});
         }
+        const auto closed = std::ranges::count_if(open_faces_, [&](const auto& f) {
+            return side(band_.tetras[f.second]) > 0 && std::ranges::none_of(f.first, [&](int v) { return doubled_[v] != 0; });
+        });
+        if (closed > 0)
+            out_.warnings.push_back(std::to_string(closed) + " face(s) of the crack have all their nodes on its front and cannot open: refine the mesh there");
         std::map<std::array<int, 2>, int> line_at;
         for (int l = 0; l < band_.lines.size(); ++l)
             if (band_.lines.alive(l)) line_at.emplace(sorted(out_.lines[l]), l);
@@ -332,12 +337,6 @@ private:
         }
     }
 
-    bool is_skin_edge(int a, int b) const {
-        return std::ranges::any_of(band_.skin.around(a), [&](int s) {
-            return !f_.d.constraints.is_internal(band_.skin.tag(s)) && std::ranges::find(band_.skin[s], b) != band_.skin[s].end();
-        });
-    }
-
     /// Edges of one open face only, but for those in the skin, put in order.
     void chain_front() {
         std::map<std::array<int, 2>, int> faces_at;
@@ -345,7 +344,7 @@ private:
             for (int k = 0; k < 3; ++k) ++faces_at[sorted(std::array{key[k], key[(k + 1) % 3]})];
         std::map<int, std::vector<int>> next;
         for (const auto& [edge, faces] : faces_at) {
-            if (faces != 1 || is_skin_edge(edge[0], edge[1])) continue;
+            if (faces != 1 || f_.d.constraints.is_skin_edge(band_, edge[0], edge[1])) continue;
             next[edge[0]].push_back(edge[1]);
             next[edge[1]].push_back(edge[0]);
         }

@@ -178,17 +178,20 @@ void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& bef
     });
 }
 
-/// Moved nodes and boundary drift of each group, by group index.
-void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebuilt, Report& report) {
+/// Moved nodes, boundary drift and losses of each group, by group index.
+void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebuilt, bool removes, Report& report) {
     const BandMesh& band = f.d.band;
     struct Motion {
         Index moved = 0;
+        Index nodes_gone = 0;
         double drift = 0;
         int last = -1;
     };
     std::vector<Motion> motion(before.groups.size());
     for (Index n = 0; n < before.node_count(); ++n) {
         const Index now = rebuilt.kept_node(n);
+        if (now < 0)
+            for (const GroupIndex g : before.families.groups(before.node_families[n])) ++motion[g].nodes_gone;
         if (now < 0 || rebuilt.mesh.points[now] == before.points[n]) continue;
         ++report.nodes_moved;
         report.max_displacement = std::max(report.max_displacement, (rebuilt.mesh.points[now] - before.points[n]).norm());
@@ -234,6 +237,9 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
         if (g >= before.groups.size()) continue;
         r.nodes_moved = motion[g].moved;
         r.boundary_drift = motion[g].drift;
+        const bool smaller = r.measure_after < r.measure_before || (r.measure_before == 0 && r.count_after < r.count_before);
+        if (removes && (motion[g].nodes_gone > 0 || (r.kind != GroupKind::node && smaller && (r.status == "changed" || r.measure_before == 0))))
+            r.status = r.count_after == 0 ? "became empty" : "reduced";
         if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after) r.status = "untouched";
     }
 }
@@ -414,7 +420,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
         report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
-    describe_motion(f, mesh(), rebuilt, report_);
+    describe_motion(f, mesh(), rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
     watch_.lap("report");

@@ -25,6 +25,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -43,6 +45,12 @@ Point point(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 /// Faces that meet at more than this, in degrees, fold the surface.
 constexpr double smooth_angle = 20;
+
+/// The coarse picture of a face is off it by less than this, in sizes of the face.
+constexpr double picture_sag = 1e-3;
+
+/// Edges of the border that meet at more than this, in degrees, make a corner of it.
+constexpr double corner_angle = 1;
 
 /// One surface of the shape, without its border.
 struct Sheet {
@@ -68,6 +76,33 @@ struct BorderPiece {
 struct Place {
     Point at;
     Point normal;
+};
+
+/// Edges of the border that follow each other without a corner.
+struct Chain {
+    /// Its ends, with the direction of the border there; none if it is closed.
+    struct End {
+        Point at, tangent;
+        int neighbour;  // the chain that goes on there, or -1
+    };
+    std::vector<End> ends;  // where it begins, where it ends
+    double least_radius = std::numeric_limits<double>::infinity();
+};
+
+/// A corner of the border.
+struct Joint {
+    Point at;
+    int before, after;  // chains
+};
+
+/// The point of a border closest to some point of the surface.
+struct BorderFoot {
+    Point at = Point::Zero();
+    Point left = Point::Zero();  // to the side the surface is on
+    double distance = std::numeric_limits<double>::infinity();
+    int chain = -1;
+
+    double beyond(const Point& x) const { return (x - at).dot(left) >= 0 ? -distance : distance; }
 };
 
 /// Closest point of a triangle as weights of its corners.
@@ -121,6 +156,9 @@ struct Face::Geometry {
     Eigen::KdBVH<double, 3, int> tree;
     std::vector<BRepAdaptor_Curve> border;
     std::vector<char> border_reversed;
+    std::vector<int> chain_of;  // by edge of the border
+    std::vector<Chain> chains;
+    std::vector<Joint> joints;
     std::vector<BorderPiece> pieces;
     Box box;
     Point mean_normal = Point::Zero();
@@ -133,7 +171,7 @@ struct Face::Geometry {
         if (!faces.More() || bounds.IsVoid()) throw ToolError("face: the shape has no face");
         const double size = std::sqrt(bounds.SquareExtent());
         BRepTools::Clean(shape);
-        BRepMesh_IncrementalMesh(shape, 1e-3 * size, false, 0.1);
+        BRepMesh_IncrementalMesh(shape, picture_sag * size, false, 0.1);
         for (; faces.More(); faces.Next()) add_sheet(TopoDS::Face(faces.Current()));
         if (triangles.empty()) throw ToolError("face: the shape's faces cannot be divided into triangles; check its geometry in the CAD program");
         std::vector<int> order;
@@ -147,10 +185,11 @@ struct Face::Geometry {
         }
         tree.init(order.begin(), order.end(), boxes.begin(), boxes.end());
         find_border(shape);
+        find_chains();
     }
 
-    /// A point farther away than the face is large.
-    bool is_far(const Point& x) const { return box.exteriorDistance(x) > 0.5 * box.diagonal().norm(); }
+    /// A point so far away that no element that meets the face reaches it.
+    bool is_far(const Point& x) const { return box.exteriorDistance(x) > 2 * box.diagonal().norm(); }
 
     /// The point of the sheet near `x` closest to it, on the surface as it goes on beyond the border.
     Place foot(const Point& x) const {
@@ -193,16 +232,35 @@ struct Face::Geometry {
         return {point(p.XYZ()), normal};
     }
 
-    /// Signed distance from a point on the surface to the border; positive beyond it.
-    double beyond(const Place& foot) const {
-        double least = std::numeric_limits<double>::infinity();
-        Point left = Point::Zero(), closest = Point::Zero();
+    /// The same for points that may be beyond the end of the surface, which is then followed along its tangent.
+    Place level_foot(const Point& x) const {
+        Place out = foot(x);
+        out.at = x - out.normal.dot(x - out.at) * out.normal;
+        return out;
+    }
+
+    /// The point of the border closest to a point on the surface. Of the chains for which `counts` holds; where one of them
+    /// meets one that does not count, it goes on straight.
+    BorderFoot border_foot(const Place& foot, auto counts) const {
+        BorderFoot best;
         const double close = 1e-9 * box.diagonal().norm();
+        // In a corner of the border several pieces are as near; together their directions tell inside from outside.
+        const auto consider = [&](const Point& at, const Point& tangent, int chain) {
+            const double distance = (at - foot.at).norm();
+            if (distance > best.distance + close) return;
+            if (distance < best.distance - close) best.left.setZero();
+            best.left += foot.normal.cross(tangent).normalized();
+            if (distance >= best.distance) return;
+            best.distance = distance;
+            best.at = at;
+            best.chain = chain;
+        };
         for (const BorderPiece& piece : pieces) {
+            if (!counts(chain_of[piece.edge])) continue;
             const Point along = piece.end - piece.start;
             const double length = along.squaredNorm(), s = length > 0 ? std::clamp(along.dot(foot.at - piece.start) / length, 0.0, 1.0) : 0;
             // The chord is off the curve by less than its own length.
-            if ((piece.start + s * along - foot.at).norm() > least + std::sqrt(length)) continue;
+            if ((piece.start + s * along - foot.at).norm() > best.distance + std::sqrt(length)) continue;
             const BRepAdaptor_Curve& curve = border[piece.edge];
             double t = piece.from + s * (piece.to - piece.from);
             gp_Pnt p;
@@ -218,20 +276,29 @@ struct Face::Geometry {
                 t = next;
             }
             curve.D1(t, p, d);
-            const Point at = point(p.XYZ());
-            const double distance = (at - foot.at).norm();
-            if (distance > least + close) continue;
-            const Point tangent = point(d.XYZ()) * (border_reversed[piece.edge] ? -1 : 1);
-            const Point inside = foot.normal.cross(tangent).normalized();
-            // In a corner of the border several pieces are as near; together their directions tell inside from outside.
-            if (distance < least - close) left.setZero();
-            left += inside;
-            if (distance < least) {
-                least = distance;
-                closest = at;
+            consider(point(p.XYZ()), point(d.XYZ()) * (border_reversed[piece.edge] ? -1 : 1), chain_of[piece.edge]);
+        }
+        for (std::size_t c = 0; c < chains.size(); ++c) {
+            if (!counts(static_cast<int>(c))) continue;
+            for (std::size_t k = 0; k < chains[c].ends.size(); ++k) {
+                const Chain::End& end = chains[c].ends[k];
+                const double along = end.tangent.dot(foot.at - end.at);
+                if ((k == 0 ? along < 0 : along > 0) && (end.neighbour < 0 || !counts(end.neighbour)))
+                    consider(end.at + along * end.tangent, end.tangent, static_cast<int>(c));
             }
         }
-        return (foot.at - closest).dot(left) >= 0 ? -least : least;
+        return best;
+    }
+
+    /// Signed distance from a point on the surface to the chains that count; positive beyond them.
+    double beyond(const Place& foot, auto counts) const {
+        const BorderFoot closest = border_foot(foot, counts);
+        const double out = closest.beyond(foot.at);
+        if (out >= 0 || counts(border_foot(foot, [](int) { return true; }).chain) == 0) return out;
+        // Far round a curved surface directions do not tell. What is inside is on the picture, too.
+        NearestTriangle search{triangles, foot.at};
+        Eigen::BVMinimize(tree, search);
+        return search.least > std::pow(5 * picture_sag * box.diagonal().norm(), 2) ? -out : out;
     }
 
 private:
@@ -314,6 +381,61 @@ private:
         }
     }
 
+    /// Takes the border apart at its corners.
+    void find_chains() {
+        struct End {
+            Point at, tangent;
+        };
+        const int count = static_cast<int>(border.size());
+        const double close = 1e-6 * box.diagonal().norm();
+        std::vector<std::array<End, 2>> ends;  // first and last, in the border's direction
+        for (int e = 0; e < count; ++e) {
+            std::array<End, 2> of;
+            for (int k = 0; k < 2; ++k) {
+                gp_Pnt p;
+                gp_Vec d;
+                border[e].D1(k == 0 ? border[e].FirstParameter() : border[e].LastParameter(), p, d);
+                of[k] = {point(p.XYZ()), point(d.XYZ()).normalized() * (border_reversed[e] ? -1 : 1)};
+            }
+            if (border_reversed[e]) std::swap(of[0], of[1]);
+            ends.push_back(of);
+        }
+        std::vector<int> next(count, -1), previous(count, -1);
+        std::vector<char> smooth(count, 0);  // to the next
+        for (int e = 0; e < count; ++e)
+            for (int f = 0; f < count; ++f)
+                if (previous[f] < 0 && next[e] < 0 && (ends[f][0].at - ends[e][1].at).norm() <= close) {
+                    next[e] = f;
+                    previous[f] = e;
+                    smooth[e] = ends[e][1].tangent.dot(ends[f][0].tangent) > std::cos(corner_angle * std::numbers::pi / 180);
+                }
+        chain_of.assign(count, -1);
+        const auto follow = [&](int from) {
+            for (int e = from; e >= 0 && chain_of[e] < 0; e = smooth[e] ? next[e] : -1) chain_of[e] = static_cast<int>(chains.size());
+            chains.emplace_back();
+        };
+        for (int e = 0; e < count; ++e)
+            if (previous[e] < 0 || !smooth[previous[e]]) follow(e);
+        for (int e = 0; e < count; ++e)
+            if (chain_of[e] < 0) follow(e);
+        for (int e = 0; e < count; ++e) {
+            Chain& chain = chains[chain_of[e]];
+            if (previous[e] < 0 || !smooth[previous[e]])
+                chain.ends.insert(chain.ends.begin(), {ends[e][0].at, ends[e][0].tangent, previous[e] < 0 ? -1 : chain_of[previous[e]]});
+            if (smooth[e]) continue;
+            chain.ends.push_back({ends[e][1].at, ends[e][1].tangent, next[e] < 0 ? -1 : chain_of[next[e]]});
+            if (next[e] >= 0) joints.push_back({ends[e][1].at, chain_of[e], chain_of[next[e]]});
+        }
+        for (const BorderPiece& piece : pieces) {
+            gp_Pnt p;
+            gp_Vec d, dd;
+            border[piece.edge].D2((piece.from + piece.to) / 2, p, d, dd);
+            const double bend = d.Crossed(dd).Magnitude(), speed = d.Magnitude();
+            double& least = chains[chain_of[piece.edge]].least_radius;
+            if (bend > 1e-9 * speed * speed * speed / box.diagonal().norm()) least = std::min(least, speed * speed * speed / bend);
+        }
+    }
+
     /// Throws ToolError when two faces meet in an edge at an angle.
     static void check_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopoDS_Face& other) {
         double first = 0, last = 0;
@@ -341,6 +463,29 @@ private:
             throw ToolError(message.str());
         }
     }
+};
+
+/// The surface that stands on a face along a chain of its border.
+class Face::Side final : public Tool {
+public:
+    Side(std::shared_ptr<const Geometry> geometry, int chain) : geometry_(std::move(geometry)), chain_(chain) {}
+
+    std::string kind() const override { return "face border"; }
+    double distance(const Eigen::Vector3d& x) const override {
+        if (geometry_->is_far(x)) return geometry_->box.exteriorDistance(x);
+        const Place foot = geometry_->level_foot(x);
+        const BorderFoot to = closest(foot);
+        return (to.at - foot.at).dot(to.left.normalized());
+    }
+    Eigen::Vector3d normal(const Eigen::Vector3d& x) const override { return -closest(geometry_->level_foot(x)).left.normalized(); }
+    double feature_size() const override { return geometry_->chains[chain_].least_radius; }
+
+private:
+    BorderFoot closest(const Place& foot) const {
+        return geometry_->border_foot(foot, [this](int c) { return c == chain_; });
+    }
+    std::shared_ptr<const Geometry> geometry_;
+    int chain_;
 };
 
 Face::Face(std::shared_ptr<const Geometry> geometry) : geometry_(std::move(geometry)) {}
@@ -405,9 +550,48 @@ bool Face::bounded() const { return !geometry_->pieces.empty(); }
 double Face::beyond(const Eigen::Vector3d& x) const {
     if (!bounded()) return -std::numeric_limits<double>::infinity();
     if (geometry_->is_far(x)) return geometry_->box.exteriorDistance(x);
-    Place foot = geometry_->foot(x);
-    foot.at = x - foot.normal.dot(x - foot.at) * foot.normal;
-    return geometry_->beyond(foot);
+    return geometry_->beyond(geometry_->level_foot(x), [](int) { return true; });
+}
+
+std::vector<int> Face::chains_before(const Eigen::Vector3d& x, double clearance) const {
+    const Geometry& g = *geometry_;
+    const Place foot = g.level_foot(x);
+    const BorderFoot nearest = g.border_foot(foot, [](int) { return true; });
+    std::vector<int> there{nearest.chain}, out;
+    for (const Joint& j : g.joints)
+        if ((j.at - nearest.at).norm() <= 1e-6 * g.box.diagonal().norm()) there.insert(there.end(), {j.before, j.after});
+    std::ranges::sort(there);
+    there.erase(std::unique(there.begin(), there.end()), there.end());
+    for (const int c : there)
+        if (g.border_foot(foot, [c](int other) { return other == c; }).beyond(foot.at) > clearance) out.push_back(c);
+    return out;
+}
+
+Patch Face::within(const std::vector<int>& chains) const {
+    Patch patch;
+    std::vector<char> counts(geometry_->chains.size(), 0);
+    for (const int c : chains) counts[c] = 1;
+    std::vector<int> side_of(counts.size(), -1);
+    for (const int c : chains) {
+        side_of[c] = static_cast<int>(patch.sides.size());
+        patch.sides.push_back(std::make_unique<Side>(geometry_, c));
+    }
+    for (const Joint& j : geometry_->joints) {
+        if (!counts[j.before] || !counts[j.after]) continue;
+        if (j.before == j.after) {
+            std::ostringstream message;
+            message << "face: its border has a single corner, at (" << j.at.transpose() << "). Divide the edge there into two, so that the corner is between two edges";
+            throw ToolError(message.str());
+        }
+        patch.corners.push_back({j.at, {side_of[j.before], side_of[j.after]}});
+    }
+    const auto closest = [g = geometry_, counts](const Place& foot) { return g->border_foot(foot, [&](int c) { return counts[c] != 0; }); };
+    patch.distance = [g = geometry_, counts](const Eigen::Vector3d& x) {
+        if (g->is_far(x)) return g->box.exteriorDistance(x);
+        return g->beyond(g->level_foot(x), [&](int c) { return counts[c] != 0; });
+    };
+    patch.side = [g = geometry_, closest, side_of](const Eigen::Vector3d& x) { return side_of[closest(g->level_foot(x)).chain]; };
+    return patch;
 }
 
 int Face::face_count() const { return static_cast<int>(geometry_->sheets.size()); }

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "tools/tool.h"
+#include "tools/patch.h"
 
 namespace femscalpel {
 
@@ -13,7 +14,7 @@ namespace femscalpel {
 /// normals point to (of a solid's faces: outside).
 ///
 /// Beyond its border the surface goes on as the underlying geometry does (plane, cylinder, ...; a spline in its tangent
-/// plane), and beyond() tells how far. Up to its own size away distances are exact; farther they are a lower bound with
+/// plane), and beyond() tells how far. Up to twice its own size away distances are exact; farther they are a lower bound with
 /// a sign, which is all that locating needs.
 class Face final : public Tool {
 public:
@@ -36,8 +37,17 @@ public:
 
     int face_count() const;
 
+    /// The border is made of chains of edges, which meet in its corners. Those that a point of the surface, beyond the border
+    /// by more than `clearance`, is beyond; of two that meet in the corner nearest to it, perhaps both.
+    std::vector<int> chains_before(const Eigen::Vector3d& x, double clearance) const;
+
+    /// The part of the surface within these chains of the border; where one of them meets another, it goes on straight.
+    /// Throws ToolError when one has a corner of its own.
+    Patch within(const std::vector<int>& chains) const;
+
 private:
     struct Geometry;
+    class Side;
     explicit Face(std::shared_ptr<const Geometry> geometry);
     std::shared_ptr<const Geometry> geometry_;
 };

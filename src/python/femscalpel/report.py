@@ -61,7 +61,7 @@ class GroupRecord:
     nodes_on_surface: int
     nodes_on_line: int  #: ... along a line ...
     nodes_fixed: int  #: ... and not at all, the tool apart.
-    status: str  #: "untouched", "kept", "changed", "became empty" or "new"
+    status: str  #: "untouched", "kept", "changed", "reduced" (lost members to a tool), "became empty" or "new"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

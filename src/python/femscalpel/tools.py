@@ -196,7 +196,8 @@ class Cone(_engine.Cone):
 class Face(_engine.Face):
     """A face or shell of a CAD model, by OpenCASCADE; its positive side is the one its normals point to.
 
-    A crack along it needs a face that cuts right through the part: its border must lie outside the material.
+    A crack along it goes as far as the face does: where its border lies inside the material it is the crack's front, and
+    ``name_FRONT`` has the segments along it (see ``within`` of :func:`crack`); corners of the border become nodes.
 
     Parameters
     ----------
