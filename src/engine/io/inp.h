@@ -36,8 +36,8 @@ Mesh read_inp(const std::filesystem::path& path);
 /// A mesh read from a deck goes back into its deck. Cards keep their order, place and text; lines of
 /// *NODE and *ELEMENT change only where a node or element did, further members follow the last one, and
 /// a set is listed anew (at its first card) only when its cards would no longer give its members. A set
-/// that became empty stays defined, by an empty *NODE, NSET= or *ELEMENT, ELSET= card (for surfaces CalculiX
-/// has nothing like it: cards that name an empty surface fail there). Sets whose group is gone from the
+/// that became empty stays defined, by an empty *NODE, NSET= or *ELEMENT, ELSET= card, or a *SURFACE card without
+/// lines, so that CalculiX goes on where cards name it. Sets whose group is gone from the
 /// mesh go. New things come after the deck's last mesh card.
 ///
 /// Elements that stand under no *ELEMENT card (made by an operator; all elements of a mesh from another

@@ -54,6 +54,7 @@ public:
 
     std::shared_ptr<const SolverInput> run() {
         strip_closed_sets();
+        find_emptied();
         for (std::size_t c = 0; c < input_.cards().size(); ++c) carry_card(c);
         for (const auto& [key, cards] : pools_) carry_pool(cards);
         check_other_elements();
@@ -223,6 +224,41 @@ private:
         return group && has_new_members(*group) ? closed_set(name, *group) : name;
     }
 
+    /// Sets and surfaces that had members and have none any more.
+    void find_emptied() {
+        const auto present = [](const Mesh& mesh) {
+            std::vector<char> out(mesh.groups.size(), 0);
+            const auto meet = [&](FamilyIndex family, GroupKind kind) {
+                for (const GroupIndex g : mesh.families.groups(family)) out[g] = out[g] || mesh.groups[g].kind == kind;
+            };
+            for (const FamilyIndex f : mesh.node_families) meet(f, GroupKind::node);
+            for (const CellBlock& b : mesh.blocks())
+                for (const FamilyIndex f : b.families) meet(f, GroupKind::element);
+            for (const Facet& f : mesh.facets) meet(f.family, GroupKind::facet);
+            return out;
+        };
+        const std::vector<char> had = present(before_), has = present(after_);
+        for (const DeckSet& set : before_.solver_input->sets()) {
+            const auto was = before_.find_group(set.group, group_kind(set.type)), is = after_.find_group(set.group, group_kind(set.type));
+            if (set.unheld.empty() && was && had[*was] && (!is || !has[*is])) emptied_.emplace(deck_key(set.name), std::string(to_string(set.type)));
+        }
+    }
+
+    /// Cards that name such a set say less than they did; those whose lines carry loads or equations are told of on their own.
+    void check_emptied(std::size_t c, const Card& card, CardContent content) {
+        if (emptied_.empty() || content == CardContent::node_loads || content == CardContent::node_weights || content == CardContent::equation) return;
+        const auto check = [&](const std::string& where, const std::string& name) {
+            if (const auto set = emptied_.find(deck_key(name)); set != emptied_.end())
+                remark(c, true, where, set->second + " '" + name + "'", "lost all its members");
+        };
+        for (const CardParameter& p : card.parameters)
+            if (p.name == "NSET" || p.name == "ELSET" || p.name == "SURFACE") check(card.where() + ": ", p.value);
+        const bool pair = card.keyword == "TIE" || card.keyword == "CONTACTPAIR";
+        CardReader line(card);
+        while (line.next_data_line())
+            for (int k = 0; k < (pair ? 2 : 1) && !line.at_end(); ++k) check(line.where(), line.field());
+    }
+
     // --- cards -------------------------------------------------------------------------------------
 
     void carry_card(std::size_t c) {
@@ -236,6 +272,7 @@ private:
                                     "is kept as it is; check it");
             return;
         }
+        if (*content != CardContent::mesh) check_emptied(c, card, *content);
         switch (*content) {
             case CardContent::nodal_dofs:
             case CardContent::nodal_dof:
@@ -503,24 +540,30 @@ private:
         }
         Index terms = 0;
         while (line.next_data_line()) {
+            std::vector<CardReader> lines{line};
             if (!line.integer(terms) || terms < 1 || line.next_data_line() == false) {
                 problems_.push_back(line.where() + "*" + card.keyword + ": no equation can be read here; the rest of the card is kept as it is");
                 return;
             }
+            lines.push_back(line);
+            std::vector<std::pair<CardReader, std::string>> changed;
+            bool gone = false;
             std::string now;
             bool same = true;
             for (Index k = 0; k < 3 * terms;) {
                 if (line.at_end()) {
-                    if (!same) edits_[c].replace(line, now);
+                    if (!same) changed.emplace_back(line, now);
                     now.clear();
                     same = true;
                     if (!line.next_data_line()) return;
+                    lines.push_back(line);
                     continue;
                 }
                 std::string field;
                 if (k % 3 == 0) {
                     const auto what = read_number_or_set(line);
                     if (what && what->is_number()) {
+                        gone = gone || node_gone(what->number);
                         check_term(c, line, *what);
                         field = std::to_string(what->number);
                     } else if (what) {
@@ -539,14 +582,18 @@ private:
                 now += (now.empty() ? "" : ", ") + field;
                 ++k;
             }
-            if (!same) edits_[c].replace(line, now);
+            if (!same) changed.emplace_back(line, now);
+            if (gone)
+                for (const CardReader& l : lines) edits_[c].drop(l);
+            else
+                for (const auto& [l, text] : changed) edits_[c].replace(l, text);
         }
     }
 
     void check_term(std::size_t c, const CardReader& line, const NumberOrSet& what) {
         if (!what.is_number()) return;
         if (node_gone(what.number))
-            remark(c, true, line.where(), node_text(what.number), "was removed; take the equation out or give another node");
+            remark(c, true, line.where(), node_text(what.number), "was removed; its equation is left out");
         else if (origins_.is_doubled(what.number))
             remark(c, true, line.where(), node_text(what.number), "the crack doubled; the equation stays with the original, on the negative side");
     }
@@ -571,25 +618,37 @@ private:
         while (more) {
             Index first = 0;
             const std::string type = line.integer(first) ? "" : deck_key(line.field());
+            const bool lists_nodes = type == "PLANE" || type == "STRAIGHT";
             std::vector<Index> nodes;
             CardReader last = line;
             do {
                 last = line;
-                while (!line.at_end())
-                    if (const auto what = read_number_or_set(line); what && what->is_number() && what->number > 0) {
+                std::string left = nodes.empty() ? type : "";
+                bool gone = false;
+                while (!line.at_end()) {
+                    const auto what = read_number_or_set(line);
+                    if (!what) continue;
+                    if (what->is_number() && what->number > 0) {
                         nodes.push_back(what->number);
-                        if (node_gone(what->number)) remark(c, true, line.where(), node_text(what->number), "was removed");
-                        else if (type != "PLANE" && type != "STRAIGHT" && origins_.is_doubled(what->number))
+                        if (node_gone(what->number)) {
+                            remark(c, true, line.where(), node_text(what->number), lists_nodes ? "was removed, and leaves the list" : "was removed");
+                            gone = true;
+                            continue;
+                        }
+                        if (!lists_nodes && origins_.is_doubled(what->number))
                             remark(c, true, line.where(), node_text(what->number),
                                    "the crack doubled; the " + type + " MPC stays with the original, on the negative side");
                     }
+                    left += (left.empty() ? "" : ", ") + (what->is_number() ? std::to_string(what->number) : what->set);
+                }
+                if (gone && lists_nodes) edits_[c].replace(last, left);
                 more = line.next_data_line();
                 CardReader probe = line;
                 Index zero = -1;
                 if (!more || !probe.integer(zero) || zero != 0) break;
                 line = probe;
             } while (true);
-            if (type != "PLANE" && type != "STRAIGHT") continue;
+            if (!lists_nodes) continue;
             std::ranges::sort(nodes);
             std::string added;
             int count = 0;
@@ -607,7 +666,10 @@ private:
     void check_other_elements() {
         for (const OtherElement& e : input_.other_elements())
             for (const Index node : e.nodes)
-                if (origins_.is_doubled(node))
+                if (node_gone(node))
+                    throw Error(input_.cards()[e.card].where() + ": element " + std::to_string(e.number) + " of type " + e.type + " needs " + node_text(node) +
+                                ", which would be removed, and cannot be removed itself. Move the tool, or take the element out of the deck");
+                else if (origins_.is_doubled(node))
                     remark(e.card, true, input_.cards()[e.card].where() + ": ", node_text(node),
                            "the crack doubled; element " + std::to_string(e.number) + " of type " + e.type +
                                " stays with the original, on the negative side");
@@ -783,6 +845,7 @@ private:
     DeckSetIndex new_groups_{{}};
     std::map<std::string, std::string> closed_;              // set -> set of its old members
     std::map<std::string, std::vector<std::size_t>> pools_;  // equal cards with values at nodes
+    std::map<std::string, std::string> emptied_;             // sets without members any more -> type
     std::set<std::string> unknown_;
     bool view_factors_made_ = false;
     struct Remark {

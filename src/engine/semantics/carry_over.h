@@ -40,15 +40,16 @@ DeckMarks mark_deck(const Mesh& mesh);
 /// - *BOUNDARY, *TEMPERATURE, *INITIAL CONDITIONS, *NODAL THICKNESS, *SUBMODEL: copies of a node have what the node
 ///   has; a node born on an edge has it if both ends have. Values that differ from node to node are
 ///   interpolated in the old elements at the new node's place, also for nodes that moved.
-/// - *EQUATION, *NETWORK MPC: terms stay on the originals; sets with new members are replaced as for *CLOAD.
-/// - *MPC: PLANE and STRAIGHT get new nodes between their nodes; other types stay on the originals.
+/// - *EQUATION, *NETWORK MPC: terms stay on the originals; sets with new members are replaced as for *CLOAD. An equation
+///   with a removed node is left out: there is nothing any more that it would hold.
+/// - *MPC: PLANE and STRAIGHT get new nodes between their nodes, and lose removed ones; other types stay on the originals.
 /// - *NORMAL, *DISTRIBUTION, *MODEL CHANGE, initial stresses, plastic strains and solution: parts of an element get
 ///   what the element has.
 /// - Reference nodes, nodes of elements outside the mesh stay the originals.
 ///
-/// What of this changes the meaning, what names something removed, and cards of unknown keyword, are
-/// warnings "file:line: ..."; with `strict` all of them but the ones about whole concentrated loads make
-/// an Error, and `after` is then of no use.
+/// What of this changes the meaning, what names something removed or a set that lost all its members, and cards of unknown
+/// keyword, are warnings "file:line: ..."; with `strict` all of them but the ones about whole concentrated loads make
+/// an Error, and `after` is then of no use. So does, always, a removed node of an element outside the mesh.
 void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict, std::vector<std::string>& warnings);
 
 /// Takes the hidden groups of mark_deck() out of a mesh.
