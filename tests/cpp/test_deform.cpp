@@ -6,10 +6,14 @@
 #include <iostream>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "error.h"
 #include "mesh/quality.h"
 #include "operators/crack.h"
+#include "operators/cut.h"
+#include "operators/drill.h"
+#include "tools/cylinder.h"
 #include "tools/plane.h"
 
 namespace femscalpel {
@@ -149,7 +153,7 @@ void attempt(const Mesh& mesh, const Plane& plane, Tally& tally) {
 }
 
 void print(const char* what, const Tally& t) {
-    std::cout << what << ": " << t.done << " of " << t.tried << " planes, worst mean ratio " << t.worst << ", "
+    std::cout << "[ SUCCESS ] deform, " << what << ": " << t.done << " of " << t.tried << ", worst mean ratio " << t.worst << ", "
               << (t.done > 0 ? static_cast<double>(t.added) / t.done : 0) << " nodes added on average\n";
 }
 
@@ -160,7 +164,7 @@ TEST_P(DeformCube, AxisAlignedPlanes) {
     Random random(1);
     Tally tally;
     for (int i = 0; i < 15; ++i) attempt(mesh, Plane(Vec3::Constant(random(1.2, 8.8)), Vec3::Unit(i % 3)), tally);
-    print("axis-aligned", tally);
+    print("axis-aligned planes", tally);
     EXPECT_GE(tally.rate(), 0.9);
 }
 
@@ -173,7 +177,7 @@ TEST_P(DeformCube, ObliquePlanes) {
         const double angle = random(0, std::numbers::pi / 6);
         attempt(mesh, Plane(Vec3(random(4, 6), random(4, 6), random(4, 6)), std::cos(angle) * axis + std::sin(angle) * side), tally);
     }
-    print("oblique", tally);
+    print("oblique planes", tally);
     EXPECT_GE(tally.rate(), 0.8);
 }
 
@@ -182,7 +186,7 @@ TEST_P(DeformCube, RandomPlanes) {
     Random random(3);
     Tally tally;
     for (int i = 0; i < 15; ++i) attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), random(2, 8)), random.direction()), tally);
-    print("random", tally);
+    print("random planes", tally);
     EXPECT_GE(tally.rate(), 0.6);
 }
 
@@ -213,8 +217,114 @@ TEST(Deform, Plate) {
         const double angle = random(0, 2 * std::numbers::pi);
         attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), 0), Vec3(std::cos(angle), std::sin(angle), random(-0.5, 0.5))), tally);
     }
-    print("plate", tally);
+    print("planes through a plate", tally);
     EXPECT_GE(tally.rate(), 0.8);
+}
+
+/// Drills the mesh; whatever comes out has to be right. `length`: of the hole, if its ends are square to it.
+void attempt_hole(const Mesh& mesh, const Cylinder& cylinder, double length, Tally& tally) {
+    DrillOptions options;
+    options.name = "HOLE";
+    options.method = Method::deform;
+    const Tool* tools[] = {&cylinder};
+    ++tally.tried;
+    std::optional<Result> result;
+    try {
+        result = drill(mesh, tools, options);
+    } catch (const QualityError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("snap"));
+        return;
+    } catch (const ToolError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("too coarse"));
+        return;
+    }
+    ++tally.done;
+    tally.added += result->report.nodes_split;
+    const Mesh& m = result->mesh;
+    m.validate();
+    const CellType type = mesh.block(CellType::tetra).size() > 0 ? CellType::tetra : CellType::triangle;
+    double worst = 1;
+    for (const double q : mean_ratios(m, type)) worst = std::min(worst, q);
+    EXPECT_GT(worst, 0.01);
+    tally.worst = std::min(tally.worst, worst);
+    // The nodes of the wall are on the cylinder, and as many as the report says; no other is inside.
+    std::size_t on = 0;
+    for (const Vec3& x : m.points) {
+        const double off = cylinder.distance(x);
+        EXPECT_GT(off, -1e-8);
+        on += std::abs(off) < 1e-9;
+    }
+    const auto& sets = result->report.node_sets;
+    EXPECT_GE(on, sets.at("IHN").size() + sets.at("EHN").size());
+    EXPECT_EQ(result->report.constraints.at("cylinder"), sets.at("IHN").size() + sets.at("EHN").size());
+    const auto exterior = sets.at("EHN").size() + sets.at("ETN").size();
+    EXPECT_EQ(result->report.constraints.at("tangent plane"), type == CellType::tetra ? exterior : exterior + sets.at("IHN").size() + sets.at("ITN").size());
+    // A polygon with its corners on the circle is taken out.
+    const double removed = measure(mesh, type) - measure(m, type), exact = std::numbers::pi * cylinder.radius() * cylinder.radius() * length;
+    if (length > 0) {
+        EXPECT_LT(removed, exact * (1 + 1e-9));
+        EXPECT_GT(removed, 0.7 * exact);
+    }
+    // Nodes off the band are where they were, with the same numbers.
+    const NumberIndex numbers(m);
+    std::set<Index> moving;
+    for (const auto& [name, ids] : sets) moving.insert(ids.begin(), ids.end());
+    for (Index n = 0; n < mesh.node_count(); ++n)
+        if (const auto now = numbers.node(mesh.node_ids[n]); now && !moving.contains(mesh.node_ids[n])) {
+            EXPECT_EQ(m.points[*now], mesh.points[n]);
+        }
+}
+
+TEST(DeformHole, AlongAnAxisOfTheCube) {
+    for (const auto& [split, jitter] : {std::pair(Split::six, 0.15), std::pair(Split::five, 0.15)}) {
+        const Mesh mesh = cube(split, jitter);
+        Random random(5);
+        Tally tally;
+        for (int i = 0; i < 15; ++i)
+            attempt_hole(mesh, Cylinder(Vec3(random(4, 6), random(4, 6), random(4, 6)), Vec3::Unit(i % 3), random(1.5, 3)), cells, tally);
+        print("holes along an axis", tally);
+        EXPECT_GE(tally.rate(), 0.9);
+    }
+}
+
+TEST(DeformHole, Oblique) {
+    const Mesh mesh = cube(Split::six, 0.15);
+    Random random(6);
+    Tally tally;
+    for (int i = 0; i < 15; ++i) {
+        const Vec3 axis = Vec3::Unit(i % 3) + 0.3 * random.direction();
+        attempt_hole(mesh, Cylinder(Vec3(random(4, 6), random(4, 6), random(4, 6)), axis, random(1.5, 2.5)), 0, tally);
+    }
+    print("oblique holes", tally);
+    EXPECT_GE(tally.rate(), 0.9);
+}
+
+TEST(DeformHole, InAPlate) {
+    const Mesh mesh = plate(0.2);
+    Random random(8);
+    Tally tally;
+    for (int i = 0; i < 30; ++i) attempt_hole(mesh, Cylinder(Vec3(random(3.5, 6.5), random(3.5, 6.5), 0), Vec3(0, 0, 1), random(1.2, 3)), 1, tally);
+    print("holes in a plate", tally);
+    EXPECT_GE(tally.rate(), 0.8);
+}
+
+TEST(DeformHole, OneSurfaceAtATime) {
+    const Mesh mesh = cube(Split::six, 0.15);
+    const auto refused = [](const auto& call) {
+        EXPECT_THAT(call, testing::ThrowsMessage<ToolError>(testing::AllOf(testing::HasSubstr("single surface"), testing::HasSubstr("snap"))));
+    };
+    const Cylinder one(Vec3(3, 5, 5), Vec3(0, 0, 1), 1.5), two(Vec3(7, 5, 5), Vec3(0, 0, 1), 1.5);
+    DrillOptions holes;
+    holes.name = "HOLE";
+    holes.method = Method::deform;
+    const Tool* both[] = {&one, &two};
+    refused([&] { drill(mesh, both, holes); });
+    holes.depth = 3;
+    refused([&] { drill(mesh, {both, 1}, holes); });
+    CutOptions slot;
+    slot.name = "CUT";
+    slot.method = Method::deform;
+    refused([&] { cut(mesh, Plane(Vec3(5, 5, 5), Vec3(1, 0, 0)), 1.5, slot); });
 }
 
 }  // namespace
