@@ -28,7 +28,7 @@ if FreeCAD.GuiUp:
 
 def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
               group_name="CRACK", feature_angle=30.0, preserve=None, patch="Whole", patch_radius=1.0, patch_second_radius=0.5,
-              patch_corners=()):
+              patch_corners=(), refine=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane or a part of it.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
@@ -63,6 +63,9 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
         Of a disk; of an ellipse along the placement's x and y axis. In mm.
     patch_corners : sequence of App.Vector or (x, y) or (x, y, z)
         Of a polygon, in order around it, in the placement's own axes; z does not count.
+    refine : None, False or float
+        Whether elements near the tool are divided first: None: where the tool is finer than the mesh; False: never; a number:
+        where edges are longer than so many mm.
 
     Returns
     -------
@@ -81,11 +84,12 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     corners = [FreeCAD.Vector(*tuple(corner)[:2], 0) for corner in patch_corners]
     return _make(doc, Crack, source, name, PlanePlacement=plane, Patch=patch, PatchRadius=patch_radius,
                  PatchSecondRadius=patch_second_radius, PatchCorners=corners, Method=method, Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
 
 
 def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, origin=None, axis=None, radius=1.0, method="snap",
-                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None, along=None, angles=(0, 360)):
+                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None, along=None, angles=(0, 360),
+                         refine=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder or a part of it.
 
     The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. With `along`, two
@@ -97,12 +101,12 @@ def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, o
     low, high = (0, 1) if along is None else along
     return _make(doc, CylindricalCrack, source, name, AxisPlacement=placement, Radius=radius, Bounded=along is not None, Low=low,
                  High=high, StartAngle=angles[0], EndAngle=angles[1], Method=method, Transition=transition,
-                 GroupName=group_name, FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+                 GroupName=group_name, FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
 
 
 def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=None, origin=None, axis=None, radius=1.0,
                     tube_radius=0.25, half_angle=30.0, method="snap", transition=0, group_name="CRACK", feature_angle=30.0,
-                    preserve=None, face=None):
+                    preserve=None, face=None, refine=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a curved tool.
 
     `tool` is "Cylinder", "Sphere", "Torus", "Cone" or "Face"; see the classes of that name in femscalpel. Its centre and axis
@@ -115,16 +119,16 @@ def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=No
     placement = _placement(source, placement, origin, axis, "axis")
     return _make(doc, CurvedCrack, source, name, ToolShape=tool, ToolFace=_link(face), AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
                  HalfAngle=half_angle, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle,
-                 PreservedGroups=_preserved(preserve))
+                 PreservedGroups=_preserved(preserve), **_refinement(refine))
 
 
 def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None, radius=1.0, depth=None, positions=(),
-              method="snap", transition=0, group_name="HOLE", feature_angle=30.0, preserve=None):
+              method="snap", transition=0, group_name="HOLE", feature_angle=30.0, preserve=None, refine=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source` with one or several parallel holes.
 
     Parameters
     ----------
-    doc, source, name, method, transition, feature_angle, preserve
+    doc, source, name, method, transition, feature_angle, preserve, refine
         As for makeCrack().
     placement : App.Placement, optional
         A hole's axis is z of this placement.
@@ -145,16 +149,16 @@ def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None,
     placement = _placement(source, placement, origin, axis, "axis")
     return _make(doc, Drill, source, name, AxisPlacement=placement, Radius=radius, Positions=[FreeCAD.Vector(*p) for p in positions],
                  Through=depth is None, Depth=depth or 0, Method=method, Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
 
 
 def makeCut(doc, source, name="Cut", placement=None, origin=None, normal=None, width=1.0, bottom=None, transition=0, group_name="CUT",
-            feature_angle=30.0, preserve=None):
+            feature_angle=30.0, preserve=None, refine=None):
     """Adds a parametric mesh object to `doc`: the mesh of `source` with a slot, an incision between two parallel planes.
 
     Parameters
     ----------
-    doc, source, name, transition, feature_angle, preserve
+    doc, source, name, transition, feature_angle, preserve, refine
         As for makeCrack().
     placement, origin, normal
         The plane in the middle of the slot, as for makeCrack().
@@ -172,7 +176,7 @@ def makeCut(doc, source, name="Cut", placement=None, origin=None, normal=None, w
     plane = _placement(source, placement, origin, normal, "normal")
     return _make(doc, Cut, source, name, PlanePlacement=plane, Width=width, Through=bottom is None,
                  BottomPlacement=bottom or FreeCAD.Placement(), Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve))
+                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
 
 
 def makeRefine(doc, source, name="Refine", tool="Cylinder", placement=None, origin=None, axis=None, radius=1.0, tube_radius=0.25,
@@ -257,6 +261,17 @@ def _link(face):
     if face is None or isinstance(face, (tuple, list)):
         return face
     return face, [""]
+
+
+def _refinement(refine):
+    """The properties Refine and RefineSize of an argument `refine`."""
+    if refine is None:
+        return {"Refine": "Automatic"}
+    if refine is False:
+        return {"Refine": "Never"}
+    if isinstance(refine, bool) or not refine > 0:
+        raise ValueError(f"refine must be None, False or a positive length, not {refine!r}")
+    return {"Refine": "Size", "RefineSize": refine}
 
 
 def _preserved(preserve):

@@ -61,6 +61,8 @@ py::dict to_dict(const Report& report) {
     py::list groups;
     for (const GroupRecord& record : report.groups) groups.append(to_dict(record));
     out["groups"] = groups;
+    out["refinement"] = py::none();
+    if (const auto& r = report.refinement) out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);
     out["nodes_added"] = report.nodes_added;
     out["nodes_split"] = report.nodes_split;
     out["nodes_doubled"] = report.nodes_doubled;
@@ -76,14 +78,17 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-/// (name, method, transition, feature_angle, preserve, strict, band_only), as _common_options() in operators.py makes it.
-using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool, bool>;
+/// (name, method, transition, feature_angle, preserve, strict, band_only, refine), as _common_options() in operators.py makes it; refine
+/// is nothing, 0 (never) or a length.
+using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool, bool, std::optional<double>>;
 
 template <class Options>
 Options options(const CommonOptions& common) {
     Options out;
     std::string method;
-    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only) = common;
+    std::optional<double> size;
+    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only, size) = common;
+    if (size) out.refine = {*size > 0 ? RefineFirst::When::to_size : RefineFirst::When::never, *size};
     out.method = method_from_name(method);
     return out;
 }

@@ -72,14 +72,94 @@ def test_relax_pays():
 def test_for_a_tool_finer_than_the_mesh():
     """A crack along a small sphere: coarse, a good part of it is missing, and a warning says so; refined it is not."""
     mesh, sphere = grid_box(), fs.Sphere((3, 2.5, 2), 1.2)
-    def crack(m):
-        result = fs.crack(m, sphere)
+    def crack(m, refine=None):
+        result = fs.crack(m, sphere, refine=refine)
         return next(g.measure_after for g in result.report.groups if g.name == "CRACK_P"), " ".join(result.report.warnings)
     whole = 4 * np.pi * sphere.radius ** 2
-    coarse, warning = crack(mesh)
+    coarse, warning = crack(mesh, refine=False)
     assert coarse < 0.9 * whole and "the mesh is coarse for the sphere" in warning
     fine, warning = crack(fs.refine(mesh, sphere, size=sphere.radius / 3).mesh)
     assert fine == pytest.approx(whole, rel=0.05) and "coarse" not in warning
+    fine, warning = crack(mesh)
+    assert fine == pytest.approx(whole, rel=0.05) and not warning
+
+
+HOLE = fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 0.5)
+
+
+def same(a, b):
+    """Whether two meshes are the same to the last bit."""
+    return (np.array_equal(a.points, b.points) and np.array_equal(a.node_ids, b.node_ids) and a.cells.keys() == b.cells.keys()
+            and all(np.array_equal(a.cells[k], b.cells[k]) and np.array_equal(a.cell_ids[k], b.cell_ids[k]) for k in a.cells)
+            and a.groups.keys() == b.groups.keys() and all(np.array_equal(a.groups[g].ids, b.groups[g].ids) for g in a.groups))
+
+
+def test_operators_refine_first():
+    """One operation: counts and groups of the report compare the input with the result; with a session and as a preview too."""
+    mesh = box_with_groups()
+    with pytest.raises(fs.ToolError, match="Refine the mesh there"):
+        fs.drill(mesh, HOLE, refine=False)
+    result = fs.drill(mesh, HOLE)
+    report = result.report
+    assert report.refinement.size == 0.25 and report.refinement.elements_before == mesh.cell_count < report.refinement.elements_after
+    assert "first, to edges of 0.25 near the tool: 720 -> " in report.to_text() and "refine" in report.seconds
+    kept = np.isin(result.mesh.node_ids, mesh.node_ids)
+    assert report.nodes_removed == mesh.node_count - kept.sum() and report.nodes_added == (~kept).sum() == report.nodes_split
+    old, new = (np.concatenate(list(m.cell_ids.values())) for m in (mesh, result.mesh))
+    assert report.elements_removed == len(np.setdiff1d(old, new)) and report.elements_added == len(np.setdiff1d(new, old))
+    before = {g.name: g for g in fs.drill(mesh, fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 2.2), refine=False).report.groups}
+    for g in report.groups:
+        assert g.status == "new" or (g.count_before, g.measure_before) == (before[g.name].count_before, before[g.name].measure_before)
+    volume = next(g.measure_before - g.measure_after for g in report.groups if g.name == "ALL")
+    assert volume == pytest.approx(np.pi * 0.25 * 4, rel=0.02)
+    assert report.quality.after.minimum > 0.3
+    session = fs.Scalpel(mesh)
+    assert same(session.drill(HOLE).mesh, result.mesh)
+    preview = session.drill(HOLE, band_only=True)
+    assert preview.mesh.cell_count < result.mesh.cell_count
+    for name in ("refinement", "nodes_added", "nodes_removed", "elements_added", "elements_removed", "nodes_moved", "groups"):
+        assert getattr(preview.report, name) == getattr(report, name), name
+
+
+def test_first_refinement_by_size_or_never():
+    mesh, plane, big = box_with_groups(), fs.Plane((3.1, 2.4, 2.1), (1, 0.2, 0.1)), fs.Cylinder((-8, 2.4, 0), (0, 0, 1), 10)
+    for operate in (lambda **k: fs.crack(mesh, plane, **k), lambda **k: fs.cut(mesh, plane, width=0.2, **k), lambda **k: fs.drill(mesh, big, **k)):
+        automatic, never, sized = operate(), operate(refine=False), operate(refine=0.6)
+        assert automatic.report.refinement is None and same(automatic.mesh, never.mesh) and not automatic.report.warnings
+        assert sized.report.refinement.size == 0.6 and sized.mesh.cell_count > 2 * never.mesh.cell_count
+    disk = fs.Disk(plane.origin, 1.5)
+    front = {refine: fs.crack(mesh, plane, within=disk, refine=refine) for refine in (False, None, 0.2)}
+    lengths = {}
+    for refine, result in front.items():
+        ends = result.mesh.points[result.mesh.cells["line"]]
+        lengths[refine] = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    assert front[None].report.refinement.size == 0.75 and lengths[None].mean() < 0.75 < lengths[False].max() and lengths[0.2].max() < 0.3
+    assert fs.crack(mesh, plane, method="deform").report.refinement is None
+
+
+def test_elements_that_cannot_be_bisected_are_no_obstacle():
+    """Bricks too near to be refined around: the hole is drilled in the mesh as it is, with a warning; a size given is an error."""
+    box = grid_box()
+    n = box.node_count
+    brick = np.array([[6, y, z] for z in (0, 4) for y in (0, 5)] + [[7.5, y, z] for z in (0, 4) for y in (0, 5)], float)
+    corner = {tuple(p): i for i, p in enumerate(box.points.tolist())}
+    old = [corner[tuple(p)] for p in brick[:4].tolist()]
+    cell = [old[0], n, n + 1, old[1], old[2], n + 2, n + 3, old[3]]
+    mesh = fs.Mesh(np.concatenate([box.points, brick[4:]]), {"tetra": box.cells["tetra"], "hexahedron": [cell]})
+    hole = fs.Cylinder((1.6, 2.5, 0), (0, 0, 1), 1.2)
+    result = fs.drill(mesh, hole)
+    assert result.report.refinement is None and "was not refined first: the refinement reaches 1 hexahedron" in result.report.warnings[0]
+    with pytest.raises(fs.UnsupportedElementError, match="the refinement reaches 1 hexahedron"):
+        fs.drill(mesh, hole, refine=0.6)
+
+
+@pytest.mark.parametrize("refine, error, message", [
+    (0, ValueError, "refine must be a positive length"), (-1.0, ValueError, "refine must be a positive length"),
+    (True, TypeError, "not True"), ("fine", TypeError, "refine must be a number"), (float("inf"), ValueError, "refine must be a finite number"),
+])
+def test_bad_first_refinement(refine, error, message):
+    with pytest.raises(error, match=message):
+        fs.drill(grid_box(), HOLE, refine=refine)
 
 
 def test_nothing_to_do():

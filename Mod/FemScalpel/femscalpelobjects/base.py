@@ -18,6 +18,7 @@ from .on_shape import OnShape, bookkeeping_groups
 OUTPUT = 8  # setting it does not ask for a recompute
 
 _RESULTS = (
+    ("App::PropertyLength", "RefinedTo", "Longest edge at the tool after the refinement that came first; 0: there was none"),
     ("App::PropertyInteger", "NodesAdded", "Nodes made by splitting and by doubling"),
     ("App::PropertyInteger", "NodesDoubled", "Nodes of the crack that each side has its own copy of"),
     ("App::PropertyInteger", "NodesMoved", "Nodes moved onto the tool or to improve elements"),
@@ -201,6 +202,7 @@ class MeshOperation:
         for warning in report.warnings:
             FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
         before, after = report.quality
+        obj.RefinedTo = report.refinement.size if report.refinement else 0
         obj.NodesAdded = report.nodes_added
         obj.NodesDoubled = report.nodes_doubled
         obj.NodesMoved = report.nodes_moved
@@ -220,7 +222,7 @@ class MeshOperation:
                 dependent.Proxy._clear(dependent)
         self.report = None
         obj.FemMesh = Fem.FemMesh()
-        for name in ("NodesAdded", "NodesDoubled", "NodesMoved", "MinimumQuality", "MinimumQualityBefore", "MaxDisplacement"):
+        for name in ("RefinedTo", "NodesAdded", "NodesDoubled", "NodesMoved", "MinimumQuality", "MinimumQualityBefore", "MaxDisplacement"):
             setattr(obj, name, 0)
         obj.Warnings = []
         obj.OffShape = []
@@ -248,12 +250,17 @@ SURFACE_INPUTS = (
     ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
     ("App::PropertyStringList", "PreservedGroups", "Mesh groups whose border keeps its shape; *: all. The borders of others "
      "may drift, those of all if the list is empty"),
+    ("App::PropertyEnumeration", "Refine", "Whether elements near the tool are divided first. Automatic: where the tool is finer than "
+     "the mesh; Size: where edges are longer than RefineSize"),
+    ("App::PropertyLength", "RefineSize", "Longest edge at the tool (of a crack that ends inside, at its front) if Refine is Size"),
 )
 SURFACE_DEFAULTS = {
     "Method": (list(femscalpel.operators.METHODS), "snap"),
     "Transition": ((0, 0, 1000, 1),),
     "FeatureAngle": (30,),
     "PreservedGroups": (["*"],),
+    "Refine": (["Automatic", "Never", "Size"], "Automatic"),
+    "RefineSize": (1,),
 }
 
 
@@ -263,5 +270,6 @@ def surface_options(obj, mesh):
     The geometry is kept whatever PreservedGroups says: FreeCAD finds what it needs by it.
     """
     preserve = None if "*" in obj.PreservedGroups else [*obj.PreservedGroups, *bookkeeping_groups(mesh)]
+    refine = {"Automatic": None, "Never": False, "Size": obj.RefineSize.Value}[obj.Refine]
     return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value,
-                preserve=preserve)
+                preserve=preserve, refine=refine)

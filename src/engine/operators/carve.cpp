@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "operators/refine_first.h"
 #include "operators/removal.h"
 
 namespace femscalpel {
@@ -33,6 +34,15 @@ std::vector<Blade> blades_of(const Body& body, int first_tag) {
         blades.push_back(std::move(blade));
     }
     return blades;
+}
+
+/// Around the walls, where they bound their body.
+std::vector<RefineZone> zones_of(std::span<const Body> bodies, const RefineFirst& refine) {
+    std::vector<RefineZone> zones;
+    for (const Body& body : bodies)
+        for (const Blade& blade : blades_of(body, 0))
+            if (auto zone = zone_around(*blade.tool, blade.bound, refine)) zones.push_back(std::move(*zone));
+    return zones;
 }
 
 /// Elements that stay must not reach deep into what was removed: then the mesh is too coarse to show the hole's shape.
@@ -81,6 +91,8 @@ double Body::depth(const Vec3& x) const {
 
 Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options, const std::array<const char*, 4>& sets,
              const Prepared& prepared) {
+    if (const auto refined = refine_first(input, zones_of(bodies, options.refine), options, prepared))
+        return carve(kind, refined->mesh_of(input), bodies, options, sets, refined->prepared(prepared));
     std::vector<Blade> blades;
     std::vector<const Tool*> tool_of_tag;
     std::vector<std::function<double(const Vec3&)>> depths;
@@ -120,7 +132,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             removed += remove_inside(g, tools, first_tag);
         }
         if (removed == 0)
-            throw ToolError("the " + blades.front().tool->kind() + " removes nothing: what it would take off is thinner than the elements there. Move the " +
+            throw ToolError("the " + blades.front().tool->kind() + " removes nothing: what it would take off is thinner than the elements there. Refine the mesh there, or move the " +
                             blades.front().tool->kind() + " into the material");
         const bool left = [&] {
             for (int t = 0; t < g.d.band.tetras.size(); ++t)

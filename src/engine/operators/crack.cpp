@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "operators/border.h"
+#include "operators/refine_first.h"
 #include "tools/face.h"
 
 namespace femscalpel {
@@ -67,7 +68,6 @@ void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
 }  // namespace
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
-    Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
     Blade blade;
     blade.tool = &tool;
     if (options.method == Method::snap && std::isfinite(tool.feature_size())) blade.tag = whole_tool;
@@ -81,6 +81,9 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
         blade.bound = patch->distance;
         blade.tag = whole_tool;
     }
+    if (const auto zone = patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine))
+        if (const auto refined = refine_first(input, {&*zone, 1}, options, prepared)) return crack(refined->mesh_of(input), tool, options, refined->prepared(prepared));
+    Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
     Interface f = operation.begin({&blade, 1});
     // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut along.
     const std::optional<Interface> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
@@ -113,10 +116,8 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (lips->copy_of.empty())
         throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
                         " into the material");
-    if (patch) {
-        find_node_sets(f);
-        check_contacts(f);
-    }
+    find_node_sets(f);
+    check_contacts(f);
     warn_of_coarse_mesh(f, *lips);
     return operation.finish(f, *lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }

@@ -49,7 +49,8 @@ public:
             const Contact tools = d_.edge_contact(a, b);
             const auto [at, fits, worst] = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
             const bool bent = !d_.constraints.is_straight(d_.constraints.on_edge(band_, a, b));
-            if ((bent && !fits) || curved_children(d_, a, b, at, tools) < curved_limit) continue;
+            // Off its tool a node would be off it for good.
+            if (((bent || tools) && !fits) || curved_children(d_, a, b, at, tools) < curved_limit) continue;
             d_.split_edge(a, b, at, tools);
             f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
             any = true;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
+#include "operators/refine_first.h"
 
 namespace femscalpel {
 namespace {
@@ -178,8 +179,9 @@ void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& bef
     });
 }
 
-/// Moved nodes, boundary drift and losses of each group, by group index.
-void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebuilt, bool removes, Report& report) {
+/// Moved nodes, boundary drift and losses of each group, by group index. Nodes from the number `first_new` on are not the input's
+/// and do not count.
+void describe_motion(const Interface& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes, Report& report) {
     const BandMesh& band = f.d.band;
     struct Motion {
         Index moved = 0;
@@ -190,6 +192,7 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
     std::vector<Motion> motion(before.groups.size());
     for (Index n = 0; n < before.node_count(); ++n) {
         const Index now = rebuilt.kept_node(n);
+        if (before.node_ids[n] >= first_new) continue;
         if (now < 0)
             for (const GroupIndex g : before.families.groups(before.node_families[n])) ++motion[g].nodes_gone;
         if (now < 0 || rebuilt.mesh.points[now] == before.points[n]) continue;
@@ -203,7 +206,7 @@ void describe_motion(const Interface& f, const Mesh& before, const Rebuilt& rebu
         const auto meet = [&](FamilyIndex family) {
             for (GroupIndex g : before.families.groups(family)) {
                 motion[g].drift = std::max(motion[g].drift, drift);
-                if (motion[g].last == v) continue;
+                if (motion[g].last == v || before.node_ids[n.global] >= first_new) continue;
                 motion[g].last = v;
                 ++motion[g].moved;
             }
@@ -292,7 +295,35 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
     numbering_ = next_numbers(whole());
+    if (prepared.refined) {
+        report_.warnings = prepared.refined->report.warnings;
+        double seconds = 0;
+        for (const auto& [step, s] : prepared.refined->report.seconds) seconds += s;
+        if (!prepared.refined->tried_in_vain) report_.seconds.emplace_back("refine", seconds);
+    }
     if (input.solver_input) watch_.lap("mark deck");
+}
+
+/// Makes the counts of the report those of refinement and operation together: what both made and removed does not count.
+void Operation::join_refinement(const Rebuilt& rebuilt) {
+    const Refined& refined = *prepared_.refined;
+    report_.refinement = refined.summary;
+    Index nodes = 0, elements = 0;
+    for (Index n = 0; n < mesh().node_count(); ++n) nodes += mesh().node_ids[n] >= refined.numbering.node && rebuilt.kept_node(n) < 0;
+    std::set<Index> left;
+    for (const CellRef& c : rebuilt.after) left.insert(rebuilt.mesh.block(c.type).ids[c.cell]);
+    for (const CellRef& c : rebuilt.before)
+        if (const Index id = mesh().block(c.type).ids[c.cell]; id >= refined.numbering.cell) elements += !left.contains(id);
+    report_.nodes_split += refined.report.nodes_split - nodes;
+    report_.nodes_added += refined.report.nodes_added - nodes;
+    report_.nodes_removed -= nodes;
+    report_.elements_added += refined.report.elements_added - elements;
+    report_.elements_removed -= elements;
+    for_each_record(mesh(), report_, [&, record = std::size_t{0}](std::size_t, GroupRecord& r) mutable {
+        const GroupRecord& before = refined.report.groups[record++];
+        r.count_before = before.count_before;
+        r.measure_before = before.measure_before;
+    });
 }
 
 /// Goes on with the elements of the band and those `removed` alone; these are given their places among them.
@@ -419,8 +450,11 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         if (g.status == "became empty")
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
-        report_.warnings.insert(report_.warnings.end(), warnings->begin(), warnings->end());
-    describe_motion(f, mesh(), rebuilt, lips.removes, report_);
+        for (const std::string& w : *warnings)
+            if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
+    const bool refined = prepared_.refined && !prepared_.refined->tried_in_vain;
+    if (refined) join_refinement(rebuilt);
+    describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
     watch_.lap("report");

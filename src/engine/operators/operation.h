@@ -23,6 +23,19 @@
 
 namespace femscalpel {
 
+struct Refined;
+
+/// Whether elements near the tool are bisected before the operation (refine_first.h).
+struct RefineFirst {
+    enum class When {
+        automatic,  ///< where the tool is finer than the mesh: edges are longer than half its radius; not for method `deform`
+        never,
+        to_size,    ///< where edges are longer than `size`
+    };
+    When when = When::automatic;
+    double size = 0;
+};
+
 /// What every operator lets the user choose.
 struct OperatorOptions {
     std::string name;               ///< prefix of the new groups
@@ -36,13 +49,16 @@ struct OperatorOptions {
     /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over has
     /// to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
     bool band_only = false;
+    RefineFirst refine;
 };
 
-/// What a session keeps of its mesh; all of it can be made anew at a cost linear in the mesh.
+/// What is known of a mesh: what a session keeps, all of which can be made anew at a cost linear in the mesh; and that it was
+/// refined for the operation.
 struct Prepared {
     const Adjacency* adjacency = nullptr;
     const FamilyTotals* totals = nullptr;   ///< of the marked mesh, if `marks` have one
     const DeckMarks* marks = nullptr;
+    const Refined* refined = nullptr;       ///< then the report is of refinement and operation together
 };
 
 /// How an operator calls what it made.
@@ -83,6 +99,7 @@ public:
     Result finish(Interface& f, const Lips& lips, const Naming& naming);
 
 private:
+    void join_refinement(const Rebuilt& rebuilt);
     void crop_to_band(std::vector<CellRef>& removed);
     std::vector<Index> pinned() const;
 

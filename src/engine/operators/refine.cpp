@@ -395,6 +395,19 @@ DistanceField distance_to(std::vector<Vec3> points) {
 }
 
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
+    if (std::optional<Result> result = refine_where_needed(input, distance, options)) return std::move(*result);
+    Result untouched;
+    const FamilyTotals totals = family_totals(input);
+    untouched.report.operation = "refine";
+    untouched.report.method = "bisection";
+    untouched.report.groups = compare_groups(input, totals, input, totals);
+    for (GroupRecord& r : untouched.report.groups) r.status = "untouched";
+    untouched.report.warnings.push_back("no edge is longer than wanted: nothing was refined");
+    untouched.mesh = input;
+    return untouched;
+}
+
+std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
     check(options);
     Result result;
     Report& report = result.report;
@@ -406,14 +419,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     for (std::size_t n = 0; n < distances.size(); ++n) distances[n] = target.distance(input.points[n]);
     const std::vector<std::int8_t> core = find_long_edges(input, target, distances);
     watch.lap("locate");
-    if (std::ranges::find(core, 0) == core.end()) {
-        const FamilyTotals totals = family_totals(input);
-        report.groups = compare_groups(input, totals, input, totals);
-        for (GroupRecord& r : report.groups) r.status = "untouched";
-        report.warnings.push_back("no edge is longer than wanted: nothing was refined");
-        result.mesh = input;
-        return result;
-    }
+    if (std::ranges::find(core, 0) == core.end()) return {};
     const DeckMarks marks = mark_deck(input);
     const Mesh& mesh = marks.mesh ? *marks.mesh : input;
     if (input.solver_input) watch.lap("mark deck");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -46,5 +47,8 @@ struct RefineOptions {
 /// Throws ToolError (an option out of range, more than max_elements), UnsupportedElementError (an edge to be
 /// bisected is one of a quadrangle, prism, pyramid or hexahedron), QualityError (inverted elements near the tool).
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
+
+/// The same, but nothing when no edge is longer than wanted.
+std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
 
 }  // namespace femscalpel

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,13 @@ struct QualitySummary {
 /// Summary of the given elements.
 QualitySummary summarise(std::vector<ElementQuality> qualities);
 
+/// A refinement that came first, because a tool was finer than the mesh or a size was given (refine_first.h).
+struct Refinement {
+    double size = 0;            ///< longest edge wanted near the tool; of several sizes the smallest
+    Index elements_before = 0;  ///< of the whole mesh, all kinds
+    Index elements_after = 0;   ///< by refining alone
+};
+
 /// What an operator did; the same for all operators.
 struct Report {
     std::string operation;  ///< "crack", "drill", ...
@@ -48,6 +56,7 @@ struct Report {
     QualitySummary quality_before;  ///< of the band's elements before
     QualitySummary quality_after;   ///< of the same elements and their children after
     std::vector<GroupRecord> groups;
+    std::optional<Refinement> refinement;  ///< part of what the counts below say
     Index nodes_added = 0;       ///< by splitting and by doubling
     Index nodes_split = 0;       ///< of them, born on split edges
     Index nodes_doubled = 0;     ///< of them, copies of interface nodes

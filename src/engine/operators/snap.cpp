@@ -230,8 +230,17 @@ private:
                });
     }
 
+    /// Whether, with v on a curved tool, an element would have all its nodes on it: one that fills a bulge of the tool, belongs to
+    /// neither side, and gets a better shape only by growing along the tool.
+    bool would_fill_bulge(int v) const {
+        if (!std::isfinite(tool_.feature_size())) return false;
+        const auto fills = [&](const auto& nodes) { return std::ranges::all_of(nodes, [&](int w) { return w == v || d_.contact[w].has(&tool_); }); };
+        return std::ranges::any_of(band_.tetras.around(v), [&](int t) { return fills(band_.tetras[t]); }) ||
+               std::ranges::any_of(band_.triangles.around(v), [&](int t) { return d_.constraints.is_shell(band_.triangles.origin(t)) && fills(band_.triangles[t]); });
+    }
+
     void snap(int v, double length, double ratio) {
-        if (d_.off_tool[v] || would_lie_flat(v)) return;
+        if (d_.off_tool[v] || would_lie_flat(v) || would_fill_bulge(v)) return;
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
         const Contact tools = d_.contact[v].with(&tool_);

@@ -43,6 +43,22 @@ Vector3d along_plane(const Plane& plane, const Vector3d& direction, const std::s
     return in.normalized();
 }
 
+/// Half the shortest of a polygon's sides and of the distances between its corners and the sides they are not on.
+double half_width(const std::vector<Eigen::Vector2d>& corners) {
+    const std::size_t count = corners.size();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < count; ++k) {
+        const Eigen::Vector2d &a = corners[k], along = corners[(k + 1) % count] - a;
+        least = std::min(least, along.norm());
+        for (std::size_t j = 2; j < count; ++j) {
+            const Eigen::Vector2d& p = corners[(k + j) % count];
+            const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+            least = std::min(least, (p - a - t * along).norm());
+        }
+    }
+    return least / 2;
+}
+
 /// A patch with a single side.
 Patch one_side(std::unique_ptr<Tool> tool) {
     Patch patch;
@@ -62,7 +78,9 @@ Disk::Disk(const Vector3d& center, double radius) : center_(checked_point(center
 
 Patch Disk::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "disk");
-    return one_side(std::make_unique<Cylinder>(on_plane(plane, center_, radius_, "the disk's center"), plane.unit_normal(), radius_));
+    Patch patch = one_side(std::make_unique<Cylinder>(on_plane(plane, center_, radius_, "the disk's center"), plane.unit_normal(), radius_));
+    patch.feature_size = radius_;
+    return patch;
 }
 
 Ellipse::Ellipse(const Vector3d& center, double first, double second, const Vector3d& direction)
@@ -71,8 +89,10 @@ Ellipse::Ellipse(const Vector3d& center, double first, double second, const Vect
 
 Patch Ellipse::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "ellipse");
-    return one_side(std::make_unique<EllipticCylinder>(on_plane(plane, center_, std::max(first_, second_), "the ellipse's center"), plane.unit_normal(),
-                                                       along_plane(plane, direction_, "the ellipse's direction"), first_, second_));
+    Patch patch = one_side(std::make_unique<EllipticCylinder>(on_plane(plane, center_, std::max(first_, second_), "the ellipse's center"), plane.unit_normal(),
+                                                              along_plane(plane, direction_, "the ellipse's direction"), first_, second_));
+    patch.feature_size = std::min(first_, second_);
+    return patch;
 }
 
 HalfPlane::HalfPlane(const Vector3d& origin, const Vector3d& direction)
@@ -123,6 +143,7 @@ Patch Polygon::on(const Tool& tool) const {
         }
     if (std::abs(area) <= 1e-9 * size * size) throw ToolError("polygon: its area is zero");
     Patch patch;
+    patch.feature_size = half_width(flat);
     for (std::size_t k = 0; k < count; ++k) {
         const Vector3d along = (at[(k + 1) % count] - at[k]).normalized();
         patch.sides.push_back(std::make_unique<Plane>(at[k], (area > 0 ? 1 : -1) * along.cross(plane.unit_normal())));
@@ -172,6 +193,8 @@ Patch CylinderPart::on(const Tool& tool) const {
     const Vector3d origin = cylinder->origin(), axis = cylinder->unit_axis();
     const double radius = cylinder->radius();
     Patch patch;
+    patch.feature_size = (high_ - low_) / 2;
+    if (angles_) patch.feature_size = std::min(patch.feature_size, radius * (angles_->end - angles_->start) * std::numbers::pi / 360);
     patch.sides.push_back(std::make_unique<Plane>(origin + low_ * axis, -axis));
     patch.sides.push_back(std::make_unique<Plane>(origin + high_ * axis, axis));
     const double middle = (low_ + high_) / 2, half = (high_ - low_) / 2;

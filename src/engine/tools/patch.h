@@ -25,6 +25,8 @@ struct Patch {
         int sides[2];
     };
     std::vector<Corner> corners;
+    /// Half the least width, or infinity: of a disk the radius. The mesh must be finer than this to show its shape.
+    double feature_size = std::numeric_limits<double>::infinity();
 
     bool has(const Tool* tool) const;
 };

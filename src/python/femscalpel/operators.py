@@ -14,6 +14,9 @@ from .within import Within, check_within
 
 METHODS = ("snap", "deform")
 
+#: Whether elements near the tool are bisected first: None, False or a length.
+RefineOption = Union[None, bool, float]
+
 
 @dataclass(frozen=True, eq=False)
 class Result:
@@ -28,7 +31,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _common_options(name, method, transition, feature_angle, strict, preserve, band_only) -> tuple:
+def _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -45,12 +48,25 @@ def _common_options(name, method, transition, feature_angle, strict, preserve, b
         raise TypeError(f"strict must be True or False, not {_arguments.describe(strict)}")
     if not isinstance(band_only, bool):
         raise TypeError(f"band_only must be True or False, not {_arguments.describe(band_only)}")
-    return name, method, transition, feature_angle, preserve, strict, band_only
+    return name, method, transition, feature_angle, preserve, strict, band_only, _refine_size(refine)
+
+
+def _refine_size(refine) -> Optional[float]:
+    """Nothing: automatic; 0: never; or a length."""
+    if refine is None:
+        return None
+    if refine is False:
+        return 0.0
+    if refine is True:
+        raise TypeError("refine must be None (where the tool is finer than the mesh), False (never) or a length, not True")
+    if (size := _arguments.real(refine, "refine")) <= 0:
+        raise ValueError(f"refine must be a positive length, not {size}; False is for never")
+    return size
 
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          band_only: bool = False, within: Optional[Within] = None) -> Result:
+          band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None) -> Result:
     """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -92,6 +108,11 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         The part of the tool that cracks; the whole when not given. Its border is the crack front: nodes there lie on it
         and stay single, and ``name_FRONT`` is an element group of segments along it, in order (in a shell mesh, the
         nodes at its tips). It may reach out of the mesh.
+    refine : None, False or number
+        Whether elements near the tool are bisected first, as :func:`refine` does. None: where the tool is finer than the mesh, that
+        is where edges are longer than half its radius (of a crack within a part of a tool, than a quarter of that part's width); a
+        plane has no radius, and method "deform" never refines of itself. A number: where edges are longer than this; of a
+        crack within a part of a tool, around its front. False: never. ``result.report.refinement`` says what was done.
 
     Returns
     -------
@@ -119,7 +140,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only), check_within(within)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), check_within(within)))
 
 
 def _tools(tools) -> list:
@@ -140,7 +161,7 @@ def _depth(depth) -> Optional[float]:
 
 def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          depth: Optional[float] = None, band_only: bool = False) -> Result:
+          depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
     """Drills one or several holes.
 
     What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
@@ -158,7 +179,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
         material; with several tools also one for each hole, ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
     method : {"snap", "deform"}
         "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
-    transition, feature_angle, strict, preserve, band_only
+    transition, feature_angle, strict, preserve, band_only, refine
         As for :func:`crack`.
     depth : number, optional
         Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
@@ -181,7 +202,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
     >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
     >>> result.mesh.groups["HOLE_WALL"].ids
     """
-    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only),
+    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine),
                                       _depth(depth)))
 
 
@@ -200,7 +221,7 @@ def _walls(tool, width, other, bottom) -> tuple:
 
 def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
         name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-        preserve: Optional[Iterable[str]] = None, band_only: bool = False) -> Result:
+        preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
     """Cuts a slot: an incision between two planes.
 
     The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself is
@@ -225,7 +246,7 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
         middle plane (of `tool` and `other`), normals out of the material, and ``name_BOTTOM``.
     method : {"snap"}
         "deform" is for a single surface only.
-    transition, feature_angle, strict, preserve, band_only
+    transition, feature_angle, strict, preserve, band_only, refine
         As for :func:`crack`.
 
     Returns
@@ -247,7 +268,7 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
     >>> saw.mesh.groups["CUT_BOTTOM"].ids
     """
     first, second, bottom = _walls(tool, width, other, bottom)
-    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only), bottom))
+    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), bottom))
 
 
 def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
@@ -344,20 +365,20 @@ class Scalpel:
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              band_only: bool = False, within: Optional[Within] = None) -> Result:
+              band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only),
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine),
                                                 check_within(within)))
 
     def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              depth: Optional[float] = None, band_only: bool = False) -> Result:
+              depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
         """As :func:`femscalpel.drill`, on the session's mesh."""
-        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only), _depth(depth)))
+        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), _depth(depth)))
 
     def cut(self, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
             name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-            preserve: Optional[Iterable[str]] = None, band_only: bool = False) -> Result:
+            preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
         """As :func:`femscalpel.cut`, on the session's mesh."""
         first, second, bottom = _walls(tool, width, other, bottom)
-        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only), bottom))
+        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), bottom))

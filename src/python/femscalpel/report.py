@@ -5,7 +5,7 @@ import csv
 import dataclasses
 import os
 from dataclasses import dataclass
-from typing import Dict, List, NamedTuple
+from typing import Dict, List, NamedTuple, Optional
 
 import numpy as np
 
@@ -30,6 +30,14 @@ class QualitySummary:
     @classmethod
     def _from_engine(cls, fields: dict) -> "QualitySummary":
         return cls(**{**fields, "worst": [ElementQuality(*e) for e in fields["worst"]]})
+
+
+class Refinement(NamedTuple):
+    """A refinement that came first, because the tool was finer than the mesh or a size was given."""
+
+    size: float  #: longest edge wanted near the tool; of several sizes the smallest
+    elements_before: int  #: of the whole mesh, all kinds
+    elements_after: int  #: by refining alone
 
 
 class Quality(NamedTuple):
@@ -78,6 +86,7 @@ class Report:
     constraints: Dict[str, int]
     quality: Quality  #: near the tool, before and after
     groups: List[GroupRecord]
+    refinement: Optional[Refinement]  #: part of what the counts below say
     nodes_added: int  #: by splitting and by doubling
     nodes_split: int  #: of them, born on split edges
     nodes_doubled: int  #: of them, copies of interface nodes
@@ -94,6 +103,8 @@ class Report:
         fields = dict(fields)
         before, after = (QualitySummary._from_engine(fields.pop(key)) for key in ("quality_before", "quality_after"))
         groups = [GroupRecord(**g) for g in fields.pop("groups")]
+        if fields["refinement"] is not None:
+            fields["refinement"] = Refinement(*fields["refinement"])
         return cls(quality=Quality(before, after), groups=groups, **fields)
 
     @property
@@ -121,6 +132,9 @@ class Report:
             ("seconds", f"{sum(self.seconds.values()):.3f}"
                         + (f" ({_counts({k: f'{s:.3f}' for k, s in self.seconds.items()})})" if self.seconds else "")),
         ]
+        if self.refinement is not None:
+            size, elements_before, elements_after = self.refinement
+            facts.insert(0, ("refined", f"first, to edges of {size:.4g} near the tool: {elements_before} -> {elements_after} elements"))
         title = f"{self.operation} {self.name}".rstrip()
         lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]

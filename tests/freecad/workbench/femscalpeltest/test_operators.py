@@ -87,6 +87,19 @@ class Operators(DocumentTest):
         self.doc.recompute()
         self.assertIn("ToolFace is not set", crack.getStatusString())
 
+    def test_refinement_first(self):
+        for refine in (None, False, 0.4):
+            with self.subTest(refine=refine):
+                crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, origin=ORIGIN, radius=1.3, refine=refine)
+                expected = fs.crack(self.mesh, fs.Sphere(ORIGIN, 1.3), refine=refine)
+                self.check(crack, expected)
+                self.assertEqual(crack.RefinedTo.Value, expected.report.refinement.size if refine is not False else 0)
+                self.assertEqual(any("refined" in line for line in crack.GroupReport), refine is not False)
+        crack.Refine = "Never"
+        self.check(crack, fs.crack(self.mesh, fs.Sphere(ORIGIN, 1.3), refine=False))
+        with self.assertRaisesRegex(ValueError, "refine must be None, False or a positive length"):
+            ObjectsFemScalpel.makeDrill(self.doc, self.source, refine=-1)
+
     def test_refine(self):
         for tool, expected in (("Plane", fs.Plane(ORIGIN, AXIS)), ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 0.5)),
                                ("Sphere", fs.Sphere(ORIGIN, 0.5))):

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/refine_first.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace femscalpel {
+namespace {
+
+/// Longest edge near a tool, in its smallest radius of curvature: chords are off the tool by at most 3 % of the radius then.
+constexpr double edge_per_radius = 0.5;
+
+/// What refining on its own account may make of a mesh.
+constexpr Index most_elements = 2'000'000;
+
+double checked(double size) {
+    if (std::isfinite(size) && size > 0) return size;
+    std::ostringstream message;
+    message << "refine is " << size << "; it must be a positive length";
+    throw ToolError(message.str());
+}
+
+/// One field for all zones, with the smallest of their sizes: a zone of a larger size counts as that much farther away as edges
+/// take to grow so long.
+DistanceField joined(std::span<const RefineZone> zones, double size, double gradation) {
+    return [zones = std::vector<RefineZone>(zones.begin(), zones.end()), size, gradation](const Vec3& x) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const RefineZone& zone : zones) {
+            double d = zone.distance(x);
+            if (zone.size > size) d = std::abs(d) + (zone.size - size) / gradation;
+            if (std::abs(d) < std::abs(nearest)) nearest = d;
+        }
+        return nearest;
+    };
+}
+
+}  // namespace
+
+Prepared Refined::prepared(const Prepared& of_input) const {
+    Prepared out = tried_in_vain ? of_input : Prepared{};
+    out.refined = this;
+    return out;
+}
+
+std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond, const RefineFirst& refine) {
+    if (refine.when == RefineFirst::When::never) return {};
+    const double size = refine.when == RefineFirst::When::to_size ? checked(refine.size) : edge_per_radius * tool.feature_size();
+    if (!std::isfinite(size)) return {};
+    return RefineZone{[&tool, beyond = std::move(beyond)](const Vec3& x) {
+                          const double off = tool.distance(x), past = beyond ? beyond(x) : 0;
+                          return past > 0 ? std::hypot(off, past) : off;
+                      },
+                      size};
+}
+
+std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, const RefineFirst& refine) {
+    if (refine.when == RefineFirst::When::to_size)
+        return RefineZone{[&tool, front = patch.distance](const Vec3& x) { return std::hypot(tool.distance(x), front(x)); }, checked(refine.size)};
+    const double size = edge_per_radius * std::min(patch.feature_size, tool.feature_size());
+    if (refine.when == RefineFirst::When::never || !std::isfinite(size)) return {};
+    return zone_around(tool, patch.distance, {RefineFirst::When::to_size, size});
+}
+
+std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options, const Prepared& prepared) {
+    if (zones.empty() || prepared.refined) return {};
+    const bool asked = options.refine.when == RefineFirst::When::to_size;
+    if (!asked && options.method == Method::deform) return {};  // which is there not to add nodes
+    RefineOptions o;
+    o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
+    o.feature_angle = options.feature_angle;
+    o.strict = options.strict;
+    if (!asked) o.max_elements = most_elements;
+    Refined out;
+    try {
+        std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o);
+        if (!result) return {};
+        out.mesh = std::move(result->mesh);
+        out.report = std::move(result->report);
+    } catch (const Error& e) {
+        if (asked || !(dynamic_cast<const ToolError*>(&e) || dynamic_cast<const UnsupportedElementError*>(&e))) throw;
+        out.tried_in_vain = true;
+        out.report.warnings.push_back(std::string("the mesh is coarser than the tool, but was not refined first: ") + e.what());
+        return out;
+    }
+    out.summary = {o.size, mesh.cell_count(), out.mesh.cell_count()};
+    out.numbering = next_numbers(mesh);
+    return out;
+}
+
+}  // namespace femscalpel
