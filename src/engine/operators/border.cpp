@@ -28,10 +28,10 @@ public:
         for (const Patch::Corner& c : patch_.corners) place_corner(c);
         value_.resize(static_cast<std::size_t>(band_.size()));
         for (int v = 0; v < band_.size(); ++v) measure(v);
-        split_dipping_edges();
+        split_dipping_edges(false);
         snap_nodes();
-        // A node put on one side of a corner may have closed it; the other side has to be found again.
-        if (!patch_.corners.empty()) split_dipping_edges();
+        // A node put on one side of a corner may have closed it, or left an edge across it; the other side has to be found again.
+        if (!patch_.corners.empty()) split_dipping_edges(true);
         for (const auto& [a, b] : edges([&](int a, int b) { return value_[a] * value_[b] < 0; })) {
             const Vec3 at = crossing(a, b);
             split(a, b, at, Contact(f_.tool).with(&side_at(at)));
@@ -97,29 +97,38 @@ private:
         });
     }
 
-    /// Where along a-b (0 to 1) the border's other side is met though both ends are on one; negative if nowhere.
-    double dip_at(int a, int b) const {
+    /// Where along a-b (0 to 1) it is deepest beyond the border though both ends are on one side; negative where it stays there.
+    /// Shallow dips count only if `exact`, or opposite a corner: there the border has to come out, however narrow the corner is.
+    double dip_at(int a, int b, bool exact) const {
         const double ends = value_[a] != 0 ? value_[a] : value_[b];
-        if (ends == 0 || value_[a] * value_[b] < 0) return -1;
-        // Opposite a corner the border has to come out, however narrow the corner is.
-        const bool narrow = faces_corner(a, b);
-        double best = (narrow ? 1e-4 : dip) * length(a, b), at = -1;
-        const int samples = narrow ? 64 : 8;
+        if (ends == 0 || value_[a] * value_[b] < 0 || std::min(std::abs(value_[a]), std::abs(value_[b])) > length(a, b)) return -1;
+        const auto depth = [&](double t) {
+            return patch_.distance((1 - t) * band_.nodes[a].at + t * band_.nodes[b].at) * (ends > 0 ? -1 : 1);
+        };
+        exact = exact || faces_corner(a, b);
+        const int samples = exact ? 64 : 8;
+        double best = -std::numeric_limits<double>::infinity(), at = -1;
         for (int k = 1; k < samples; ++k) {
-            const double t = k / static_cast<double>(samples);
-            const double d = patch_.distance((1 - t) * band_.nodes[a].at + t * band_.nodes[b].at) * (ends > 0 ? -1 : 1);
+            const double t = k / static_cast<double>(samples), d = depth(t);
             if (d <= best) continue;
             best = d;
             at = t;
         }
-        return at;
+        if (exact)  // the dip may be narrower than the samples are apart
+            for (double step = 0.5 / samples; step > 1e-6; step /= 2)
+                for (const double t : {at - step, at + step})
+                    if (const double d = depth(t); d > best) {
+                        best = d;
+                        at = t;
+                    }
+        return best > (exact ? std::max(1e-6 * length(a, b), 10 * f_.tolerance) : dip * length(a, b)) ? at : -1;
     }
 
-    void split_dipping_edges() {
+    void split_dipping_edges(bool exact) {
         for (int round = 0; round < 3; ++round) {
-            const auto dipping = edges([&](int a, int b) { return dip_at(a, b) > 0; });
+            const auto dipping = edges([&](int a, int b) { return dip_at(a, b, exact) > 0; });
             for (const auto& [a, b] : dipping) {
-                const double t = dip_at(a, b);
+                const double t = dip_at(a, b, exact);
                 split(a, b, (1 - t) * band_.nodes[a].at + t * band_.nodes[b].at, f_.tool);
             }
             if (dipping.empty()) break;
