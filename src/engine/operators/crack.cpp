@@ -81,8 +81,14 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
         blade.bound = patch->distance;
         blade.tag = whole_tool;
     }
-    if (const auto zone = patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine))
-        if (const auto refined = refine_first(input, {&*zone, 1}, options, prepared)) return crack(refined->mesh_of(input), tool, options, refined->prepared(prepared));
+    const auto on_refined = [&]() -> std::optional<Result> {
+        const auto zone = patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine);
+        if (!zone) return {};
+        const auto refined = refine_first(input, {&*zone, 1}, options, prepared);
+        if (!refined) return {};
+        return crack(refined->mesh_of(input), tool, options, refined->prepared(prepared));
+    };
+    if (auto result = on_refined()) return std::move(*result);
     Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
     Interface f = operation.begin({&blade, 1});
     // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut along.
@@ -101,6 +107,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
         if (operation.location().crossed > 0) lips = open_lips(f);
         if (const std::vector<int> inner = lips ? inner_border(f, *lips) : std::vector<int>(); !inner.empty()) {
             patch = dynamic_cast<const Face&>(tool).within(inner);
+            if (auto result = on_refined()) return std::move(*result);
             blade.bound = patch->distance;
             blade.tag = whole_tool;
             const auto seconds = f.seconds;

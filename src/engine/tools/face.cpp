@@ -575,6 +575,7 @@ Patch Face::within(const std::vector<int>& chains) const {
     for (const int c : chains) {
         side_of[c] = static_cast<int>(patch.sides.size());
         patch.sides.push_back(std::make_unique<Side>(geometry_, c));
+        patch.feature_size = std::min(patch.feature_size, patch.sides.back()->feature_size());
     }
     for (const Joint& j : geometry_->joints) {
         if (!counts[j.before] || !counts[j.after]) continue;
