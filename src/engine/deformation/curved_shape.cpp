@@ -54,7 +54,7 @@ EdgeShape shape_of(const Deformable& d, int a, int b) {
 bool is_second_order(const Deformable& d, int tetra) { return d.band.tetra_cells[d.band.tetras.origin(tetra)].type == CellType::tetra10; }
 
 /// curved_ratio() of the tetrahedron with these corners, or 1 if it is straight, -1 if a mid-side node does not fit.
-/// `mid(i, j)`: of the edge between two corners.
+/// `mid(k)`: of edge k.
 double ratio(const std::array<Vec3, 4>& corner, auto mid) {
     std::array<Vec3, 10> x;
     std::ranges::copy(corner, x.begin());
@@ -62,12 +62,20 @@ double ratio(const std::array<Vec3, 4>& corner, auto mid) {
     const auto& edges = traits(CellType::tetra10).edges;
     for (std::size_t k = 0; k < edges.size(); ++k) {
         const int i = edges[k][0], j = edges[k][1];
-        const MidSide m = mid(i, j);
+        const MidSide m = mid(k);
         if (!m.fits) return -1;
         x[4 + k] = m.at;
         straight = straight && m.at == (corner[i] + corner[j]) / 2;
     }
     return straight ? 1 : curved_ratio(x);
+}
+
+/// For ratio(), from a function of the places of an edge's ends among the corners.
+auto by_ends(auto mid) {
+    return [mid](std::size_t k) {
+        const auto& e = traits(CellType::tetra10).edges[k];
+        return mid(e[0], e[1]);
+    };
 }
 
 }  // namespace
@@ -85,28 +93,63 @@ MidSide mid_side(const Deformable& d, int a, int b) {
     return fit(d, na.at, nb.at, shape_of(d, a, b));
 }
 
-double curved_shape(const Deformable& d, int tetra) {
-    if (!is_second_order(d, tetra)) return 1;
-    const auto& v = d.band.tetras[tetra];
-    const auto& n = d.band.nodes;
-    return ratio({n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at}, [&](int i, int j) { return mid_side(d, v[i], v[j]); });
+CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {
+    if (!d.mids.any()) return;
+    const BandMesh& band = d.band;
+    std::vector<std::array<int, 2>> across;
+    const auto place = [](auto& list, const auto& wanted) {
+        const auto it = std::ranges::find(list, wanted);
+        if (it != list.end()) return static_cast<int>(it - list.begin());
+        list.push_back(wanted);
+        return static_cast<int>(list.size()) - 1;
+    };
+    const auto& edges = traits(CellType::tetra10).edges;
+    for (const int t : band.tetras.around(node)) {
+        if (!is_second_order(d, t)) continue;
+        Element e{band.tetras[t], {}};
+        for (std::size_t k = 0; k < edges.size(); ++k) {
+            const int a = e.corner[edges[k][0]], b = e.corner[edges[k][1]];
+            e.mid[k] = a == node || b == node ? place(spokes_, a == node ? b : a) : -1 - place(across, std::array{std::min(a, b), std::max(a, b)});
+        }
+        elements_.push_back(e);
+    }
+    mids_.resize(spokes_.size());
+    for (const auto& [a, b] : across) mids_.push_back(mid_side(d, a, b));
+    for (Element& e : elements_)
+        for (int& m : e.mid)
+            if (m < 0) m = static_cast<int>(spokes_.size()) - 1 - m;
 }
 
-double curved_around(Deformable& d, int node, const Vec3& x) {
-    Vec3& at = d.band.nodes[node].at;
+double CurvedStar::worst(const Vec3& x) {
+    if (elements_.empty()) return 1;
+    Vec3& at = d_.band.nodes[node_].at;
     const Vec3 home = at;
     at = x;
+    for (std::size_t k = 0; k < spokes_.size(); ++k) mids_[k] = mid_side(d_, node_, spokes_[k]);
     double worst = 1;
-    for (const int t : d.band.tetras.around(node)) worst = std::min(worst, curved_shape(d, t));
+    for (const Element& e : elements_) {
+        std::array<Vec3, 4> corner;
+        for (int k = 0; k < 4; ++k) corner[k] = d_.band.nodes[e.corner[k]].at;
+        worst = std::min(worst, ratio(corner, [&](std::size_t k) { return mids_[e.mid[k]]; }));
+    }
     at = home;
     return worst;
 }
 
-bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) {
-    if (!d.mids.any()) return true;
-    const double after = curved_around(d, node, x);
-    return after >= curved_limit || after >= curved_around(d, node, d.band.nodes[node].at);
+bool CurvedStar::stays_sound(const Vec3& x) {
+    if (elements_.empty()) return true;
+    const double after = worst(x);
+    return after >= curved_limit || after >= worst(d_.band.nodes[node_].at);
 }
+
+double curved_shape(const Deformable& d, int tetra) {
+    if (!is_second_order(d, tetra)) return 1;
+    const auto& v = d.band.tetras[tetra];
+    const auto& n = d.band.nodes;
+    return ratio({n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at}, by_ends([&](int i, int j) { return mid_side(d, v[i], v[j]); }));
+}
+
+bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) { return CurvedStar(d, node).stays_sound(x); }
 
 double curved_children(const Deformable& d, int a, int b, const Vec3& at, const Contact& tools) {
     if (!d.mids.any()) return 1;
@@ -120,14 +163,14 @@ double curved_children(const Deformable& d, int a, int b, const Vec3& at, const 
         for (const int replaced : {a, b}) {
             std::array<Vec3, 4> corner;
             for (int k = 0; k < 4; ++k) corner[k] = v[k] == replaced ? at : band.nodes[v[k]].at;
-            worst = std::min(worst, ratio(corner, [&](int i, int j) {
+            worst = std::min(worst, ratio(corner, by_ends([&](int i, int j) {
                 if (v[i] != replaced && v[j] != replaced) return mid_side(d, v[i], v[j]);
                 const int other = v[i] == replaced ? v[j] : v[i];
                 const Contact both = tools.common(d.contact[other]);
                 if (other == a) return fit(d, corner[i], corner[j], {along, both, t * t * d.mids.bulge(a, b)});
                 if (other == b) return fit(d, corner[i], corner[j], {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b)});
                 return fit(d, corner[i], corner[j], {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t)});
-            }));
+            })));
         }
     }
     return worst;
@@ -142,11 +185,11 @@ double curved_merged(const Deformable& d, int p, int t) {
         if (std::ranges::find(v, t) != v.end() || !is_second_order(d, s)) continue;
         std::array<Vec3, 4> corner;
         for (int k = 0; k < 4; ++k) corner[k] = band.nodes[v[k] == p ? t : v[k]].at;
-        worst = std::min(worst, ratio(corner, [&](int i, int j) {
+        worst = std::min(worst, ratio(corner, by_ends([&](int i, int j) {
             if (v[i] != p && v[j] != p) return mid_side(d, v[i], v[j]);
             const int other = v[i] == p ? v[j] : v[i];
             return fit(d, corner[i], corner[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero()});
-        }));
+        })));
     }
     return worst;
 }

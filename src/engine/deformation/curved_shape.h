@@ -22,14 +22,35 @@ Contact edge_tools(const Deformable& d, int a, int b);
 /// curved surface or curve of the input, or on tools, it lies on them.
 MidSide mid_side(const Deformable& d, int a, int b);
 
-/// Smallest curved_ratio() of the elements around a node, were it at `x`; 1 if they are straight, -1 if a mid-side node
-/// does not fit. Moves the node there and back.
-double curved_around(Deformable& d, int node, const Vec3& x);
+/// The second-order elements around a node of which several places are to be tried. The mid-side nodes of the edges across
+/// from it are found once; so nothing else may change meanwhile.
+class CurvedStar {
+public:
+    CurvedStar(Deformable& d, int node);
+
+    /// Smallest curved_ratio() of the elements, were the node at `x`; 1 if they are straight, -1 if a mid-side node does not
+    /// fit. Moves the node there and back.
+    double worst(const Vec3& x);
+
+    /// Whether the elements stay sound when the node moves to `x`.
+    bool stays_sound(const Vec3& x);
+
+private:
+    struct Element {
+        std::array<int, 4> corner;
+        std::array<int, 6> mid;  // places in mids_
+    };
+    Deformable& d_;
+    int node_;
+    std::vector<Element> elements_;
+    std::vector<int> spokes_;      // the far ends of the edges at the node
+    std::vector<MidSide> mids_;    // of the spokes, then of the edges across
+};
 
 /// curved_ratio() of a tetrahedron of the band as it is.
 double curved_shape(const Deformable& d, int tetra);
 
-/// Whether second-order elements around a node stay sound when it moves to `x`.
+/// CurvedStar::stays_sound() for a single place.
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x);
 
 /// Smallest curved_ratio() of the elements around the edge a-b when it is split at `at`.

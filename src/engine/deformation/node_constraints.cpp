@@ -207,6 +207,13 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         }
         // The hull of its Bezier points holds a second-order facet.
         facet.centre = (facet.corner[0] + facet.corner[1] + facet.corner[2]) / 3;
+        double bulge = 0, longest = 0;
+        for (int k = 0; k < 3; ++k) {
+            bulge = std::max(bulge, (facet.mid[k] - (facet.corner[k] + facet.corner[(k + 1) % 3]) / 2).norm());
+            longest = std::max(longest, (facet.corner[k] - facet.corner[(k + 1) % 3]).norm());
+        }
+        facet.sag = bulge * 4 / 3;
+        facet.height = (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / longest;
         for (int k = 0; k < 3; ++k) {
             const Vec3 control = 2 * facet.mid[k] - (facet.corner[k] + facet.corner[(k + 1) % 3]) / 2;
             facet.radius = std::max({facet.radius, (facet.corner[k] - facet.centre).norm(), (control - facet.centre).norm()});
@@ -395,40 +402,61 @@ bool NodeConstraints::is_on_internal(const BandMesh& band, int node) const {
     return std::ranges::any_of(band.skin.around(node), [&](int s) { return surfaces_[band.skin.tag(s)].internal; });
 }
 
-NodeConstraints::Foot NodeConstraints::foot_on(const Facet& f, const Vec3& x) {
+NodeConstraints::Foot NodeConstraints::foot_on(const Facet& f, const Vec3& x, double limit2) {
     Vec3 bary;
     Foot foot;
     foot.at = closest_on_triangle(f.corner[0], f.corner[1], f.corner[2], x, bary);
-    foot.normal = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]).normalized();
-    if (f.curved) {
-        // Closest point of the six-node face: Gauss-Newton in its parameters from the flat foot.
-        double u = bary[1], v = bary[2];
-        for (int iteration = 0; iteration < 12; ++iteration) {
-            const double w = 1 - u - v;
-            const Vec3 p = w * (2 * w - 1) * f.corner[0] + u * (2 * u - 1) * f.corner[1] + v * (2 * v - 1) * f.corner[2] +
-                           4 * w * u * f.mid[0] + 4 * u * v * f.mid[1] + 4 * v * w * f.mid[2];
-            const Vec3 pu = (1 - 4 * w) * f.corner[0] + (4 * u - 1) * f.corner[1] + 4 * (w - u) * f.mid[0] + 4 * v * (f.mid[1] - f.mid[2]);
-            const Vec3 pv = (1 - 4 * w) * f.corner[0] + (4 * v - 1) * f.corner[2] + 4 * (w - v) * f.mid[2] + 4 * u * (f.mid[1] - f.mid[0]);
-            foot.at = p;
-            foot.normal = pu.cross(pv).normalized();
-            Eigen::Matrix2d m;
-            m << pu.dot(pu), pu.dot(pv), pu.dot(pv), pv.dot(pv);
-            const Eigen::Vector2d step = m.inverse() * Eigen::Vector2d(pu.dot(x - p), pv.dot(x - p));
-            double nu = u + step[0], nv = v + step[1];
-            nu = std::clamp(nu, 0.0, 1.0);
-            nv = std::clamp(nv, 0.0, 1.0);
-            if (nu + nv > 1) {
-                const double excess = (nu + nv - 1) / 2;
-                nu = std::clamp(nu - excess, 0.0, 1.0);
-                nv = 1 - nu;
-            }
-            if (std::abs(nu - u) + std::abs(nv - v) < 1e-13) break;
-            u = nu;
-            v = nv;
-        }
-    }
     foot.distance2 = (foot.at - x).squaredNorm();
-    return foot;
+    const double limit = std::sqrt(limit2) + f.sag;
+    if (foot.distance2 >= limit * limit) {
+        foot.distance2 = std::numeric_limits<double>::infinity();
+        return foot;
+    }
+    if (!f.curved) {
+        foot.normal = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]).normalized();
+        foot.inside = bary.minCoeff();
+        return foot;
+    }
+    // Closest point of the six-node face: Newton in its parameters from the flat foot, with the sides as bounds.
+    const Vec3 &c = f.corner[0], cu = 4 * f.mid[0] - 3 * c - f.corner[1], cv = 4 * f.mid[2] - 3 * c - f.corner[2];
+    const Vec3 cuu = 2 * (c + f.corner[1] - 2 * f.mid[0]), cvv = 2 * (c + f.corner[2] - 2 * f.mid[2]), cuv = 4 * (c - f.mid[0] + f.mid[1] - f.mid[2]);
+    double u = bary[1], v = bary[2];
+    for (int iteration = 0;; ++iteration) {
+        const Vec3 pu = cu + 2 * u * cuu + v * cuv, pv = cv + 2 * v * cvv + u * cuv;
+        foot.at = c + u * (cu + u * cuu + v * cuv) + v * (cv + v * cvv);
+        const Vec3 r = x - foot.at;
+        const double gu = pu.dot(r), gv = pv.dot(r), quu = pu.squaredNorm(), quv = pu.dot(pv), qvv = pv.squaredNorm();
+        double huu = quu - 2 * r.dot(cuu), huv = quv - r.dot(cuv), hvv = qvv - 2 * r.dot(cvv);
+        double determinant = huu * hvv - huv * huv;
+        if (!(huu > 0.1 * quu && hvv > 0.1 * qvv && determinant > 0.1 * (quu * qvv - quv * quv))) {  // far away: Gauss-Newton
+            huu = quu;
+            huv = quv;
+            hvv = qvv;
+            determinant = huu * hvv - huv * huv;
+        }
+        const double w = 1 - u - v;
+        double du = (hvv * gu - huv * gv) / determinant, dv = (huu * gv - huv * gu) / determinant;
+        if (u + du < 0) {
+            du = -u;
+            dv = (gv - huv * du) / hvv;
+        }
+        if (v + dv < 0) {
+            dv = -v;
+            du = std::max(-u, (gu - huv * dv) / huu);
+        }
+        if (du + dv > w) {
+            du = std::clamp((gu - gv + (hvv - huv) * w) / (huu - 2 * huv + hvv), -u, 1 - u);
+            dv = w - du;
+        }
+        if (iteration == 12 || std::abs(du) + std::abs(dv) < 1e-13) {
+            foot.normal = pu.cross(pv).normalized();
+            foot.inside = std::min({u, v, w});
+            foot.distance2 = r.squaredNorm();
+            return foot;
+        }
+        u += du;
+        v += dv;
+    }
 }
 
 NodeConstraints::Foot NodeConstraints::foot_on(const Segment& s, const Vec3& x) {
@@ -472,10 +500,13 @@ NodeConstraints::Foot NodeConstraints::surface_foot(const NodeConstraint& c, con
     };
     for (int step = 0; step < 64; ++step) {
         const int from = best.facet;
+        // On it, or nearer than any smooth neighbour can be.
+        const double off = std::sqrt(best.distance2);
+        if (off <= 1e-14 * size_ || 2 * off < best.inside * facets_[from].height) break;
         for (int v : facets_[from].node)
             for (int f : facets_around_[v]) {
                 if (f == from || facets_[f].surface != c.shape || too_far(facets_[f])) continue;
-                Foot foot = foot_on(facets_[f], x);
+                Foot foot = foot_on(facets_[f], x, best.distance2);
                 if (foot.distance2 < best.distance2) {
                     best = foot;
                     best.facet = f;

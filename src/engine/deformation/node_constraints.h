@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <unordered_set>
 #include <vector>
@@ -129,6 +130,8 @@ private:
         std::array<Vec3, 3> mid;  // of edges 01, 12, 20
         Vec3 centre = Vec3::Zero();
         double radius = 0;  // of a ball around the centre that holds the facet
+        double sag = 0;     // at most so far is it from its flat triangle
+        double height = 0;  // smallest, of that triangle
         bool curved = false;
         std::array<int, 3> node;
         int surface = -1;
@@ -161,10 +164,12 @@ private:
         Vec3 at = Vec3::Zero();
         Vec3 normal = Vec3::Zero();  // of a surface; tangent of a curve
         double distance2 = 0;
+        double inside = 0;  // smallest barycentric coordinate on a facet
         int facet = -1;
     };
 
-    static Foot foot_on(const Facet& facet, const Vec3& x);
+    /// `distance2` is infinite if that is surely not less than `limit2`.
+    static Foot foot_on(const Facet& facet, const Vec3& x, double limit2 = std::numeric_limits<double>::infinity());
     static Foot foot_on(const Segment& segment, const Vec3& x);
     Foot surface_foot(const NodeConstraint& c, const Vec3& x) const;
     Foot curve_foot(const NodeConstraint& c, const Vec3& x) const;

@@ -293,6 +293,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
             Vec3 gradient;
             Eigen::Matrix3d hessian;
             double value = star.derivatives(node.at, doublings, gradient, hessian);
+            CurvedStar curved(d, v);
             for (int iteration = 0; iteration < 3; ++iteration) {
                 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
                 const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> g = tangent.transpose() * gradient;
@@ -309,7 +310,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
                     Vec3 x = node.at + length * step;
                     if (!d.constraints.project(v, tools, x) || d.is_barred(v, x)) continue;
                     const double tried = star.value(x, doublings);
-                    if (tried < value && keeps_curved_shape(d, v, x)) {
+                    if (tried < value && curved.stays_sound(x)) {
                         accepted = true;
                         const bool little = value - tried < 1e-3 * value;
                         node.at = x;

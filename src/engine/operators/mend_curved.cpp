@@ -58,10 +58,10 @@ private:
             }
     }
 
-    double merit(int v, const Vec3& x) {
+    double merit(CurvedStar& star, int v, const Vec3& x) {
         const double straight = quality_around(d_, v, x);
         if (!(straight > 0)) return -2;
-        return std::min(curved_around(d_, v, x) / (2 * goal), std::min(1.0, straight / 0.3));
+        return std::min(star.worst(x) / (2 * goal), std::min(1.0, straight / 0.3));
     }
 
     /// Pattern search for each corner.
@@ -69,7 +69,8 @@ private:
         const auto nodes = band_.tetras[t];
         for (const int v : nodes) {
             if (!band_.nodes[v].movable()) continue;
-            double best = merit(v, band_.nodes[v].at);
+            CurvedStar star(d_, v);
+            double best = merit(star, v, band_.nodes[v].at);
             if (best >= 1) continue;
             const double length = band_.mean_edge_length(v);
             for (double step = 0.24 * length; step > 0.02 * length; step /= 2) {
@@ -79,7 +80,7 @@ private:
                     Vec3 x = band_.nodes[v].at + (k % 2 ? -step : step) * basis.col(k / 2);
                     if (!d_.constraints.project(v, d_.contact[v], x) || d_.is_barred(v, x)) continue;
                     if ((x - band_.nodes[v].at).norm() > 2 * step) continue;
-                    const double now = merit(v, x);
+                    const double now = merit(star, v, x);
                     if (now <= best + 1e-3) continue;
                     best = now;
                     band_.nodes[v].at = x;
