@@ -78,16 +78,17 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-/// (name, method, transition, feature_angle, preserve, strict, band_only, refine), as _common_options() in operators.py makes it; refine
+/// (name, method, transition, feature_angle, preserve, strict, band_only, refine, skin), as _common_options() in operators.py makes it; refine
 /// is nothing, 0 (never) or a length.
-using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool, bool, std::optional<double>>;
+using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool, bool, std::optional<double>,
+                                 const CadShape*>;
 
 template <class Options>
 Options options(const CommonOptions& common) {
     Options out;
     std::string method;
     std::optional<double> size;
-    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only, size) = common;
+    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only, size, out.skin) = common;
     if (size) out.refine = {*size > 0 ? RefineFirst::When::to_size : RefineFirst::When::never, *size};
     out.method = method_from_name(method);
     return out;
@@ -142,7 +143,7 @@ void bind_operators(py::module_& module) {
     });
 
     module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
-                            double reach, bool relax, Index max_elements, double feature_angle, bool strict) {
+                            double reach, bool relax, Index max_elements, double feature_angle, bool strict, const CadShape* skin) {
         RefineOptions o;
         o.size = size;
         o.gradation = gradation;
@@ -151,6 +152,7 @@ void bind_operators(py::module_& module) {
         o.max_elements = max_elements;
         o.feature_angle = feature_angle;
         o.strict = strict;
+        o.skin = skin;
         std::vector<Vec3> at;
         for (py::ssize_t i = 0; i < points.size() / 3; ++i) at.emplace_back(points.data() + 3 * i);
         return run([&] { return refine(mesh, tools.empty() ? distance_to(std::move(at)) : distance_to(tools), o); });

@@ -9,6 +9,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "error.h"
+#include "tools/cad_shape.h"
 #include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/face.h"
@@ -87,6 +88,12 @@ void bind_tools(py::module_& module) {
             for (py::ssize_t i = 0; i < points.shape(0); ++i) out.mutable_at(i) = face.beyond(Eigen::Map<const Eigen::Vector3d>(points.data() + 3 * i));
             return out;
         });
+
+    py::class_<CadShape>(module, "CadShape")
+        .def(py::init([](const py::bytes& brep) { return CadShape::from_brep(brep); }))
+        .def(py::init([](const std::string& path) { return CadShape::read(path); }))
+        .def_property_readonly("face_count", &CadShape::face_count)
+        .def_property_readonly("edge_count", &CadShape::edge_count);
 
     py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
     py::class_<Disk, Within>(module, "Disk").def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }));

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <span>
 
 namespace femscalpel {
@@ -27,6 +28,12 @@ constexpr double closed_fold = 0.9999;
 
 /// Sine of the angle up to which the segments of a crack front are in line.
 constexpr double straight_front = 1e-6;
+
+/// A mesh lies on the shape it was made from to this, in sizes of the shape.
+constexpr double shape_tolerance = 1e-5;
+
+/// A triangle or segment runs along a face or edge of the shape: cosine of the angle between them.
+constexpr double along_shape = 0.5;
 
 class UnionFind {
 public:
@@ -49,6 +56,7 @@ private:
 
 NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const ConstraintOptions& options) {
     const int node_count = band.size();
+    shape_ = options.shape;
     nodes_.resize(static_cast<std::size_t>(node_count));
     exterior_.assign(static_cast<std::size_t>(node_count), 0);
     leash_.assign(static_cast<std::size_t>(node_count), std::numeric_limits<double>::infinity());
@@ -79,12 +87,19 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         bool internal;
         bool shell;
         int groups;
+        int cad;  // face of the shape it lies on
     };
     std::vector<Face> faces;
     for (const BandBoundaries::Face& f : boundaries.faces()) {
         // Faces that differ in this are never one surface.
         const int place = f.is_shell() ? 0 : f.is_skin() ? 1 : 2;
-        faces.push_back({f.nodes, (f.kind * 3 + place) * 2 + f.element, f.is_internal(), f.is_shell(), f.kind});
+        int cad = -1;
+        if (shape_ && !f.is_internal()) {
+            cad = shape_face({band.nodes[f.nodes[0]].at, band.nodes[f.nodes[1]].at, band.nodes[f.nodes[2]].at});
+            ++match_.faces;
+            match_.off += cad < 0;
+        }
+        faces.push_back({f.nodes, (f.kind * 3 + place) * 2 + f.element, f.is_internal(), f.is_shell(), f.kind, cad});
     }
     shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -130,7 +145,11 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         };
         return across(f).dot(across(g));
     };
-    const auto is_smooth = [&](std::uint64_t key, int f, int g) { return faces[f].kind == faces[g].kind && opening(key, f, g) < smooth; };
+    const auto is_smooth = [&](std::uint64_t key, int f, int g) {
+        // Between coarse triangles of one face of the shape there is a kink, but no feature line.
+        const double limit = faces[f].cad >= 0 && faces[f].cad == faces[g].cad ? 0 : smooth;
+        return faces[f].kind == faces[g].kind && opening(key, f, g) < limit;
+    };
     const auto folds_back = [&](std::uint64_t key, const auto& at_edge) {
         for (std::size_t k = 0; k < at_edge.size(); ++k)
             for (std::size_t j = 0; j < k; ++j) {
@@ -147,6 +166,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         bool border;
         int groups;
         bool fold;  // the skin comes back along itself: the front of a crack
+        bool parts_shape;  // faces of the shape meet here, or one ends
+        int shape_face;    // or all faces of the skin here lie on this one
     };
     std::vector<Crease> creases;
     const auto groups_of_line = [](int line_family) { return line_family / 2; };
@@ -164,16 +185,19 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             // A segment on a smooth surface does not part it.
             if (end - i == 2 && is_smooth(key, edges[i].second, edges[i + 1].second)) joined.unite(edges[i].second, edges[i + 1].second);
             const int k = crease_kinds.emplace(std::move(kind), static_cast<int>(crease_kinds.size())).first->second;
+            std::set<int> cads;
+            for (std::size_t e = i; e < end; ++e)
+                if (!faces[edges[e].second].internal) cads.insert(faces[edges[e].second].cad);
             creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k,
                                end - i == 1 && faces[edges[i].second].shell, line == line_family.end() ? 0 : groups_of_line(line->second),
-                               folds_back(key, std::span(edges).subspan(i, end - i))});
+                               folds_back(key, std::span(edges).subspan(i, end - i)), cads.size() > 1 || end - i == 1, cads.size() == 1 ? *cads.begin() : -1});
         }
         if (line != line_family.end()) line_family.erase(line);
         i = end;
     }
     for (const auto& [key, family] : line_family) {  // segments inside the material
         const int k = crease_kinds.emplace(std::vector<int>{family}, static_cast<int>(crease_kinds.size())).first->second;
-        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false, groups_of_line(family), false});
+        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false, groups_of_line(family), false, false, -1});
     }
 
     // 3. Surfaces.
@@ -195,6 +219,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         Facet& facet = facets_[f];
         facet.node = faces[f].nodes;
         facet.surface = surface_of[root];
+        facet.cad = faces[f].cad;
         for (int k = 0; k < 3; ++k) {
             facet.corner[k] = band.nodes[facet.node[k]].at;
             facets_around_[facet.node[k]].push_back(f);
@@ -234,6 +259,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     }
     for (const Facet& f : facets_) {
         Surface& s = surfaces_[f.surface];
+        if (f.cad >= 0 && !shape_->is_plane(f.cad)) s.flat = false;
         for (int k = 0; k < 3; ++k)
             for (const Vec3& p : {f.corner[k], f.mid[k]})
                 if (std::abs(s.normal.dot(p - s.origin)) > flat_tolerance * size_) s.flat = false;
@@ -248,11 +274,15 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         return (band.nodes[e[0] == from ? e[1] : e[0]].at - band.nodes[from].at).normalized();
     };
     UnionFind chained(static_cast<int>(creases.size()));
+    std::vector<int> crease_cad(creases.size(), -1);
+    for (std::size_t c = 0; c < creases.size() && shape_; ++c)
+        if (creases[c].parts_shape) crease_cad[c] = shape_edge(band.nodes[creases[c].nodes[0]].at, band.nodes[creases[c].nodes[1]].at);
     std::vector<char> passes(static_cast<std::size_t>(node_count), 0);
     for (int v = 0; v < node_count; ++v) {
         const auto& c = creases_at[v];
         if (c.size() != 2 || creases[c[0]].kind != creases[c[1]].kind) continue;
-        if (direction_from(c[0], v).dot(direction_from(c[1], v)) >= smooth) continue;
+        const double limit = crease_cad[c[0]] >= 0 && crease_cad[c[0]] == crease_cad[c[1]] ? 0 : smooth;
+        if (direction_from(c[0], v).dot(direction_from(c[1], v)) >= limit) continue;
         passes[v] = 1;
         chained.unite(c[0], c[1]);
     }
@@ -262,6 +292,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         const int root = chained.find(c);
         Segment& segment = segments_[c];
         segment.node = creases[c].nodes;
+        segment.cad = crease_cad[c];
+        if (segment.cad < 0 && creases[c].shape_face >= 0 && !shape_->is_plane(creases[c].shape_face)) segment.cad_face = creases[c].shape_face;
         for (int k = 0; k < 2; ++k) {
             segment.end[k] = band.nodes[segment.node[k]].at;
             segments_around_[segment.node[k]].push_back(c);
@@ -293,6 +325,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         }
     for (const Segment& s : segments_) {
         Curve& c = curves_[s.curve];
+        if ((s.cad >= 0 && !shape_->is_line(s.cad)) || s.cad_face >= 0) c.straight = false;
         for (const Vec3& p : {s.end[0], s.end[1], s.mid})
             if (c.direction.cross(p - c.origin).norm() > flat_tolerance * size_) c.straight = false;
     }
@@ -332,7 +365,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                 const double bend = away[0].cross(away[1]).norm();
                 const bool front = creases[creases_at[v][0]].fold && creases[creases_at[v][1]].fold;
                 if (front && bend > straight_front && !segments_[creases_at[v][0]].curved && !segments_[creases_at[v][1]].curved) c.freedom = NodeFreedom::fixed;
-                else if (bend > 0) leash_[v] = deepest_dent / bend * length;
+                else if (bend > 0 && segments_[creases_at[v][0]].cad < 0) leash_[v] = deepest_dent / bend * length;
             }
         } else if (!around.empty()) {
             // One closed fan of one surface; two sheets that touch in this node alone pin it.
@@ -514,6 +547,49 @@ NodeConstraints::Foot NodeConstraints::surface_foot(const NodeConstraint& c, con
             }
         if (best.facet == from) break;
     }
+    if (facets_[best.facet].cad >= 0) put_on_shape(best, shape_->on_face(facets_[best.facet].cad, x), x);
+    return best;
+}
+
+void NodeConstraints::put_on_shape(Foot& foot, const CadShape::Foot& on, const Vec3& x) const {
+    foot.at = on.at;
+    foot.normal = on.direction;
+    foot.distance2 = (on.at - x).squaredNorm();
+}
+
+int NodeConstraints::shape_face(const std::array<Vec3, 3>& corner) const {
+    const double tolerance = shape_tolerance * shape_->size();
+    std::vector<int> common = shape_->faces_at(corner[0], tolerance);
+    for (int k = 1; k < 3 && !common.empty(); ++k) {
+        const std::vector<int> here = shape_->faces_at(corner[k], tolerance);
+        std::erase_if(common, [&](int f) { return std::ranges::find(here, f) == here.end(); });
+    }
+    const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3, normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (const int f : common) {
+        const CadShape::Foot foot = shape_->on_face(f, middle);
+        const double distance = (foot.at - middle).norm();
+        if (distance >= least || std::abs(foot.direction.dot(normal)) < along_shape) continue;
+        least = distance;
+        best = f;
+    }
+    return best;
+}
+
+int NodeConstraints::shape_edge(const Vec3& a, const Vec3& b) const {
+    const double tolerance = shape_tolerance * shape_->size();
+    const std::vector<int> at_b = shape_->edges_at(b, tolerance);
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (const int e : shape_->edges_at(a, tolerance)) {
+        if (std::ranges::find(at_b, e) == at_b.end()) continue;
+        const CadShape::Foot foot = shape_->on_edge(e, (a + b) / 2);
+        const double distance = (foot.at - (a + b) / 2).norm();
+        if (distance >= least || std::abs(foot.direction.dot((b - a).normalized())) < along_shape) continue;
+        least = distance;
+        best = e;
+    }
     return best;
 }
 
@@ -546,6 +622,22 @@ NodeConstraints::Foot NodeConstraints::curve_foot(const NodeConstraint& c, const
             }
         if (best.facet == from) break;
     }
+    const Segment& segment = segments_[best.facet];
+    if (segment.cad >= 0) {
+        put_on_shape(best, shape_->on_edge(segment.cad, x), x);
+    } else if (segment.cad_face >= 0) {
+        // A line that only groups mark: the segment put on the face. The closest point of that, from the segment's.
+        const Vec3 along = segment.end[1] - segment.end[0];
+        double t = std::clamp(along.dot(best.at - segment.end[0]) / along.squaredNorm(), 0.0, 1.0);
+        for (int iteration = 0; iteration < 40; ++iteration) {
+            const CadShape::Foot on = shape_->on_face(segment.cad_face, segment.end[0] + t * along);
+            const Vec3 tangent = along - along.dot(on.direction) * on.direction;
+            put_on_shape(best, {on.at, tangent.normalized()}, x);
+            const double next = std::clamp(t + tangent.dot(x - on.at) / tangent.squaredNorm(), 0.0, 1.0);
+            if (std::abs(next - t) < 1e-15) break;
+            t = next;
+        }
+    }
     return best;
 }
 
@@ -567,7 +659,7 @@ bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec
         return foot;
     };
     const bool exact = free || (surface ? surfaces_[c.shape].flat : curves_[c.shape].straight);
-    const double accept = exact ? 1e-12 * size_ : 1e-9 * size_;
+    const double accept = exact ? 1e-12 * size_ : is_on_shape(c) ? 1e-11 * size_ : 1e-9 * size_;
     if (!tools) {
         x = foot_of(x).at;
         return true;

@@ -9,6 +9,7 @@
 
 #include "mesh/band_mesh.h"
 #include "mesh/family_table.h"
+#include "tools/cad_shape.h"
 #include "tools/contact.h"
 
 namespace femscalpel {
@@ -33,6 +34,7 @@ struct ConstraintOptions {
     std::vector<bool> drifting_groups;   ///< by group index: boundary may drift; empty = all are kept
     std::vector<bool> kept_hidden;       ///< by group index: hidden, but its boundary is kept; empty = none
     std::vector<Index> pinned;           ///< nodes (indices in the mesh, ascending) that must not move
+    const CadShape* shape = nullptr;     ///< what the mesh was made from: its skin is taken to be this, where it lies on it
 };
 
 /// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of
@@ -40,7 +42,8 @@ struct ConstraintOptions {
 ///
 /// Surfaces are the input's own triangles, taken apart at feature lines and group borders; a surface
 /// whose triangles are coplanar is treated as the exact plane. Second-order faces are followed as the
-/// curved faces they are. Curves likewise.
+/// curved faces they are. Curves likewise. Where the shape the mesh was made from is known, faces and feature lines of the skin
+/// that lie on it are followed as its faces and edges; edges between triangles of one of its faces are no feature lines.
 class NodeConstraints {
 public:
     /// Analyses `band` and fills its `skin` and `creases` (tag: surface or curve index).
@@ -85,6 +88,19 @@ public:
     /// Whether any surface or curve is not flat or straight.
     bool any_curved() const {
         return !std::ranges::all_of(surfaces_, &Surface::flat) || !std::ranges::all_of(curves_, &Curve::straight);
+    }
+
+    /// Number of faces of the skin and of shells, and of those that lie on no face of ConstraintOptions::shape.
+    struct ShapeMatch {
+        Index faces = 0;
+        Index off = 0;
+    };
+    const ShapeMatch& shape_match() const { return match_; }
+
+    /// Whether the constraint's shape at `constraint.hint` is a curved face or edge of ConstraintOptions::shape.
+    bool is_on_shape(const NodeConstraint& c) const {
+        return (c.freedom == NodeFreedom::surface && facets_[c.hint].cad >= 0 && !surfaces_[c.shape].flat) ||
+               (c.freedom == NodeFreedom::curve && (segments_[c.hint].cad >= 0 || segments_[c.hint].cad_face >= 0) && !curves_[c.shape].straight);
     }
 
     bool is_flat(int surface) const { return surfaces_[surface].flat; }
@@ -135,6 +151,7 @@ private:
         bool curved = false;
         std::array<int, 3> node;
         int surface = -1;
+        int cad = -1;  // face of shape_
     };
     struct Surface {
         bool flat = true;
@@ -152,6 +169,8 @@ private:
         bool curved = false;
         std::array<int, 2> node;
         int curve = -1;
+        int cad = -1;       // edge of shape_
+        int cad_face = -1;  // or face of shape_ it lies on
     };
     struct Curve {
         bool straight = true;
@@ -171,6 +190,10 @@ private:
     /// `distance2` is infinite if that is surely not less than `limit2`.
     static Foot foot_on(const Facet& facet, const Vec3& x, double limit2 = std::numeric_limits<double>::infinity());
     static Foot foot_on(const Segment& segment, const Vec3& x);
+    /// The face (edge) of the shape on which a triangle (segment) with these corners lies, or -1.
+    int shape_face(const std::array<Vec3, 3>& corner) const;
+    int shape_edge(const Vec3& a, const Vec3& b) const;
+    void put_on_shape(Foot& foot, const CadShape::Foot& on, const Vec3& x) const;
     Foot surface_foot(const NodeConstraint& c, const Vec3& x) const;
     Foot curve_foot(const NodeConstraint& c, const Vec3& x) const;
 
@@ -189,6 +212,8 @@ private:
     std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds
     std::unordered_set<std::uint64_t> fixed_middles_;
     double size_ = 1;  // of the band, for tolerances
+    const CadShape* shape_ = nullptr;
+    ShapeMatch match_;
 };
 
 }  // namespace femscalpel

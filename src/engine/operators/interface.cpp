@@ -147,6 +147,16 @@ void check_input_shape(Interface& f, const Mesh& mesh) {
                              name_them(poor) + ")");
 }
 
+void check_skin(Interface& f) {
+    const NodeConstraints::ShapeMatch& match = f.d.constraints.shape_match();
+    if (match.off == 0) return;
+    if (match.off == match.faces)
+        throw ToolError("skin: none of the " + std::to_string(match.faces) +
+                        " faces of the mesh's skin near the tool lies on the shape; it is not the shape the mesh was made from, or has another place or unit");
+    f.warnings.push_back(std::to_string(match.off) + " of " + std::to_string(match.faces) +
+                         " faces of the mesh's skin near the tool lie on no face of the given shape; there the skin stays what its triangles are");
+}
+
 void check_shape(const Interface& f, const Mesh& mesh) {
     const std::vector<Bad> bad = worse_than(flat, f, mesh);
     if (!bad.empty())

@@ -111,6 +111,10 @@ void split_at_fixed_middles(Interface& interface, const Blade& blade, const Mesh
 /// poor ones (mean ratio below 0.1) as a warning.
 void check_input_shape(Interface& interface, const Mesh& mesh);
 
+/// With the shape of the skin given: throws ToolError when no face of the skin in the band lies on it, counts those that do not
+/// as a warning.
+void check_skin(Interface& interface);
+
 /// Throws QualityError that names the elements when one of the band is flat or inverted.
 void check_shape(const Interface& interface, const Mesh& mesh);
 

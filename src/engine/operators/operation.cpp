@@ -375,6 +375,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     constraint_options.drifting_groups = drifting_;
     constraint_options.kept_hidden = marks_->kept;
     constraint_options.pinned = pinned();
+    constraint_options.shape = options_.skin;
     const Tool& first = *blades.front().tool;
     Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}, {}};
     f.deep_inside = std::move(removed);
@@ -386,6 +387,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
         if (!blades.front().bound) f.d.contact[v] = &first;
     }
     check_input_shape(f, mesh());
+    check_skin(f);
     if (options_.preserve) gauge_.emplace(f.d.band, mesh(), drifting_);
     for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
     watch_.lap("constraints");

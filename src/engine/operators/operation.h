@@ -44,6 +44,8 @@ struct OperatorOptions {
     double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
     /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
     std::optional<std::vector<std::string>> preserve;
+    /// The shape the mesh was made from: nodes of the skin that move or are born are put on its faces and edges.
+    const CadShape* skin = nullptr;
     bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
     /// The result's mesh is only the elements near the tool, as the whole operation would make them: same numbers,
     /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over has

@@ -206,15 +206,29 @@ public:
         for (int round = 0; round < rounds; ++round) {
             const int before = band_.size();
             if (!split_long_edges()) return false;
-            if (band_.size() == before || !options_.relax) return true;
+            if (band_.size() == before || !options_.relax) break;
             improve();
+            if (round == rounds - 1 && !split_long_edges()) return false;  // what relaxing has stretched
         }
-        return split_long_edges();  // what relaxing has stretched
+        if (options_.skin) put_on_shape();
+        return true;
     }
+
+    /// New nodes of the skin that are off the shape the mesh was made from, because elements would have been spoilt.
+    int off_shape() const { return off_shape_; }
 
     /// The middle of an edge: in the input's geometry, unless relaxing took an end of it from where it was there.
     Vec3 middle(int a, int b) const {
         return strayed_[a] || strayed_[b] ? Vec3((band_.nodes[a].at + band_.nodes[b].at) / 2) : geometry_.middle(a, b);
+    }
+
+    /// Where a mid-side node between two nodes belongs.
+    Vec3 mid_side(int a, int b) const {
+        Vec3 x = middle(a, b);
+        if (!options_.skin || (!band_.is_new(a) && !band_.is_new(b))) return x;
+        const NodeConstraint on = d_.constraints.on_edge(band_, a, b);
+        if (Vec3 put = x; d_.constraints.is_on_shape(on) && d_.constraints.project(on, {}, put) && (put - x).norm() < 0.2 * (band_.nodes[a].at - band_.nodes[b].at).norm()) x = put;
+        return x;
     }
 
 private:
@@ -293,14 +307,42 @@ private:
         Vec3 at = middle(a, b);
         if (const auto mid = band_.mid_nodes.find(edge_key(a, b)); mid != band_.mid_nodes.end()) at = mesh_.points[mid->second];
         geometry_.add_node(a, b);
+        // On the shape the mesh was made from, if that leaves sound elements.
+        bool on_shape = false;
+        if (options_.skin && d_.constraints.is_on_shape(d_.constraints.on_edge(band_, a, b)) && !d_.constraints.has_fixed_middle(a, b)) {
+            const Deformable::SplitPoint point = d_.fitted_split(a, b, at, {});
+            on_shape = point.fits && point.worst > 0.1;
+            if (on_shape) at = point.at;
+        }
         d_.split_edge(a, b, at, {});
-        strayed_.push_back(strayed_[a] || strayed_[b]);
+        strayed_.push_back(on_shape || strayed_[a] || strayed_[b]);
         distance_.push_back(target_.distance(at));
         if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_) return;
         std::ostringstream message;
         message << "size " << options_.size << " would make more than " << options_.max_elements
                 << " elements. Choose a larger size or gradation, or a larger max_elements";
         throw ToolError(message.str());
+    }
+
+    /// Brings nodes onto the shape for which there was no room when they were born.
+    void put_on_shape() {
+        bool moved = true;
+        for (int round = 0; round < 5 && moved; ++round) {
+            moved = false;
+            off_shape_ = 0;
+            for (int v = band_.original_nodes(); v < band_.size(); ++v) {
+                Vec3 x = band_.nodes[v].at;
+                if (!d_.constraints.is_on_shape(d_.constraints[v]) || d_.constraints.distance(d_.constraints[v], x) <= 1e-9 * band_.mean_edge_length(v)) continue;
+                if (!d_.constraints.project(v, {}, x) || quality_around(d_, v, x) < std::min(0.1, quality_around(d_, v, band_.nodes[v].at))) {
+                    ++off_shape_;
+                    continue;
+                }
+                band_.nodes[v].at = x;
+                distance_[v] = target_.distance(x);
+                strayed_[v] = 1;
+                moved = true;
+            }
+        }
     }
 
     /// Relaxes new nodes wherever that changes neither the geometry nor a border.
@@ -327,6 +369,7 @@ private:
     const Target& target_;
     const RefineOptions& options_;
     std::vector<double> distance_;  // by band node
+    int off_shape_ = 0;
     const bool may_grow_;           // whether a larger band may be asked for; otherwise propagation ends at the rim
     const Index count_at_start_ = band_.tetras.size() + band_.triangles.size();
     const std::unordered_set<std::uint64_t> blocked_;
@@ -429,6 +472,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     constraint_options.feature_angle = options.feature_angle;
     constraint_options.kept_hidden = marks.kept;
     constraint_options.pinned = marks.pinned;
+    constraint_options.shape = options.skin;
     // The propagation of longest edges leaves the elements to be refined by a few elements, seldom more.
     constexpr int first_band = 2, last_band = 64;
     std::optional<Interface> f;
@@ -440,6 +484,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
         f.reset();
         f.emplace(Interface{Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options), nullptr, {}, 0, {}, {}, 0, {}, {}, {}, {}});
         check_input_shape(*f, mesh);
+        check_skin(*f);
         std::vector<double> known(static_cast<std::size_t>(f->d.band.size()));
         for (int v = 0; v < f->d.band.size(); ++v) known[v] = distances[f->d.band.nodes[v].global];
         bisector.emplace(f->d, mesh, target, options, std::move(known), levels < last_band);
@@ -447,11 +492,13 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     }
     watch.lap("bisect");
 
-    f->mid_side = [&](int a, int b) { return bisector->middle(a, b); };
+    f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
     auto [output, totals] = copy.get();
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
     watch.lap("rebuild");
     report.warnings = f->warnings;
+    if (bisector->off_shape() > 0)
+        report.warnings.push_back(std::to_string(bisector->off_shape()) + " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
     report.warnings.insert(report.warnings.end(), rebuilt.warnings.begin(), rebuilt.warnings.end());
     if (input.solver_input) {
         carry_deck(mesh, rebuilt.mesh, rebuilt.changes, options.strict, report.warnings);

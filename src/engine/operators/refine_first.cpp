@@ -70,6 +70,7 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
     o.feature_angle = options.feature_angle;
     o.strict = options.strict;
+    o.skin = options.skin;
     if (!asked) o.max_elements = most_elements;
     Refined out;
     try {

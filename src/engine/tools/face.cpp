@@ -5,7 +5,6 @@
 #include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GeomLProp_SLProps.hxx>
@@ -14,7 +13,6 @@
 #include <Geom_Surface.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
-#include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -34,6 +32,7 @@
 #include <vector>
 
 #include "error.h"
+#include "tools/cad_file.h"
 
 namespace femscalpel {
 namespace {
@@ -492,42 +491,22 @@ Face::Face(std::shared_ptr<const Geometry> geometry) : geometry_(std::move(geome
 Face::~Face() = default;
 
 Face Face::read(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const std::string name = path.string();
-    if (!std::filesystem::is_regular_file(path)) throw ReadError("'" + name + "' is not a file");
-    TopoDS_Shape shape;
     try {
-        if (suffix == ".step" || suffix == ".stp") {
-            STEPControl_Reader reader;
-            if (reader.ReadFile(name.c_str()) != IFSelect_RetDone) throw ReadError("'" + name + "' is not a STEP file that OpenCASCADE can read");
-            reader.TransferRoots();
-            shape = reader.OneShape();
-        } else if (suffix == ".brep" || suffix == ".brp") {
-            BRep_Builder builder;
-            if (!BRepTools::Read(shape, name.c_str(), builder)) throw ReadError("'" + name + "' is not a BREP file that OpenCASCADE can read");
-        } else {
-            throw ReadError("'" + name + "': the suffix is '" + suffix + "'; faces are read from .step, .stp, .brep and .brp files");
-        }
-        if (shape.IsNull()) throw ReadError("'" + name + "' holds no shape");
-        return Face(std::make_shared<const Geometry>(shape));
+        return from_shape(read_cad_file(path));
     } catch (const Standard_Failure& e) {
-        throw ReadError("'" + name + "': OpenCASCADE says: " + e.GetMessageString());
+        throw ReadError("'" + path.string() + "': OpenCASCADE says: " + e.GetMessageString());
     }
 }
 
 Face Face::from_brep(const std::string& text) {
-    TopoDS_Shape shape;
     try {
-        std::istringstream stream(text);
-        BRep_Builder builder;
-        BRepTools::Read(shape, stream, builder);
-        if (shape.IsNull()) throw ToolError("face: the text is not a BREP shape");
-        return Face(std::make_shared<const Geometry>(shape));
+        return from_shape(shape_from_brep(text, "face"));
     } catch (const Standard_Failure& e) {
         throw ToolError(std::string("face: OpenCASCADE says: ") + e.GetMessageString());
     }
 }
+
+Face Face::from_shape(const TopoDS_Shape& shape) { return Face(std::make_shared<const Geometry>(shape)); }
 
 double Face::distance(const Eigen::Vector3d& x) const {
     const Geometry& g = *geometry_;

@@ -8,6 +8,8 @@
 
 #include "tools/patch.h"
 
+class TopoDS_Shape;
+
 namespace femscalpel {
 
 /// A face or a shell of a CAD model as an open surface, by OpenCASCADE. The positive side is the one its oriented
@@ -24,6 +26,9 @@ public:
 
     /// From the text of a .brep file, as FreeCAD's exportBrepToString() gives it.
     static Face from_brep(const std::string& text);
+
+    /// All faces of a shape. Throws ToolError and OpenCASCADE's Standard_Failure.
+    static Face from_shape(const TopoDS_Shape& shape);
 
     ~Face() override;
 

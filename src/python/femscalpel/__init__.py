@@ -20,6 +20,7 @@ from .meshfile import read, write
 from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Refinement, Report
+from .skin import Shape
 from .tools import Cone, Cylinder, Face, Plane, Sphere, Tool, Torus
 from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within
 
@@ -51,6 +52,7 @@ __all__ = [
     "Report",
     "Result",
     "Scalpel",
+    "Shape",
     "Sphere",
     "Tool",
     "ToolError",

@@ -9,6 +9,7 @@ import numpy as np
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
 from .report import Report
+from .skin import check_skin
 from .tools import Plane, Tool, check_tool
 from .within import Within, check_within
 
@@ -31,7 +32,7 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine) -> tuple:
+def _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin) -> tuple:
     _arguments.text(name, "name")
     if method not in METHODS:
         raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
@@ -48,7 +49,7 @@ def _common_options(name, method, transition, feature_angle, strict, preserve, b
         raise TypeError(f"strict must be True or False, not {_arguments.describe(strict)}")
     if not isinstance(band_only, bool):
         raise TypeError(f"band_only must be True or False, not {_arguments.describe(band_only)}")
-    return name, method, transition, feature_angle, preserve, strict, band_only, _refine_size(refine)
+    return name, method, transition, feature_angle, preserve, strict, band_only, _refine_size(refine), check_skin(skin)
 
 
 def _refine_size(refine) -> Optional[float]:
@@ -66,7 +67,7 @@ def _refine_size(refine) -> Optional[float]:
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None) -> Result:
+          band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin=None) -> Result:
     """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -113,6 +114,11 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         is where edges are longer than half its radius (of a crack within a part of a tool, than a quarter of that part's width); a
         plane has no radius, and method "deform" never refines of itself. A number: where edges are longer than this; of a
         crack within a part of a tool, around its front. False: never. ``result.report.refinement`` says what was done.
+    skin : Shape, path or FreeCAD shape, optional
+        The CAD shape the mesh was made from. Nodes of the skin that are born or move come to lie on its faces and edges, not on the
+        mesh's triangles, so that the skin gets better than the input's; all others stay where they are. Edges between
+        triangles of one face are no feature lines, whatever their angle. What of the skin lies on no face of the shape is kept as it is,
+        with a warning.
 
     Returns
     -------
@@ -140,7 +146,7 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result.mesh.groups["CRACK_P"].ids
     """
     return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), check_within(within)))
+                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), check_within(within)))
 
 
 def _tools(tools) -> list:
@@ -161,7 +167,7 @@ def _depth(depth) -> Optional[float]:
 
 def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
+          depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
     """Drills one or several holes.
 
     What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
@@ -179,7 +185,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
         material; with several tools also one for each hole, ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
     method : {"snap", "deform"}
         "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
-    transition, feature_angle, strict, preserve, band_only, refine
+    transition, feature_angle, strict, preserve, band_only, refine, skin
         As for :func:`crack`.
     depth : number, optional
         Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
@@ -202,7 +208,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
     >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
     >>> result.mesh.groups["HOLE_WALL"].ids
     """
-    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine),
+    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
                                       _depth(depth)))
 
 
@@ -221,7 +227,7 @@ def _walls(tool, width, other, bottom) -> tuple:
 
 def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
         name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-        preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
+        preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
     """Cuts a slot: an incision between two planes.
 
     The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself is
@@ -246,7 +252,7 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
         middle plane (of `tool` and `other`), normals out of the material, and ``name_BOTTOM``.
     method : {"snap"}
         "deform" is for a single surface only.
-    transition, feature_angle, strict, preserve, band_only, refine
+    transition, feature_angle, strict, preserve, band_only, refine, skin
         As for :func:`crack`.
 
     Returns
@@ -268,11 +274,11 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
     >>> saw.mesh.groups["CUT_BOTTOM"].ids
     """
     first, second, bottom = _walls(tool, width, other, bottom)
-    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), bottom))
+    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), bottom))
 
 
 def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
-           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False) -> Result:
+           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False, skin=None) -> Result:
     """Bisects elements near a tool until their edges are short enough.
 
     For a tool that is finer than the mesh, or for sharp stresses around it. No edge is longer afterwards than
@@ -299,7 +305,7 @@ def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: floa
         ToolError rather than a mesh of more elements: a size much too small is easily given.
     feature_angle : float
         Degrees; a skin edge sharper than this is a feature line.
-    strict : bool
+    strict, skin
         As for :func:`crack`.
 
     Returns
@@ -323,7 +329,7 @@ def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: floa
             raise TypeError(f"{name} must be True or False, not {_arguments.describe(value)}")
     return Result._wrap(_engine.refine(
         engine_mesh, tools, points, _arguments.real(size, "size"), _arguments.real(gradation, "gradation"), _arguments.real(reach, "reach"),
-        relax, _arguments.whole(max_elements, "max_elements", 1), _arguments.real(feature_angle, "feature_angle"), strict))
+        relax, _arguments.whole(max_elements, "max_elements", 1), _arguments.real(feature_angle, "feature_angle"), strict, check_skin(skin)))
 
 
 def _near(near) -> tuple:
@@ -365,20 +371,20 @@ class Scalpel:
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None) -> Result:
+              band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin=None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine),
+        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
                                                 check_within(within)))
 
     def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
+              depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
         """As :func:`femscalpel.drill`, on the session's mesh."""
-        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), _depth(depth)))
+        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), _depth(depth)))
 
     def cut(self, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
             name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-            preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None) -> Result:
+            preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
         """As :func:`femscalpel.cut`, on the session's mesh."""
         first, second, bottom = _walls(tool, width, other, bottom)
-        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine), bottom))
+        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), bottom))

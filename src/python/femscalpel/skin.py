@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The shape a mesh was made from."""
+
+import os
+
+from . import _arguments, _engine
+
+
+class Shape(_engine.CadShape):
+    """The CAD shape a mesh was made from, by OpenCASCADE, for the operators' option ``skin``.
+
+    Parameters
+    ----------
+    source : path, FreeCAD shape, or text
+        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, a ``Part.Shape``, or the text of a ``.brep`` file. It must be where the
+        mesh is, and in its unit; lengths of a STEP file are taken in millimetres.
+
+    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no face in it.
+    Give the same object to several operators: finding one's way on the shape is prepared once.
+    """
+
+    def __init__(self, source):
+        if hasattr(source, "exportBrepToString"):
+            super().__init__(source.exportBrepToString().encode())
+        elif isinstance(source, str) and "\n" in source:
+            super().__init__(source.encode())
+        elif isinstance(source, (str, os.PathLike)):
+            super().__init__(os.fspath(source))
+        else:
+            raise TypeError(f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(source)}")
+
+    def __repr__(self) -> str:
+        return f"Shape({self.face_count} faces, {self.edge_count} edges)"
+
+
+def check_skin(skin):
+    """`skin` as a Shape, or None."""
+    return skin if skin is None or isinstance(skin, Shape) else Shape(skin)
