@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
+import os
 from dataclasses import dataclass
-from typing import Iterable, Optional, Sequence, Union
+from typing import Any, Iterable, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
 from .report import Report
-from .skin import check_skin
+from .skin import Shape, check_skin
 from .tools import Plane, Tool, check_tool
 from .within import Within, check_within
 
@@ -17,6 +18,8 @@ METHODS = ("snap", "deform")
 
 #: Whether elements near the tool are bisected first: None, False or a length.
 RefineOption = Union[None, bool, float]
+#: The shape a mesh was made from: None, a Shape, or what one is made of.
+ShapeOption = Union[None, Shape, str, os.PathLike, Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +70,7 @@ def _refine_size(refine) -> Optional[float]:
 
 def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin=None) -> Result:
+          band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
     """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -167,7 +170,7 @@ def _depth(depth) -> Optional[float]:
 
 def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
           feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
+          depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
     """Drills one or several holes.
 
     What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
@@ -227,7 +230,7 @@ def _walls(tool, width, other, bottom) -> tuple:
 
 def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
         name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-        preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
+        preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
     """Cuts a slot: an incision between two planes.
 
     The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself is
@@ -278,7 +281,7 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
 
 
 def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
-           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False, skin=None) -> Result:
+           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False, skin: ShapeOption = None) -> Result:
     """Bisects elements near a tool until their edges are short enough.
 
     For a tool that is finer than the mesh, or for sharp stresses around it. No edge is longer afterwards than
@@ -371,20 +374,20 @@ class Scalpel:
 
     def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin=None) -> Result:
+              band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
         return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
                                                 check_within(within)))
 
     def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
               feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
+              depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
         """As :func:`femscalpel.drill`, on the session's mesh."""
         return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), _depth(depth)))
 
     def cut(self, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
             name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-            preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin=None) -> Result:
+            preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
         """As :func:`femscalpel.cut`, on the session's mesh."""
         first, second, bottom = _walls(tool, width, other, bottom)
         return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), bottom))
