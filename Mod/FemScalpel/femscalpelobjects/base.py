@@ -10,7 +10,7 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from .geometry import shapes_of
+from .geometry import geometry_of, shapes_of
 from .mesh_parts import nodes_around
 from .on_shape import OnShape, bookkeeping_groups
 
@@ -85,7 +85,7 @@ class MeshOperation:
         """Adds the properties an object of an older version may lack."""
         present = set(obj.PropertiesList)
         section = type(self).__name__
-        for kind, name, text in (("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"), *self.INPUTS):
+        for kind, name, text in (("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"), *self.INPUTS, KEEP_TO_SHAPE):
             if name in present:
                 continue
             obj.addProperty(kind, name, section, text)
@@ -243,6 +243,20 @@ class MeshOperation:
     __setstate__ = loads
 
 
+KEEP_TO_SHAPE = ("App::PropertyBool", "KeepToShape", "The skin is taken to be that of the geometry the mesh was made from, not the mesh's triangles: "
+                 "new and moved nodes are made on it, which makes a coarse skin better")
+
+
+def skin_of(obj):
+    """What femscalpel's operators take as `skin`: the geometry the mesh of `obj` was made from, if KeepToShape says so."""
+    if not obj.KeepToShape:
+        return None
+    geometry = geometry_of(obj)
+    if geometry is None:
+        raise ValueError("KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)")
+    return geometry.Shape
+
+
 #: Input properties of the operators that bring element faces onto a tool.
 SURFACE_INPUTS = (
     ("App::PropertyEnumeration", "Method", "snap: move and split, always succeeds; deform: only move nodes"),
@@ -272,4 +286,4 @@ def surface_options(obj, mesh):
     preserve = None if "*" in obj.PreservedGroups else [*obj.PreservedGroups, *bookkeeping_groups(mesh)]
     refine = {"Automatic": None, "Never": False, "Size": obj.RefineSize.Value}[obj.Refine]
     return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value,
-                preserve=preserve, refine=refine)
+                preserve=preserve, refine=refine, skin=skin_of(obj))

@@ -8,14 +8,18 @@ import Part
 _MARGIN = 0.05  # part of FreeCAD's tolerance that is used
 
 
+def geometry_of(obj):
+    """The object whose shape the mesh of `obj` is made from, or None."""
+    return next((part for part in (getattr(obj, name, None) for name in ("Part", "Shape")) if getattr(part, "Shape", None) is not None), None)
+
+
 def shapes_of(obj):
     """The shapes the mesh of `obj` lies on, as [(name, shape)], in global coordinates.
 
     The geometry it is made from, named "", and those faces, edges, vertices and solids of other objects, and vertices of the
     geometry, that the members of an analysis with `obj` or with a mesh it is made from refer to.
     """
-    geometry = next((part for part in (getattr(obj, name, None) for name in ("Part", "Shape"))
-                     if getattr(part, "Shape", None) is not None), None)
+    geometry = geometry_of(obj)
     found = {"": geometry.Shape} if geometry is not None else {}
     chain = [obj]
     while getattr(chain[-1], "Source", None) is not None:

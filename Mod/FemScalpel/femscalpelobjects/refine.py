@@ -3,7 +3,7 @@
 
 import femscalpel
 
-from .base import MeshOperation
+from .base import MeshOperation, skin_of
 from .mesh_parts import nodes_of_long_edges
 from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, SHAPE_DEFAULTS, SHAPE_INPUTS, SHAPES, shape_of
 
@@ -32,4 +32,4 @@ class Refine(MeshOperation):
 
     def operate(self, obj, mesh, tools):
         return femscalpel.refine(mesh, tools, obj.Size.Value, gradation=obj.Gradation, reach=obj.Reach.Value,
-                                 feature_angle=obj.FeatureAngle.Value)
+                                 feature_angle=obj.FeatureAngle.Value, skin=skin_of(obj))

@@ -94,6 +94,46 @@ class OnShape(DocumentTest):
               f"{refused} are refused on a mesh too coarse")
         self.assertLess(off + refused, 0.2 * cracks)
 
+    def test_kept_to_shape_from_the_start(self):
+        for order in ("1st", "2nd"):
+            with self.subTest(order=order):
+                shape, source = self.mesh_of("cylinder", order, 8)
+                crack = ObjectsFemScalpel.makeCrack(self.doc, source, origin=(0, 0, 14), normal=(0.4, 0.1, 1))
+                refined = ObjectsFemScalpel.makeRefine(self.doc, source, axis=(1, 0, 0), origin=(0, 0, 9), radius=2, size=3)
+                drill = ObjectsFemScalpel.makeDrill(self.doc, refined, axis=(1, 0, 0), origin=(0, 0, 9), radius=2)
+                for obj in (crack, refined, drill):
+                    self.assertFalse(obj.KeepToShape)
+                    obj.KeepToShape = True
+                self.doc.recompute()
+                before = source.FemMesh.Nodes
+                for obj in (crack, refined, drill):
+                    self.assertNotIn("Invalid", obj.State)
+                    self.assertEqual(list(obj.OffShape), [])
+                    self.assertEqual(list(obj.Warnings), [])
+                # What is new on the round side is on the cylinder, by the engine; so is the skin's volume between mesh and shape.
+                mesh = femmesh_bridge.from_femmesh(refined.FemMesh)
+                self.assertGreater(mesh.node_count, len(before))
+                cells = next(c for k, c in mesh.cells.items() if k.startswith("tetra"))
+                volume = np.einsum("ij,ij->i", np.cross(*(mesh.points[cells[:, k]] - mesh.points[cells[:, 0]] for k in (1, 2))),
+                                   mesh.points[cells[:, 3]] - mesh.points[cells[:, 0]]).sum() / 6
+                self.assertLess(volume, shape.Volume)
+                plain = ObjectsFemScalpel.makeRefine(self.doc, source, axis=(1, 0, 0), origin=(0, 0, 9), radius=2, size=3)
+                self.doc.recompute()
+                self.assertEqual(plain.GroupReport[0].split()[0], refined.GroupReport[0].split()[0])
+                for obj in (drill, refined, crack, plain, source):
+                    self.doc.removeObject(obj.Name)
+                self.doc.removeObject("Geometry")
+
+    def test_kept_to_shape_needs_a_shape(self):
+        mesh = self.doc.addObject("Fem::FemMeshObject", "Alone")
+        box = fs.Mesh([(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)], {"tetra": [(0, 1, 2, 3)]})
+        mesh.FemMesh = femmesh_bridge.to_femmesh(box)
+        crack = ObjectsFemScalpel.makeCrack(self.doc, mesh, origin=(2, 0, 0), normal=(1, 0, 0))
+        crack.KeepToShape = True
+        self.doc.recompute()
+        self.assertIn("Invalid", crack.State)
+        self.assertIn("KeepToShape", crack.getStatusString())
+
     def check(self, shape, crack):
         femmesh = crack.FemMesh
         lips = [set(femmesh.getGroupElements(g)) for g in femmesh.Groups if femmesh.getGroupName(g) in ("CRACK_P", "CRACK_N")
