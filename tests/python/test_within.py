@@ -167,6 +167,19 @@ def test_a_crack_through_a_crack_leaves_it_its_area_and_front(mesh, shape):
             assert shape != "disk" or np.abs(np.linalg.norm(old - CENTER, axis=1) - 1.4).max() < 1e-9
 
 
+def test_a_crack_through_a_crack_of_second_order():
+    mesh = quadratic(grid_box((11, 9, 8), (6, 5, 4)))
+    random = np.random.default_rng(1)
+    for within in (fs.Disk(CENTER, 1.4), None):
+        for _ in range(4):
+            normals = random.normal(size=(2, 3))
+            first = fs.crack(mesh, fs.Plane(CENTER, normals[0]), within=within, name="A")
+            second = fs.crack(first.mesh, fs.Plane(CENTER + random.uniform(-0.3, 0.3, 3), normals[1]), name="B")
+            measures = [{g.name: g.measure_after for g in r.report.groups} for r in (first, second)]
+            for side in "PN":
+                assert measures[1]["A_" + side] == pytest.approx(measures[0]["A_" + side], rel=1e-7 if within else 1e-12)
+
+
 def test_every_face_of_a_crack_can_open(mesh):
     random = np.random.default_rng(5)
     for _ in range(40):

@@ -364,7 +364,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                 }
                 const double bend = away[0].cross(away[1]).norm();
                 const bool front = creases[creases_at[v][0]].fold && creases[creases_at[v][1]].fold;
-                if (front && bend > straight_front && !segments_[creases_at[v][0]].curved && !segments_[creases_at[v][1]].curved) c.freedom = NodeFreedom::fixed;
+                if (front && bend > straight_front) c.freedom = NodeFreedom::fixed;
                 else if (bend > 0 && segments_[creases_at[v][0]].cad < 0) leash_[v] = deepest_dent / bend * length;
             }
         } else if (!around.empty()) {
