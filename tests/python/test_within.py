@@ -119,6 +119,16 @@ def test_squares_however_they_lie(mesh):
             assert lip(result, "P")[1] == pytest.approx(2.2 ** 2, rel=1e-9)
 
 
+@pytest.mark.parametrize("width", [0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2])
+def test_squares_in_line_with_the_mesh(mesh, width):
+    # Their corners fall on nodes and edges of the mesh, as it is or refined.
+    corners = [CENTER + (a * width / 2, b * width / 2, 0) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    for refine in (False, None):
+        result = fs.crack(mesh, fs.Plane(CENTER, (0, 0, 1)), within=fs.Polygon(corners), refine=refine)
+        check(result)
+        assert lip(result, "P")[1] == pytest.approx(width ** 2, rel=1e-9)
+
+
 def test_part_of_a_cylinder(mesh):
     cylinder = fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 1.5)
     result = fs.crack(mesh, cylinder, within=fs.CylinderPart((1, 3), (-20, 100), (1, 0, 0)))

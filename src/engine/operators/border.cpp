@@ -225,7 +225,8 @@ private:
         Contact tools = Contact(f_.tool).with(patch_.sides[corner.sides[0]].get()).with(patch_.sides[corner.sides[1]].get());
         const auto seat = [&](int v, double enough) {
             Vec3 target = corner.at;
-            if (d_.contact[v].count() > 1 || !d_.contact[v].has(f_.tool)) return false;
+            // A node born in the corner itself is on its sides already; one of another corner is not for this one.
+            if (!tools.includes(d_.contact[v]) || d_.contact[v].full() || !d_.contact[v].has(f_.tool)) return false;
             if (!d_.constraints.project(v, tools, target) || (target - corner.at).norm() > 10 * f_.tolerance) return false;
             return move(v, target, tools, std::numeric_limits<double>::infinity(), enough);
         };
