@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Time and memory of the reference crack of the design: two glued boxes, plane normal (0.9, 0.3, 0.2) through
-// (7.3, 5, 5), at 39 k, 505 k and (after `cmake --build ... --target femscalpel_large_mesh`) 2.5 M tetrahedra.
+// (7.3, 5, 5), at 39 k, 505 k and (after `cmake --build ... --target femscalpel_large_mesh`) 2.5 M tetrahedra;
+// and of the reference holes.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -15,6 +16,7 @@
 #include "io/io.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
+#include "reference_holes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
 
@@ -116,6 +118,22 @@ void BM_refine(benchmark::State& state, const std::string& name) {
     state.counters["new_elements"] = static_cast<double>(last.elements_added);
 }
 
+/// A reference hole, with the refinement that comes first where it is finer than the mesh. Deviations of the removed volume
+/// from the cylinder's are in per cent, distances in the mesh's unit.
+void BM_drill(benchmark::State& state, const std::string& name, const checks::ReferenceHole& hole) {
+    const auto mesh = mesh_of(name);
+    const Cylinder cylinder(hole.origin, hole.axis, hole.radius);
+    const Tool* tool = &cylinder;
+    Result last;
+    for (auto _ : state) last = drill(*mesh, {&tool, 1});
+    const checks::HoleMeasures m = checks::measure(hole, *mesh, last.mesh);
+    report(state, *mesh, last.report);
+    state.counters["volume_%"] = 100 * m.volume_error;
+    state.counters["off_wall"] = m.off_wall;
+    state.counters["off_border"] = m.off_border;
+    state.counters["refined_to"] = last.report.refinement ? last.report.refinement->size : 0;
+}
+
 /// The reference mesh with so many more overlapping groups. Every other one holds the whole middle of the model,
 /// so that each element near the crack is in half of them; the rest are random boxes elsewhere. All borders are
 /// away from the crack: only the number of groups differs, not the geometry to be kept.
@@ -152,6 +170,8 @@ int main(int argc, char** argv) {
         benchmark::RegisterBenchmark((std::string("refine/") + name).c_str(), BM_refine, name)->Unit(benchmark::kMillisecond);
         benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)->Unit(benchmark::kMillisecond);
         benchmark::RegisterBenchmark((std::string("preview/") + name).c_str(), BM_preview, name)->Unit(benchmark::kMillisecond);
+        for (const checks::ReferenceHole& hole : checks::reference_holes)
+            benchmark::RegisterBenchmark(("drill/" + std::string(name) + "/" + hole.name).c_str(), BM_drill, name, hole)->Unit(benchmark::kMillisecond);
     }
     benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)->Arg(5)->Arg(500)->Unit(benchmark::kMillisecond);
     benchmark::Initialize(&argc, argv);
