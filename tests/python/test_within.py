@@ -177,6 +177,36 @@ def test_a_crack_through_a_crack_leaves_it_its_area_and_front(mesh, shape):
             assert shape != "disk" or np.abs(np.linalg.norm(old - CENTER, axis=1) - 1.4).max() < 1e-9
 
 
+def test_two_cracks_across_make_four_pieces(mesh):
+    first = fs.crack(mesh, fs.Plane(CENTER, (0, 0.1, 1)), name="A")
+    second = fs.crack(first.mesh, fs.Plane(CENTER, (1, 0.2, 0.1)), name="B")
+    cells = second.mesh.cells["tetra"]
+    piece = np.arange(second.mesh.node_count)  # smallest node index known to be in the same piece
+    while True:
+        lowest = piece[cells].min(axis=1)
+        before = piece.copy()
+        for k in range(4):
+            np.minimum.at(piece, cells[:, k], lowest)
+        if (before == piece).all():
+            break
+    assert len(set(piece[np.unique(cells)].tolist())) == 4
+    # Along the line where they cross, each piece has nodes of its own, from end to end.
+    direction = np.cross((0, 0.1, 1), (1, 0.2, 0.1))
+    direction /= np.linalg.norm(direction)
+    on_line = np.flatnonzero(np.linalg.norm(np.cross(second.mesh.points - CENTER, direction), axis=1) < 1e-9)
+    along = (second.mesh.points[on_line] - CENTER) @ direction
+    for number in set(piece[on_line].tolist()):
+        mine = np.sort(along[piece[on_line] == number])
+        assert len(mine) > 8 and mine[0] == pytest.approx(along.min(), abs=1e-9) and mine[-1] == pytest.approx(along.max(), abs=1e-9)
+    assert len(set(piece[on_line].tolist())) == 4
+    # What is on the two lips of the first crack need not match any more, and that is told.
+    points = [{tuple(np.round(p, 9)) for p in lip(second, side, "A")[0].reshape(-1, 3)} for side in "PN"]
+    unmatched = len(points[0] ^ points[1])
+    told = [w for w in second.report.warnings if "no longer match node for node" in w]
+    assert len(told) == (unmatched > 0) and (not told or f"({unmatched} nodes)" in told[0])
+    assert not [w for w in first.report.warnings if "node for node" in w]
+
+
 def test_a_crack_through_a_crack_of_second_order():
     mesh = quadratic(grid_box((11, 9, 8), (6, 5, 4)))
     random = np.random.default_rng(1)

@@ -26,6 +26,10 @@ struct CrackOptions : OperatorOptions {
 ///
 /// A Face whose border lies inside the material, or a part of its border does, is a crack within that border: the front lies on it.
 ///
+/// Cracks that the mesh has already stay as they are: their lips are skin, kept flat and whole, the nodes of their bent fronts stay
+/// in place. Where the new crack crosses one, the material comes apart into as many parts as meet there, each with nodes of its own;
+/// the two lips of the old crack need not match node for node there any more, which makes a warning.
+///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
 /// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -128,6 +129,38 @@ void warn_of_grazing(Interface& f, const Tool& tool) {
     if (near > 0)
         f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
                              std::to_string(near) + " node(s): the layer between them is that thin");
+}
+
+/// Surfaces that lie on each other, such as the lips of a crack that the mesh had already, are worked on each for itself: their nodes
+/// may part.
+void warn_of_parted_lips(Interface& f) {
+    const BandMesh& band = f.d.band;
+    const auto key = [](const Vec3& x) { return std::array{x[0], x[1], x[2]}; };
+    // Nodes of the skin that lay on each other, and new ones between them.
+    std::map<std::array<double, 3>, std::vector<int>> places;
+    for (int v = 0; v < band.original_nodes(); ++v)
+        if (!band.skin.around(v).empty()) places[key(band.nodes[v].start)].push_back(v);
+    std::vector<char> twin(static_cast<std::size_t>(band.size()), 0);
+    bool any = false;
+    for (const auto& [place, nodes] : places)
+        for (const int v : nodes) any = (twin[v] = nodes.size() > 1) || any;
+    if (!any) return;
+    for (int v = band.original_nodes(); v < band.size(); ++v) {
+        const BandMesh::Birth& birth = band.births[v - band.original_nodes()];
+        twin[v] = twin[birth.a] && twin[birth.b] && band.in_use(v) && !band.skin.around(v).empty();
+    }
+    std::vector<Vec3> at;
+    for (int v = 0; v < band.size(); ++v)
+        if (twin[v] && band.in_use(v)) at.push_back(band.nodes[v].at);
+    std::ranges::sort(at, {}, key);
+    int alone = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        const auto near = [&](std::size_t j) { return j < at.size() && (at[j] - at[k]).norm() <= 10 * f.tolerance; };
+        alone += !near(k - 1) && !near(k + 1);
+    }
+    if (alone > 0)
+        f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (the lips of an earlier crack) keep their shape, but no longer match node for node (" +
+                             std::to_string(alone) + " nodes): what joins coincident nodes there has to be made anew");
 }
 
 void count_constraints(const Interface& f, const std::vector<Blade>& blades, Report& report) {
@@ -408,6 +441,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     find_node_sets(f);
     add_moved_nodes(f);
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
+    warn_of_parted_lips(f);
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());

@@ -76,7 +76,9 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
     nodes on it. The lips are coincident; the original nodes stay with the negative side. Only elements near the
     tool change: everything else keeps its number, its coordinates bit for bit and its groups. Every group of
-    the input is in the result. `mesh` itself is not changed.
+    the input is in the result. `mesh` itself is not changed. It may have cracks already, also across the new one: their lips are
+    skin like any other, and where cracks cross, every piece of the material has nodes of its own. The lips of the older crack keep
+    their plane and area, but need not match node for node there any more; the report warns of that.
 
     Parameters
     ----------
