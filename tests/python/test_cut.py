@@ -71,8 +71,18 @@ PLANE = fs.Plane((3.1, 0, 0), (1, 0, 0))
     ({"width": 1, "tool": fs.Cylinder((0, 0, 0), (0, 0, 1), 1)}, TypeError, "must be a femscalpel.Plane"),
     ({"width": 1, "bottom": 3}, TypeError, "bottom must be a tool"),
     ({"width": 1, "tool": fs.Plane((50, 0, 0), (1, 0, 0))}, fs.ToolError, "misses"),
+    ({"width": 20}, fs.ToolError, "the plane would remove the whole mesh: all of it lies inside"),
     ({"width": 1, "method": "deform"}, fs.ToolError, "single surface"),
 ])
 def test_bad_arguments(kwargs, error, message):
     with pytest.raises(error, match=message):
         fs.cut(**{"mesh": box_with_groups(), "tool": PLANE, **kwargs})
+
+
+def test_a_slot_over_the_end_takes_the_end():
+    mesh = box_with_groups()
+    result = fs.cut(mesh, fs.Plane((6, 0, 0), (1, 0, 0)), width=1)
+    volume = {g.name: g.measure_after for g in result.report.groups}
+    assert volume["RIGHT"] == pytest.approx(50, rel=1e-12) and volume["LEFT"] == pytest.approx(60, rel=1e-12)
+    assert any("the wall P (plane) lies beyond the part" in w for w in result.report.warnings)
+    assert "CUT_N" in result.mesh.groups

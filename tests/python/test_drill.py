@@ -109,10 +109,55 @@ def test_session_gives_the_same():
     ({"depth": "2"}, TypeError, "depth must be a number"),
     ({"depth": -2}, fs.ToolError, "depth is -2; it must be positive"),
     ({"depth": 2, "tools": fs.Plane((3, 0, 0), (1, 0, 0))}, fs.ToolError, "depth is for cylinders"),
-    ({"tools": fs.Cylinder((0, 0, 0), (0, 0, 1), 99)}, fs.ToolError, "misses|whole mesh"),
+    ({"tools": fs.Cylinder((0, 0, 0), (0, 0, 1), 99)}, fs.ToolError, "would remove the whole mesh: all of it lies inside"),
+    ({"tools": [fs.Cylinder((1.5, 2.5, 0), (0, 0, 1), 3.5), fs.Cylinder((4.5, 2.5, 0), (0, 0, 1), 3.5)]}, fs.ToolError, "would remove the whole mesh"),
+    ({"tools": fs.Cylinder((3, 2.5, 0), (0, 0, 1), 9), "depth": 9}, fs.ToolError, "would remove the whole mesh"),
+    ({"tools": fs.Cylinder((3, 2.5, -5), (0, 0, 1), 1), "depth": 2}, fs.ToolError, "Move that part into the material"),
+    ({"tools": fs.Cylinder((-1, 2.5, 0), (0, 0, 1), 1)}, fs.ToolError, "removes nothing"),
     ({"tools": fs.Cylinder((50, 0, 0), (0, 0, 1), 1)}, fs.ToolError, "misses"),
     ({"name": "A_NAME_FAR_TOO_LONG_FOR_CODE_ASTER"}, fs.ToolError, "24"),
 ])
 def test_bad_arguments(kwargs, error, message):
     with pytest.raises(error, match=message):
         fs.drill(**{"mesh": box_with_groups(), "tools": HOLE, **kwargs})
+
+
+def test_a_hole_deeper_than_the_part_goes_through():
+    mesh, hole = box_with_groups(), fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 1.2)
+    through, deep = fs.drill(mesh, hole), fs.drill(mesh, hole, depth=9)
+    assert deep.mesh.points.tobytes() == through.mesh.points.tobytes() and "HOLE_BOTTOM" not in deep.mesh.groups
+    assert any("BOTTOM (plane) lies beyond the part" in w for w in deep.report.warnings)
+
+
+def test_a_tool_that_takes_a_whole_group_says_which():
+    result = fs.drill(box_with_groups(), fs.Cylinder((0, 2.5, 0), (0, 0, 1), 4))
+    left, right = (next(g for g in result.report.groups if g.name == name) for name in ("LEFT", "RIGHT"))
+    assert left.status == "became empty" and left.count_after == 0 and left.measure_after == 0 < right.measure_after < 60
+    assert any("group 'LEFT' loses all its 360 member(s)" in w for w in result.report.warnings)
+    assert len(result.mesh.groups["LEFT"].ids) == 0
+
+
+@pytest.mark.parametrize("radius", [0.6, 1.0])
+@pytest.mark.parametrize("place", ["skin", "border from the left", "border from the right"])
+def test_tangent_tools(radius, place):
+    """Tangent to the skin or to the border of a group: nothing of the neighbour goes, the border stays, and there is a warning."""
+    x = {"skin": radius, "border from the left": 3 - radius, "border from the right": 3 + radius}[place]
+    result = fs.drill(box_with_groups(), fs.Cylinder((x, 2.5, 0), (0, 0, 1), radius))
+    result.mesh.validate()
+    assert result.report.quality.after.minimum > 0.3
+    assert tetra_volumes(result.mesh.points, result.mesh.cells["tetra"]).min() > 0
+    assert any("at 0 degrees" in w for w in result.report.warnings)
+    measure = {g.name: g.measure_after for g in result.report.groups}
+    assert measure["LEFT" if x > 3 else "RIGHT"] == pytest.approx(60, rel=1e-12)
+    assert measure["RIGHT" if x > 3 else "LEFT"] == pytest.approx(60 - 4 * np.pi * radius ** 2, abs=0.12 * np.pi * radius ** 2)  # chords: 3 %
+
+
+@pytest.mark.parametrize("gap", [1e-7, 0.01])
+def test_a_wall_left_too_thin(gap):
+    """A layer thinner than elements can be is a good mesh or an error that says so."""
+    try:
+        result = fs.drill(box_with_groups(), fs.Cylinder((1 + gap, 2.5, 0), (0, 0, 1), 1))
+    except fs.ToolError as error:
+        assert "only a thin layer of material" in str(error)
+    else:
+        assert tetra_volumes(result.mesh.points, result.mesh.cells["tetra"]).min() > 0 and result.report.warnings

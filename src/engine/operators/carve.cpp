@@ -65,7 +65,8 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
                 if (body.depth(middle) >= -std::min(deepest_bulge * radius, longest / (8 * radius))) continue;
                 std::ostringstream message;
                 message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius " << radius << " near (" << middle.transpose()
-                        << "): elements would reach deep into it. Refine the mesh there first, to edges of at most " << radius;
+                        << "): elements would reach deep into it. Refine the mesh there first, to edges of at most " << radius
+                        << ", or less where the tool would leave only a thin layer of material";
                 throw ToolError(message.str());
             }
         };
@@ -81,6 +82,22 @@ Index solid_count(const Mesh& mesh) {
     return count;
 }
 
+/// The bodies without walls that the whole mesh lies behind, such as the bottom of a hole that is deeper than the part: these bound
+/// nothing. Throws ToolError when a body has no other walls.
+std::vector<Body> without_idle_walls(const Mesh& mesh, std::span<const Body> bodies, std::vector<std::string>& warnings) {
+    std::vector<Body> out(bodies.begin(), bodies.end());
+    for (Body& body : out) {
+        const Body all = body;
+        std::erase_if(body.walls, [&](const Body::Wall& w) { return std::ranges::all_of(mesh.points, [&](const Vec3& x) { return w.tool->distance(x) <= 0; }); });
+        if (body.walls.empty())
+            throw ToolError("the " + all.walls.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
+        for (const Body::Wall& w : all.walls)
+            if (std::ranges::none_of(body.walls, [&](const Body::Wall& left) { return left.tool == w.tool; }))
+                warnings.push_back("the wall " + w.suffixes.front().substr(1) + " (" + w.tool->kind() + ") lies beyond the part: what is removed reaches right through there");
+    }
+    return out;
+}
+
 }  // namespace
 
 double Body::depth(const Vec3& x) const {
@@ -93,6 +110,9 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
              const Prepared& prepared) {
     if (const auto refined = refine_first(input, zones_of(bodies, options.refine), options, prepared))
         return carve(kind, refined->mesh_of(input), bodies, options, sets, refined->prepared(prepared));
+    std::vector<std::string> warnings;
+    const std::vector<Body> cutting = without_idle_walls(input, bodies, warnings);
+    bodies = cutting;
     std::vector<Blade> blades;
     std::vector<const Tool*> tool_of_tag;
     std::vector<std::function<double(const Vec3&)>> depths;
@@ -116,6 +136,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
         throw ToolError("method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and several holes");
     Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()});
     Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) { return deep_inside(whole, level, depths); });
+    f.warnings.insert(f.warnings.end(), warnings.begin(), warnings.end());
     const Mesh& mesh = operation.mesh();
     const auto carve_once = [&](Interface& g) {
         Index removed = static_cast<Index>(g.deep_inside.size());
@@ -142,7 +163,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             return false;
         }();
         if (!left && removed >= solid_count(operation.whole()))
-            throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: it is larger than the part");
+            throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
         release_all_but_walls(g, tool_of_tag);
         if (options.method == Method::snap) relax_band(g);
     };

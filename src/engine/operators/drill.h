@@ -13,7 +13,7 @@ struct DrillOptions : OperatorOptions {
     DrillOptions() { name = "HOLE"; }  // new groups: NAME_WALL, NAME_BOTTOM
 
     /// Blind holes: how far they go from each cylinder's origin along its axis; the bottom is flat. Through holes when
-    /// absent.
+    /// absent, and, with a warning, where the bottom would lie beyond the part.
     std::optional<double> depth;
 };
 

@@ -194,7 +194,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
         As for :func:`crack`.
     depth : number, optional
         Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
-        along its axis. Through holes when not given.
+        along its axis. Through holes when not given, and, with a warning, where that is beyond the part.
 
     Returns
     -------
