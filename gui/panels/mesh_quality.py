@@ -38,14 +38,14 @@ class MeshQualityPanel(ViewPanel):
             self.panel.measure.addItem(title, name)
         self.histogram = Histogram()
         self.panel.histogramLayout.addWidget(self.histogram)
-        self.panel.limit.setValue(preferences.quality_threshold())
+        self._set_limit()
         self.panel.worst.setColumnCount(3)
         self.panel.worst.setHorizontalHeaderLabels(
             [translate("FemScalpel", "Element"), translate("FemScalpel", "Type"), translate("FemScalpel", "Value")])
         self.panel.worst.verticalHeader().hide()
         self.panel.worst.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
         self.panel.worst.horizontalHeader().setStretchLastSection(True)
-        self.panel.measure.currentIndexChanged.connect(lambda *_: self._measure())
+        self.panel.measure.currentIndexChanged.connect(lambda *_: (self._set_limit(), self._measure()))
         self.panel.onlyBad.toggled.connect(lambda *_: self._draw())
         self.panel.limit.valueChanged.connect(lambda *_: self._draw())
         self.panel.worst.itemSelectionChanged.connect(self._zoom)
@@ -65,6 +65,17 @@ class MeshQualityPanel(ViewPanel):
 
     def _chosen(self):
         return MEASURES[max(self.panel.measure.currentIndex(), 0)]
+
+    def _set_limit(self):
+        """The user's threshold, in the unit of the measure."""
+        _, _, regular, unit = self._chosen()
+        limit = self.panel.limit
+        blocked = limit.blockSignals(True)
+        limit.setRange(-regular, regular)
+        limit.setSuffix(unit)
+        limit.setSingleStep(regular / 20)
+        limit.setValue(preferences.quality_threshold() * regular)
+        limit.blockSignals(blocked)
 
     def _measure(self):
         if self.source is None:
@@ -133,7 +144,7 @@ class MeshQualityPanel(ViewPanel):
         edges, _ = mesh_faces.face_edges(shape.faces)
         lines = shape.points[mesh_faces.unique_edges(edges, len(shape.points))]
         outline = GroupShape(shape.points, shape.faces[:0], lines, np.empty((0, 3), np.float32))
-        self.scene.label.show((low + high) / 2, f"  {number}: {self.panel.worst.item(rows[0].row(), 2).text()}")
+        self.scene.label.show((low + high) / 2, f"{number}: {self.panel.worst.item(rows[0].row(), 2).text()}")
         if not self.panel.onlyBad.isChecked():
             # It may lie inside the part.
             self.panel.limit.setValue(self.values[self.source.cells.find(np.array([number]))][0] + 1e-3)

@@ -45,8 +45,9 @@ class ToolPanel(ViewPanel):
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
             box.setWindowIcon(QtGui.QIcon(icon(name)))
 
-        self.scene = preview_scene.PreviewScene(self.view)
+        # The handles first: the label of the worst element is drawn over them.
         self.geometry.add_handles(self.view)
+        self.scene = preview_scene.PreviewScene(self.view)
         self.geometry.changed.connect(self.update)
         self.geometry.picking_changed.connect(self._picking)
         self._status(translate("FemScalpel", "Reading the mesh…"))

@@ -22,6 +22,7 @@ REMOVED = (0.90, 0.30, 0.20)
 BORDER = (0.05, 0.15, 0.45)
 HIGHLIGHT = (1.0, 0.80, 0.0)
 TOOL = (0.25, 0.55, 0.85)
+GRIP = (0.10, 0.62, 0.25)
 
 
 def quality_rgb(ratio):

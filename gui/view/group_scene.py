@@ -5,7 +5,8 @@ import numpy as np
 from pivy import coin
 
 from . import colours
-from .nodes import FaceNode, LabelNode, LineNode, PointNode
+from .label import LabelNode
+from .nodes import FaceNode, LineNode, PointNode
 
 NAME = "FemScalpelInspector"
 
@@ -29,7 +30,7 @@ class GroupScene:
         self.root.addChild(self._shapes)
         self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.75)
         self.root.addChild(self.ghost.root)
-        self.label = LabelNode("FemScalpelLabel", (0, 0, 0))
+        self.label = LabelNode("FemScalpelLabel")
         self.root.addChild(self.label.root)
         view.getSceneGraph().addChild(self.root)
 

@@ -5,8 +5,8 @@ import FreeCAD
 import numpy as np
 from pivy import coin
 
-from .colours import HIGHLIGHT, TOOL
-from .nodes import PointNode, material, two_sided
+from .colours import GRIP, HIGHLIGHT, TOOL
+from .nodes import PointNode, material, paint, style, two_sided
 
 NAME = "FemScalpelHandles"
 _Z = FreeCAD.Vector(0, 0, 1)
@@ -14,6 +14,87 @@ _Z = FreeCAD.Vector(0, 0, 1)
 
 def _sb_rotation(rotation):
     return coin.SbRotation(*rotation.Q)
+
+
+def _turned(start, end):
+    """A node that turns the direction `start` to `end`."""
+    node = coin.SoRotation()
+    node.rotation.setValue(_sb_rotation(FreeCAD.Rotation(FreeCAD.Vector(*start), FreeCAD.Vector(*end))))
+    return node
+
+
+def _line(*points):
+    line = coin.SoSeparator()
+    coordinates = coin.SoCoordinate3()
+    coordinates.point.setValues(0, len(points), points)
+    line.addChild(coordinates)
+    line.addChild(coin.SoLineSet())
+    return line
+
+
+def _unpickable():
+    pick = coin.SoPickStyle()
+    pick.style = coin.SoPickStyle.UNPICKABLE
+    return pick
+
+
+def _grip(shape):
+    """Something to grab that is not seen: thin lines are hard to hit."""
+    grip = coin.SoSeparator()
+    unseen = coin.SoDrawStyle()
+    unseen.style = coin.SoDrawStyle.INVISIBLE
+    grip.addChild(unseen)
+    grip.addChild(shape)
+    return grip
+
+
+def _arrow(direction, start, end):
+    """A thin arrow along a direction of x, y; `start` and `end` are distances from the middle, the head is 0.3 long."""
+    arrow = coin.SoSeparator()
+    arrow.addChild(_turned((0, 1, 0), direction))
+    shaft = coin.SoSeparator()
+    shaft.addChild(_unpickable())
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    shaft.addChild(light)
+    shaft.addChild(style(2.0))
+    shaft.addChild(_line((0, start, 0), (0, end - 0.3, 0)))
+    arrow.addChild(shaft)
+    place = coin.SoTranslation()
+    place.translation.setValue(0, end - 0.15, 0)
+    head = coin.SoCone()
+    head.bottomRadius, head.height = 0.11, 0.3
+    grip = coin.SoCylinder()
+    grip.radius, grip.height = 0.14, end - start
+    beside = coin.SoTranslation()
+    beside.translation.setValue(0, (start + end) / 2 - (end - 0.15), 0)
+    for node in (place, head, beside, _grip(grip)):
+        arrow.addChild(node)
+    return arrow
+
+
+def _arrows(rgb, *arrows):
+    """Arrows (direction, start, end) of one colour."""
+    node = coin.SoSeparator()
+    node.addChild(material(rgb))
+    for arrow in arrows:
+        node.addChild(_arrow(*arrow))
+    return node
+
+
+def _ball(rgb):
+    """Three thin great circles of radius 1, to be grabbed anywhere within."""
+    node = coin.SoSeparator()
+    rings = coin.SoSeparator()
+    rings.addChild(_unpickable())
+    paint(rings, rgb, style(1.5))
+    angles = np.linspace(0, 2 * np.pi, 49)
+    zero, c, s = np.zeros_like(angles), np.cos(angles), np.sin(angles)
+    for ring in ((c, s, zero), (zero, c, s), (s, zero, c)):
+        rings.addChild(_line(*np.stack(ring, axis=1).tolist()))
+    node.addChild(rings)
+    node.addChild(_grip(coin.SoSphere()))
+    return node
 
 
 class Handles:
@@ -29,10 +110,10 @@ class Handles:
         self.root = coin.SoSeparator()
         self._place = coin.SoTransform()
         self.root.addChild(self._place)
-        self._tool_switch = coin.SoSwitch()
-        self._tool_switch.whichChild = 0
-        self._tool_switch.addChild(self._tool_shape())
-        self.root.addChild(self._tool_switch)
+        pane = coin.SoSeparator()
+        pane.addChild(_unpickable())
+        self._add_tool_shape(pane)
+        self.root.addChild(pane)
         self._draggers, self._callbacks, self._lengths = [], [], {}
         # In front of everything: they would be out of reach inside the part.
         self._front = coin.SoAnnotation()
@@ -78,9 +159,15 @@ class Handles:
         """The Coin dragger "move", "tilt", ... for tests."""
         return next(d for n, d in self._draggers if n == name)
 
-    def _add(self, name, dragger, length, before=()):
-        """Adds a dragger that reaches `length` from its place."""
+    def _add(self, name, dragger, length, look, before=()):
+        """Adds a dragger that reaches `length` from its place; look(rgb) makes what is seen of it, 1 for `length`."""
         self._lengths[name] = length
+        part = "rotator" if name == "tilt" else "translator"
+        dragger.setPart(part, look(GRIP))
+        dragger.setPart(part + "Active", look(HIGHLIGHT))
+        in_plane = ("xAxisFeedback", "yAxisFeedback") if isinstance(dragger, coin.SoTranslate2Dragger) else ()
+        for feedback in ("feedback", "feedbackActive", *in_plane):
+            dragger.setPart(feedback, coin.SoSeparator())
         branch = coin.SoSeparator()
         for node in before:
             branch.addChild(node)
@@ -128,39 +215,30 @@ class Handles:
 
 
 class PlaneHandles(Handles):
-    """Arrow along the normal, cross in the plane, ball to tilt; the plane itself as a pane."""
+    """Arrow along the normal, ball to tilt; the plane itself as a pane."""
 
-    def _tool_shape(self):
-        pane = coin.SoSeparator()
-        pick = coin.SoPickStyle()
-        pick.style = coin.SoPickStyle.UNPICKABLE
-        pane.addChild(pick)
+    def _add_tool_shape(self, pane):
         half = 0.36 * self._size
-        corners = coin.SoCoordinate3()
-        corners.point.setValues(0, 4, [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)])
-        pane.addChild(corners)
+        corners = [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)]
         frame = coin.SoSeparator()
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        frame.addChild(light)
-        frame.addChild(material(TOOL))
-        line = coin.SoIndexedLineSet()
-        line.coordIndex.setValues(0, 6, [0, 1, 2, 3, 0, -1])
-        frame.addChild(line)
+        paint(frame, TOOL, style(1.5))
+        frame.addChild(_line(*corners, corners[0]))
         pane.addChild(frame)
+        coordinates = coin.SoCoordinate3()
+        coordinates.point.setValues(0, 4, corners)
+        pane.addChild(coordinates)
         pane.addChild(two_sided())
         pane.addChild(material(TOOL, 0.85))
         face = coin.SoFaceSet()
         face.numVertices = 4
         pane.addChild(face)
-        return pane
 
     def _make_draggers(self):
-        upright = coin.SoRotation()
-        upright.rotation.setValue(_sb_rotation(FreeCAD.Rotation(FreeCAD.Vector(1, 0, 0), _Z)))
-        # The ball takes every click within it, so the arrow is longer.
-        self._add("move", coin.SoTranslate1Dragger(), 0.16 * self._size, (upright,))
-        self._add("tilt", coin.SoRotateSphericalDragger(), 0.08 * self._size)
+        # The ball takes every click within it, so the arrow begins at it.
+        ball, arrow = 0.06 * self._size, 0.13 * self._size
+        self._add("move", coin.SoTranslate1Dragger(), arrow, lambda rgb: _arrows(rgb, ((1, 0, 0), ball / arrow, 1)),
+                  (_turned((1, 0, 0), (0, 0, 1)),))
+        self._add("tilt", coin.SoRotateSphericalDragger(), ball, _ball)
 
     def _local(self):
         shift = self._shift("move")
@@ -168,48 +246,38 @@ class PlaneHandles(Handles):
 
 
 class AxisHandles(Handles):
-    """Cross to move the axis sideways, ball to tilt it, arrow on the wall for the radius; the cylinder itself as a pane."""
+    """Four arrows to move the axis sideways, ball to tilt it, arrows on the wall for the radius; the cylinder itself as a pane."""
 
-    def _tool_shape(self):
-        pane = coin.SoSeparator()
-        pick = coin.SoPickStyle()
-        pick.style = coin.SoPickStyle.UNPICKABLE
-        pane.addChild(pick)
+    def _add_tool_shape(self, pane):
         axis = coin.SoSeparator()
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        axis.addChild(light)
-        axis.addChild(material(TOOL))
-        ends = coin.SoCoordinate3()
-        ends.point.setValues(0, 2, [(0, 0, -0.6 * self._size), (0, 0, 0.6 * self._size)])
-        axis.addChild(ends)
-        axis.addChild(coin.SoLineSet())
+        paint(axis, TOOL, style(1.5))
+        axis.addChild(_line((0, 0, -0.6 * self._size), (0, 0, 0.6 * self._size)))
         pane.addChild(axis)
-        upright = coin.SoRotation()
-        upright.rotation.setValue(_sb_rotation(FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), _Z)))
-        pane.addChild(upright)
+        pane.addChild(_turned((0, 1, 0), (0, 0, 1)))
         pane.addChild(two_sided())
         pane.addChild(material(TOOL, 0.85))
         self._cylinder = coin.SoCylinder()
         self._cylinder.height = 1.2 * self._size
         self._cylinder.parts = coin.SoCylinder.SIDES
         pane.addChild(self._cylinder)
-        return pane
 
     def _make_draggers(self):
         self._wall = coin.SoTranslation()
-        # Between the arrows of the cross, which may be as long as the radius.
+        # Between the arrows that move the axis, which may be as long as the radius.
         between = coin.SoRotation()
         between.rotation.setValue(_sb_rotation(FreeCAD.Rotation(_Z, 45)))
-        self._add("radius", coin.SoTranslate1Dragger(), 0.05 * self._size, (between, self._wall))
-        self._add("tilt", coin.SoRotateSphericalDragger(), 0.05 * self._size)
-        self._add("move", coin.SoTranslate2Dragger(), 0.12 * self._size)
+        ball, cross, radius = 0.045 * self._size, 0.11 * self._size, 0.05 * self._size
+        both = ((1, 0, 0), 0.1, 1), ((-1, 0, 0), 0.1, 1)
+        self._add("radius", coin.SoTranslate1Dragger(), radius, lambda rgb: _arrows(rgb, *both), (between, self._wall))
+        self._add("tilt", coin.SoRotateSphericalDragger(), ball, _ball)
+        four = [(direction, ball / cross, 1) for direction in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
+        self._add("move", coin.SoTranslate2Dragger(), cross, lambda rgb: _arrows(rgb, *four))
 
     def set_pose(self, position, rotation, radius=0.0):
         super().set_pose(position, rotation, radius)
         self._cylinder.radius = max(radius, 1e-6 * self._size)
         # Beyond the ball, which takes every click within it.
-        self._wall.translation.setValue(max(radius, 0.05 * self._size) + 0.05 * self._size, 0, 0)
+        self._wall.translation.setValue(max(radius, 0.045 * self._size) + 0.05 * self._size, 0, 0)
 
     def _local(self):
         shift = self._shift("move")

@@ -15,15 +15,21 @@ def set_values(field, values):
         field.setValues(0, len(values), values)
 
 
-def material(rgb, transparency=0.0, lit=True):
-    """An SoMaterial; unlit things shine by themselves, so that lines keep their colour."""
+def material(rgb, transparency=0.0):
+    """An SoMaterial."""
     node = coin.SoMaterial()
     node.diffuseColor.setValue(*rgb)
     node.ambientColor.setValue(*[0.4 * c for c in rgb])
     node.transparency.setValue(transparency)
-    if not lit:
-        node.emissiveColor.setValue(*rgb)
     return node
+
+
+def paint(parent, rgb, style_node):
+    """Gives what follows in `parent` one colour, whatever the light."""
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    for node in (light, material(rgb), style_node):
+        parent.addChild(node)
 
 
 def style(line_width=1.0, point_size=1.0):
@@ -44,24 +50,43 @@ def two_sided():
     return hints
 
 
-class FaceNode:
-    """Faces in one colour or in one colour each, with their edges if wanted; `in_front` of faces at the same place."""
+class Part:
+    """A named node of the scene whose content can be hidden; hidden at first."""
 
-    def __init__(self, name, rgb, transparency=0.0, edges=None, in_front=False):
-        self.root = coin.SoSeparator()
+    def __init__(self, name, root=None):
+        self.root = coin.SoSeparator() if root is None else root
         self.root.setName(name)
         self._switch = coin.SoSwitch()
         self._switch.whichChild = -1
-        inside = coin.SoSeparator()
+        self._inside = coin.SoSeparator()
+        self._switch.addChild(self._inside)
+        self.root.addChild(self._switch)
+
+    @property
+    def is_shown(self):
+        """Whether the content is drawn."""
+        return self._switch.whichChild.getValue() == 0
+
+    def reveal(self):
+        """Shows the content."""
+        self._switch.whichChild = 0
+
+    def hide(self):
+        """Shows nothing."""
+        self._switch.whichChild = -1
+
+
+class FaceNode(Part):
+    """Faces in one colour or in one colour each, with their edges if wanted; `in_front` of faces at the same place."""
+
+    def __init__(self, name, rgb, transparency=0.0, edges=None, in_front=False):
+        super().__init__(name)
+        inside = self._inside
         self._coordinates = coin.SoCoordinate3()
         inside.addChild(self._coordinates)
         if edges is not None:
             wires = coin.SoSeparator()
-            light = coin.SoLightModel()
-            light.model = coin.SoLightModel.BASE_COLOR
-            wires.addChild(light)
-            wires.addChild(material(edges))
-            wires.addChild(style(1.0))
+            paint(wires, edges, style(1.0))
             self._lines = coin.SoIndexedLineSet()
             wires.addChild(self._lines)
             inside.addChild(wires)
@@ -85,14 +110,7 @@ class FaceNode:
         inside.addChild(self._binding)
         self._faces = coin.SoIndexedFaceSet()
         inside.addChild(self._faces)
-        self._switch.addChild(inside)
-        self.root.addChild(self._switch)
         self._order = np.empty(0, np.int64)
-
-    @property
-    def count(self):
-        """Number of faces shown."""
-        return len(self._order) if self._switch.whichChild.getValue() == 0 else 0
 
     def show(self, points, faces, rgb=None):
         """Shows faces; `rgb` (n, 3) has a colour for each, None is the node's own colour."""
@@ -107,7 +125,7 @@ class FaceNode:
             edges = mesh_faces.unique_edges(edges, len(points))
             set_values(self._lines.coordIndex, np.column_stack([edges, np.full(len(edges), -1)]).astype(np.int32).ravel())
         self.colour(rgb)
-        self._switch.whichChild = 0
+        self.reveal()
 
     def colour(self, rgb):
         """Colours the faces shown anew."""
@@ -119,115 +137,46 @@ class FaceNode:
         self._packed.whichChild = 0
         self._binding.value = coin.SoMaterialBinding.PER_FACE
 
-    def hide(self):
-        """Shows nothing."""
-        self._switch.whichChild = -1
+
+class _UnlitNode(Part):
+    """Lines or points in one colour."""
+
+    def __init__(self, name, rgb, style_node, shape):
+        super().__init__(name)
+        paint(self._inside, rgb, style_node)
+        self._coordinates = coin.SoCoordinate3()
+        self._inside.addChild(self._coordinates)
+        self._shape = shape
+        self._inside.addChild(shape)
+
+    def show(self, points):
+        """Shows lines (n, 2, 3) or points (n, 3)."""
+        if not len(points):
+            self.hide()
+            return
+        set_values(self._coordinates.point, np.ascontiguousarray(points.reshape(-1, 3), np.float32))
+        self._set_number(len(points))
+        self.reveal()
+
+    def _set_number(self, number):
+        raise NotImplementedError
 
 
-class LineNode:
-    """Lines in one colour."""
+class LineNode(_UnlitNode):
+    """Lines of two points in one colour."""
 
     def __init__(self, name, rgb, width):
-        self.root = coin.SoSeparator()
-        self.root.setName(name)
-        self._switch = coin.SoSwitch()
-        self._switch.whichChild = -1
-        inside = coin.SoSeparator()
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        inside.addChild(light)
-        inside.addChild(material(rgb))
-        inside.addChild(style(width))
-        self._coordinates = coin.SoCoordinate3()
-        inside.addChild(self._coordinates)
-        self._lines = coin.SoLineSet()
-        inside.addChild(self._lines)
-        self._switch.addChild(inside)
-        self.root.addChild(self._switch)
-        self.count = 0
+        super().__init__(name, rgb, style(width), coin.SoLineSet())
 
-    def show(self, lines):
-        """Shows lines (n, 2, 3)."""
-        self.count = len(lines)
-        self._switch.whichChild = 0 if self.count else -1
-        if self.count:
-            set_values(self._coordinates.point, np.ascontiguousarray(lines.reshape(-1, 3), np.float32))
-            set_values(self._lines.numVertices, np.full(self.count, 2, np.int32))
-
-    def hide(self):
-        """Shows nothing."""
-        self.show(np.empty((0, 2, 3), np.float32))
+    def _set_number(self, number):
+        set_values(self._shape.numVertices, np.full(number, 2, np.int32))
 
 
-class PointNode:
+class PointNode(_UnlitNode):
     """Points in one colour."""
 
     def __init__(self, name, rgb, size):
-        self.root = coin.SoSeparator()
-        self.root.setName(name)
-        self._switch = coin.SoSwitch()
-        self._switch.whichChild = -1
-        inside = coin.SoSeparator()
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        inside.addChild(light)
-        inside.addChild(material(rgb))
-        inside.addChild(style(point_size=size))
-        self._coordinates = coin.SoCoordinate3()
-        inside.addChild(self._coordinates)
-        self._points = coin.SoPointSet()
-        inside.addChild(self._points)
-        self._switch.addChild(inside)
-        self.root.addChild(self._switch)
-        self.count = 0
+        super().__init__(name, rgb, style(point_size=size), coin.SoPointSet())
 
-    def show(self, points):
-        """Shows points (n, 3)."""
-        self.count = len(points)
-        self._switch.whichChild = 0 if self.count else -1
-        if self.count:
-            set_values(self._coordinates.point, np.ascontiguousarray(points, np.float32))
-            self._points.numPoints = self.count
-
-    def hide(self):
-        """Shows nothing."""
-        self.show(np.empty((0, 3), np.float32))
-
-
-class LabelNode:
-    """A text at a point, always in front."""
-
-    def __init__(self, name, rgb):
-        self.root = coin.SoAnnotation()
-        self.root.setName(name)
-        self._switch = coin.SoSwitch()
-        self._switch.whichChild = -1
-        inside = coin.SoSeparator()
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        inside.addChild(light)
-        inside.addChild(material(rgb))
-        font = coin.SoFont()
-        font.size = 20
-        inside.addChild(font)
-        self._place = coin.SoTranslation()
-        inside.addChild(self._place)
-        self._text = coin.SoText2()
-        inside.addChild(self._text)
-        self._switch.addChild(inside)
-        self.root.addChild(self._switch)
-
-    @property
-    def text(self):
-        """What is shown, "" when nothing is."""
-        return self._text.string[0] if self._switch.whichChild.getValue() == 0 else ""
-
-    def show(self, point, text):
-        """Shows `text` at `point`."""
-        self._place.translation.setValue(*[float(x) for x in point])
-        self._text.string.setValue(text)
-        self._switch.whichChild = 0
-
-    def hide(self):
-        """Shows nothing."""
-        self._switch.whichChild = -1
+    def _set_number(self, number):
+        self._shape.numPoints = number

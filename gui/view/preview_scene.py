@@ -5,9 +5,11 @@ import numpy as np
 from pivy import coin
 
 from .. import preferences
+from ..translate import translate
 from . import colours
 from .group_scene import lights
-from .nodes import FaceNode, LabelNode, LineNode, PointNode
+from .label import LabelNode
+from .nodes import FaceNode, LineNode, PointNode
 
 NAME = "FemScalpelPreview"
 #: How much of the part is shown, and what the colours mean.
@@ -19,7 +21,7 @@ class PreviewScene:
     """The nodes of the preview, under one separator called "FemScalpelPreview".
 
     Its parts are called FemScalpelBand, ...Rest, ...Ghost, ...Borders, ...Outline, ...Front, ...Moved, ...Removed,
-    ...Worst and ...Highlight, each an object with `count`, the number of things it shows.
+    ...Worst and ...Highlight.
     """
 
     def __init__(self, view):
@@ -42,7 +44,7 @@ class PreviewScene:
         self.front = LineNode("FemScalpelFront", preferences.colour("Front", colours.FRONT), 5.0)
         self.moved = PointNode("FemScalpelMoved", preferences.colour("Moved", colours.MOVED), 4.0)
         self.worst = LineNode("FemScalpelWorst", (0, 0, 0), 3.0)
-        self.worst_label = LabelNode("FemScalpelWorstLabel", (0, 0, 0))
+        self.worst_label = LabelNode("FemScalpelWorstLabel")
         highlight = preferences.colour("Highlight", colours.HIGHLIGHT)
         self.highlight_faces = FaceNode("FemScalpelHighlight", highlight, edges=(0.45, 0.3, 0.0), in_front=True)
         self.highlight_lines = LineNode("FemScalpelHighlightLines", highlight, 6.0)
@@ -113,7 +115,7 @@ class PreviewScene:
         self.moved.show(data.moved) if self.show_moved else self.moved.hide()
         if self.show_worst and len(data.worst):
             self.worst.show(data.worst)
-            self.worst_label.show(data.worst_centre, f"  worst {data.worst_ratio:.2f}")
+            self.worst_label.show(data.worst_centre, translate("FemScalpel", "worst %1").replace("%1", f"{data.worst_ratio:.2f}"))
         else:
             self.worst.hide()
             self.worst_label.hide()

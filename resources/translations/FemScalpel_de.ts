@@ -474,6 +474,10 @@
       <source>volumes</source>
       <translation>Volumen</translation>
     </message>
+    <message>
+      <source>worst %1</source>
+      <translation>schlechtestes %1</translation>
+    </message>
   </context>
   <context>
     <name>FemScalpelPreferences</name>

@@ -474,6 +474,10 @@
       <source>volumes</source>
       <translation>volumes</translation>
     </message>
+    <message>
+      <source>worst %1</source>
+      <translation>pire %1</translation>
+    </message>
   </context>
   <context>
     <name>FemScalpelPreferences</name>

@@ -13,6 +13,7 @@ import femscalpel
 from .geometry import geometry_of, shapes_of
 from .mesh_parts import nodes_around
 from .on_shape import OnShape, bookkeeping_groups
+from .reason import Reason
 
 # Attribute bits of addProperty.
 OUTPUT = 8  # setting it does not ask for a recompute
@@ -125,7 +126,7 @@ class MeshOperation:
     # --- making the mesh
 
     def execute(self, obj):
-        """Makes the mesh anew from Source. Raises RuntimeError with the reason when it cannot."""
+        """Makes the mesh anew from Source. Raises Reason, a RuntimeError, when it cannot."""
         self._link_geometry(obj)
         try:
             source = self._source_mesh(obj)
@@ -139,7 +140,7 @@ class MeshOperation:
         except Exception as error:
             self._clear(obj)
             if isinstance(error, (femscalpel.Error, ValueError, TypeError)):
-                raise RuntimeError(f"{obj.Label}: {error}") from error
+                raise Reason(f"{obj.Label}: {error}") from error
             raise
         if not obj.Placement.isIdentity():
             obj.Placement = FreeCAD.Placement()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tests in FreeCAD's window: run by tests/gui/run_gui_tests.py, or in FreeCAD's test workbench."""
+"""Tests in FreeCAD's window: `freecad -t TestFemScalpelGui`, which tests/gui/run_gui_tests.py runs on a virtual screen."""
 
 from femscalpelguitest.test_crack_panel import CrackCommand, CrackMessages, CrackPicks  # noqa: F401
 from femscalpelguitest.test_inspection import GroupInspector, MeshQuality  # noqa: F401

@@ -2,6 +2,7 @@
 """The document object Crack."""
 
 import os
+import sys
 
 import FreeCAD
 import numpy as np
@@ -32,6 +33,7 @@ class CrackObject(DocumentTest):
         self.assertEqual(self.crack.FemMesh.NodeCount, 0, "an outdated mesh is shown")
         self.assertEqual(self.crack.GroupReport, [])
         self.assertIsNone(self.crack.Proxy.report)
+        self.assertFalse(hasattr(sys, "tracebacklimit"), "tracebacks stay off after a failure")
         with self.assertRaisesRegex(RuntimeError, message):
             self.crack.Proxy.execute(self.crack)
 

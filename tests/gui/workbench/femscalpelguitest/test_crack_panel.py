@@ -337,15 +337,15 @@ class CrackPicks(CrackTest):
         self.part.ViewObject.Visibility = False
         self.open_panel()
         size = self.mesh.FemMesh.BoundBox.DiagonalLength
-        tip = 0.16 * size * 0.9
+        tip = 0.13 * size * 0.9
         drag((7 + tip, 2.5, 2), (8 + tip, 2.5, 2))
         self.assertAlmostEqual(value("originX"), 8, delta=0.15)
         np.testing.assert_allclose([value("originY"), value("originZ"), value("normalX")], (2.5, 2, 1), atol=0.006)
         self.wait_for_preview()
         screenshot("crack_dragged")
         before = value("normalX"), value("normalY"), value("normalZ")
-        centre, radius = np.array([value("originX"), 2.5, 2]), 0.08 * size
-        drag(centre + (0, -radius * 0.95, radius * 0.2), centre + (0, -radius * 0.5, radius * 0.8))
+        centre, radius = np.array([value("originX"), 2.5, 2]), 0.06 * size
+        drag(centre, centre + (0, 0, radius * 0.6))
         self.assertGreater(np.linalg.norm(np.subtract((value("normalX"), value("normalY"), value("normalZ")), before)), 0.05)
         self.assertAlmostEqual(np.linalg.norm([value("normalX"), value("normalY"), value("normalZ")]), 1, delta=0.01)
         self.assertAlmostEqual(value("originX"), centre[0], delta=0.01)
