@@ -26,11 +26,32 @@ def quality_threshold():
     return _group().GetFloat("QualityThreshold", 0.2)
 
 
+def _packed(rgb):
+    return int("".join(f"{round(255 * c):02X}" for c in rgb) + "FF", 16)
+
+
+def _unpacked(value):
+    return tuple(((value >> shift) & 255) / 255 for shift in (24, 16, 8))
+
+
 def colour(name, default):
     """A colour of the preview as three numbers in [0, 1]."""
-    packed = "".join(f"{round(255 * c):02X}" for c in default) + "FF"
-    value = _group().GetUnsigned("Colour" + name, int(packed, 16))
-    return tuple(((value >> shift) & 255) / 255 for shift in (24, 16, 8))
+    return _unpacked(_group().GetUnsigned("Colour" + name, _packed(default)))
+
+
+def _group_colours():
+    return FreeCAD.ParamGet(GROUP + "/GroupColours")
+
+
+def group_colour(name):
+    """The colour the user has chosen for groups of that name, None if none."""
+    value = _group_colours().GetUnsigned(name, 0)
+    return _unpacked(value) if value else None
+
+
+def set_group_colour(name, rgb):
+    """Keeps a colour for groups of that name, in all meshes."""
+    _group_colours().SetUnsigned(name, _packed(rgb))
 
 
 def put_into_analysis():

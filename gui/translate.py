@@ -8,6 +8,7 @@ import FreeCAD
 FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ICONS = os.path.join(FOLDER, "resources", "icons")
 TRANSLATIONS = os.path.join(FOLDER, "resources", "translations")
+EXAMPLE = os.path.exists(os.path.join(FOLDER, "resources", "examples", "caisson.npz"))  # whether it is there
 PREFERENCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "preferences.ui")
 
 translate = FreeCAD.Qt.translate

@@ -16,9 +16,9 @@ class FemScalpelWorkbench(FreeCADGui.Workbench):
 
     def Initialize(self):
         from femscalpelgui import commands
-        names = commands.register()
-        self.appendToolbar("FemScalpel", names)
-        self.appendMenu("&FemScalpel", names)
+        toolbar, menu = commands.register()
+        self.appendToolbar("FemScalpel", toolbar)
+        self.appendMenu("&FemScalpel", menu)
 
     def GetClassName(self):
         return "Gui::PythonWorkbench"

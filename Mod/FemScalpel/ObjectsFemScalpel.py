@@ -19,6 +19,7 @@ from femscalpelobjects.curved_crack import CurvedCrack
 from femscalpelobjects.cut import Cut
 from femscalpelobjects.cylindrical_crack import CylindricalCrack
 from femscalpelobjects.drill import Drill
+from femscalpelobjects.example import open_example
 from femscalpelobjects.group_names import rename_group
 from femscalpelobjects.refine import Refine
 
@@ -231,6 +232,14 @@ def exportMesh(obj, path):
     Raises femscalpel.WriteError when the file cannot be written or the ending is another.
     """
     femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
+
+
+def openExample():
+    """Opens the example, a caisson of tetrahedra with groups in an analysis, as a new document, and returns that.
+
+    Raises FileNotFoundError when the workbench was built without it.
+    """
+    return open_example()
 
 
 def _check_source(doc, source):

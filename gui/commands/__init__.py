@@ -6,6 +6,7 @@ import FreeCADGui
 from .crack import Crack
 from .cylindrical_crack import CylindricalCrack
 from .drill import Drill
+from .example import Example
 from .export import Export
 from .group_inspector import GroupInspector
 from .mesh_quality import MeshQuality
@@ -13,15 +14,12 @@ from .refine import Refine
 
 #: In the order of menu and toolbar; None is a separator.
 COMMANDS = (Crack, CylindricalCrack, Drill, Refine, None, GroupInspector, MeshQuality, Export)
+#: In the menu alone, after the others.
+IN_MENU = (None, Example)
 
 
 def register():
-    """Adds the commands to FreeCAD and returns their names, "Separator" between them."""
-    names = []
-    for command in COMMANDS:
-        if command is None:
-            names.append("Separator")
-        else:
-            FreeCADGui.addCommand(command.NAME, command())
-            names.append(command.NAME)
-    return names
+    """Adds the commands to FreeCAD; returns the names for the toolbar and for the menu, "Separator" between them."""
+    for command in filter(None, COMMANDS + IN_MENU):
+        FreeCADGui.addCommand(command.NAME, command())
+    return [["Separator" if command is None else command.NAME for command in part] for part in (COMMANDS, COMMANDS + IN_MENU)]

@@ -51,28 +51,39 @@ def find_mesh():
     return mesh
 
 
-class Command:
-    """A command for one FEM mesh. Subclasses set NAME, MENU, TOOLTIP, WHATS_THIS, ACCEL and write run(mesh)."""
+def has_free_window():
+    """Whether no task panel is open."""
+    return not FreeCADGui.Control.activeDialog()
 
-    NAME = MENU = TOOLTIP = ACCEL = ""
+
+class Command:
+    """A command for one FEM mesh. Subclasses set NAME, MENU, TOOLTIP, WHATS_THIS, ACCEL, and PANEL or write run(mesh)."""
+
+    NAME = MENU = TOOLTIP = WHATS_THIS = ACCEL = ICON = ""
+    #: The task panel it opens.
+    PANEL = None
     CONTEXT = "FemScalpel"
 
     def GetResources(self):
-        return {"Pixmap": icon(self.NAME), "MenuText": translate(self.CONTEXT, self.MENU),
+        return {"Pixmap": icon(self.ICON or self.NAME), "MenuText": translate(self.CONTEXT, self.MENU),
                 "ToolTip": translate(self.CONTEXT, self.TOOLTIP), "StatusTip": translate(self.CONTEXT, self.TOOLTIP),
-                "WhatsThis": self.NAME, "Accel": self.ACCEL}
+                "WhatsThis": translate(self.CONTEXT, self.WHATS_THIS), "Accel": self.ACCEL}
 
     def IsActive(self):
         """With a FEM mesh in the active document and no task panel open."""
         document = FreeCAD.ActiveDocument
-        return document is not None and not FreeCADGui.Control.activeDialog() and any(is_mesh(o) for o in document.Objects)
+        return document is not None and has_free_window() and any(is_mesh(o) for o in document.Objects)
 
     def Activated(self, index=0):
+        self.guarded(lambda: self.run(find_mesh()))
+
+    def guarded(self, action):
+        """Does something; tells the user when it raises Unusable."""
         try:
-            self.run(find_mesh())
+            action()
         except Unusable as reason:
             QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), translate(self.CONTEXT, self.MENU).replace("&", ""), str(reason))
 
     def run(self, mesh):
         """Does it."""
-        raise NotImplementedError
+        FreeCADGui.Control.showDialog(self.PANEL(mesh))

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Command: crack along a plane."""
 
-import FreeCADGui
-
 from ..panels.crack import CrackPanel
 from ..translate import QT_TRANSLATE_NOOP
 from .base import Command
@@ -12,7 +10,10 @@ class Crack(Command):
     NAME = "FemScalpel_Crack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Crack")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a plane and keeps its groups")
+    WHATS_THIS = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a "
+                      "planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the "
+                      "mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become "
+                      "groups; all other groups keep their meaning.")
     ACCEL = "S, C"
-
-    def run(self, mesh):
-        FreeCADGui.Control.showDialog(CrackPanel(mesh))
+    PANEL = CrackPanel

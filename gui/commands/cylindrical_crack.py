@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Command: crack along a cylinder."""
 
-import FreeCADGui
-
 from ..panels.cylindrical_crack import CylindricalCrackPanel
 from ..translate import QT_TRANSLATE_NOOP
 from .base import Command
@@ -12,7 +10,9 @@ class CylindricalCrack(Command):
     NAME = "FemScalpel_CylindricalCrack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Cylindrical crack")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a cylinder and keeps its groups")
+    WHATS_THIS = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a "
+                      "cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. "
+                      "Elements that are large for the cylinder are divided first.")
     ACCEL = "S, Y"
-
-    def run(self, mesh):
-        FreeCADGui.Control.showDialog(CylindricalCrackPanel(mesh))
+    PANEL = CylindricalCrackPanel

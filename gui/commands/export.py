@@ -16,6 +16,9 @@ class Export(Command):
     NAME = "FemScalpel_Export"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Export mesh…")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)")
+    WHATS_THIS = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster "
+                      "and SALOME, inp for CalculiX, vtu for ParaView.")
     ACCEL = "S, E"
 
     def run(self, mesh):

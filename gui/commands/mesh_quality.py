@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Command: mesh quality."""
 
-import FreeCADGui
-
 from ..panels.mesh_quality import MeshQualityPanel
 from ..translate import QT_TRANSLATE_NOOP
 from .base import Command
@@ -12,7 +10,8 @@ class MeshQuality(Command):
     NAME = "FemScalpel_MeshQuality"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Mesh quality")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Shows the quality of the elements of a FEM mesh in colours and finds the worst")
+    WHATS_THIS = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled "
+                      "Jacobian. Click one of the worst elements to go to it. The mesh is not changed.")
     ACCEL = "S, Q"
-
-    def run(self, mesh):
-        FreeCADGui.Control.showDialog(MeshQualityPanel(mesh))
+    PANEL = MeshQualityPanel

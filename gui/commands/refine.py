@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Command: refine near a tool."""
 
-import FreeCADGui
-
 from ..panels.refine import RefinePanel
 from ..translate import QT_TRANSLATE_NOOP
 from .base import Command
@@ -12,7 +10,9 @@ class Refine(Command):
     NAME = "FemScalpel_Refine"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Refine")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups")
+    WHATS_THIS = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Divides the elements near a cylinder, sphere or plane until their edges are as short as you ask, growing "
+                      "towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around "
+                      "it. All groups keep their meaning.")
     ACCEL = "S, R"
-
-    def run(self, mesh):
-        FreeCADGui.Control.showDialog(RefinePanel(mesh))
+    PANEL = RefinePanel

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Task panel: crack along a cylinder."""
 
-import femscalpel
-
 from ..translate import QT_TRANSLATE_NOOP
 from .cylinder_panel import CylinderPanel
 

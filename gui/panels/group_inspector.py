@@ -8,14 +8,14 @@ from PySide import QtCore, QtGui
 
 import femscalpel
 
+from .. import preferences
 from ..group_use import users_of_groups
 from ..macro import record_import
-from ..translate import form, icon, translate
+from ..translate import QT_TRANSLATE_NOOP, translate
 from ..view import colours
-from ..view.group_scene import GroupScene
 from ..view.group_shape import GroupShape, elements_shape, facets_shape, nodes_shape
 from . import fields
-from .view_panel import ViewPanel
+from .inspection_panel import InspectionPanel
 
 WHAT = ("groups", "elementary")
 PARTS = ("members", "bounding", "linking", "isolated")
@@ -35,15 +35,13 @@ class _Entry:
         return facets_shape(mesh, self.ids) if self.kind == "facet" else elements_shape(mesh, self.ids)
 
 
-class GroupInspectorPanel(ViewPanel):
+class GroupInspectorPanel(InspectionPanel):
     """Shows the groups of the mesh of one object; renames them."""
 
-    def __init__(self, source_object):
-        super().__init__(source_object)
-        self.panel = FreeCADGui.PySideUic.loadUi(form("group_inspector.ui"))
-        self.form = [self.panel]
-        self.panel.setWindowTitle(translate("FemScalpel", "Group inspector"))
-        self.panel.setWindowIcon(QtGui.QIcon(icon("FemScalpel_GroupInspector")))
+    TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Group inspector")
+    ICON, UI = "FemScalpel_GroupInspector", "group_inspector.ui"
+
+    def set_up(self):
         for text, data in zip((translate("FemScalpel", "Groups"), translate("FemScalpel", "Elementary groups")), WHAT):
             self.panel.what.addItem(text, data)
         parts = (translate("FemScalpel", "Members"), translate("FemScalpel", "Bounding (BE)"), translate("FemScalpel", "Linking (LE)"),
@@ -65,21 +63,13 @@ class GroupInspectorPanel(ViewPanel):
         self.panel.none.clicked.connect(lambda: self._tick(lambda row: False))
         self.panel.only.clicked.connect(self._only_selected)
         table.itemChanged.connect(self._changed)
-        self.scene = GroupScene(self.view)
-        self.panel.status.setText(translate("FemScalpel", "Reading the mesh…"))
-        self.start()
-
-    def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Close)
+        table.cellDoubleClicked.connect(lambda row, column: self._choose_colour(row) if column == _COLOUR else None)
 
     def loaded(self):
         whole = self.source.whole()
         self.scene.ghost.show(whole.points, whole.faces)
         self._measures = femscalpel.measure(self.source.mesh)
         self._list()
-
-    def not_loaded(self, error):
-        fields.show_error(self.panel.error, str(error))
 
     def _elementary(self):
         return self.panel.what.currentData() == WHAT[1]
@@ -112,7 +102,8 @@ class GroupInspectorPanel(ViewPanel):
                         flags |= QtCore.Qt.ItemIsEditable
                 item.setFlags(flags)
                 if column == _COLOUR:
-                    item.setBackground(QtGui.QBrush(QtGui.QColor.fromRgbF(*[float(c) for c in self._colour(row)])))
+                    item.setBackground(_qcolour(self._colour(row)))
+                    item.setToolTip(translate("FemScalpel", "Double-click to change the colour"))
                 if column in (_SIZE, _MEASURE):
                     item.setTextAlignment(int(QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter))
                 table.setItem(row, column, item)
@@ -124,7 +115,18 @@ class GroupInspectorPanel(ViewPanel):
         self._draw()
 
     def _colour(self, row):
-        return colours.distinct_rgb(row)
+        chosen = preferences.group_colour(self.entries[row].name)
+        return colours.distinct_rgb(row) if chosen is None else np.array(chosen)
+
+    def _choose_colour(self, row):
+        name = self.entries[row].name
+        title = translate("FemScalpel", "Colour of %1").replace("%1", name)
+        chosen = QtGui.QColorDialog.getColor(_qcolour(self._colour(row)), self.panel, title)
+        if self._closed or not chosen.isValid():
+            return
+        preferences.set_group_colour(name, chosen.getRgbF()[:3])
+        self.panel.groups.item(row, _COLOUR).setBackground(_qcolour(self._colour(row)))
+        self._draw()
 
     def _dimension_and_measure(self, entry):
         if entry.kind != "element":
@@ -209,11 +211,9 @@ class GroupInspectorPanel(ViewPanel):
         self._list()
         self._tick(lambda row: self.entries[row].name in shown or self.entries[row].name == name and entry.name in shown)
 
-    def clear_view(self):
-        self.scene.close()
 
-    def forget_widgets(self):
-        self.panel = None
+def _qcolour(rgb):
+    return QtGui.QColor.fromRgbF(*[float(c) for c in rgb])
 
 
 def _kind(kind, dimension):

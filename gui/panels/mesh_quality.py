@@ -1,21 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Task panel: quality of a mesh in colours, as a histogram, and its worst elements."""
 
-import FreeCADGui
 import numpy as np
 from PySide import QtGui
 
 import femscalpel
 
 from .. import preferences
-from ..translate import form, icon, translate
+from ..translate import QT_TRANSLATE_NOOP, translate
 from ..view import faces as mesh_faces
 from ..view.colours import quality_rgb
-from ..view.group_scene import GroupScene, zoom_to
+from ..view.group_scene import zoom_to
 from ..view.group_shape import GroupShape, elements_shape
-from . import fields
 from .histogram import Histogram
-from .view_panel import ViewPanel
+from .inspection_panel import InspectionPanel
 
 #: Measures: name, function, value of the regular element, unit.
 MEASURES = (("mean ratio", femscalpel.mean_ratio, 1.0, ""), ("smallest angle", femscalpel.smallest_angle, 90.0, "°"),
@@ -23,15 +21,13 @@ MEASURES = (("mean ratio", femscalpel.mean_ratio, 1.0, ""), ("smallest angle", f
 _SHOWN = 30
 
 
-class MeshQualityPanel(ViewPanel):
+class MeshQualityPanel(InspectionPanel):
     """Shows the quality of the mesh of one object; changes nothing."""
 
-    def __init__(self, source_object):
-        super().__init__(source_object)
-        self.panel = FreeCADGui.PySideUic.loadUi(form("mesh_quality.ui"))
-        self.form = [self.panel]
-        self.panel.setWindowTitle(translate("FemScalpel", "Mesh quality"))
-        self.panel.setWindowIcon(QtGui.QIcon(icon("FemScalpel_MeshQuality")))
+    TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Mesh quality")
+    ICON, UI = "FemScalpel_MeshQuality", "mesh_quality.ui"
+
+    def set_up(self):
         titles = (translate("FemScalpel", "Mean ratio"), translate("FemScalpel", "Smallest angle (dihedral in solids)"),
                   translate("FemScalpel", "Scaled Jacobian"))
         for title, (name, *_) in zip(titles, MEASURES):
@@ -50,18 +46,9 @@ class MeshQualityPanel(ViewPanel):
         self.panel.limit.valueChanged.connect(lambda *_: self._draw())
         self.panel.worst.itemSelectionChanged.connect(self._zoom)
         self.values = self._ids = self._types = np.empty(0)
-        self.scene = GroupScene(self.view)
-        self.panel.status.setText(translate("FemScalpel", "Reading the mesh…"))
-        self.start()
-
-    def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Close)
 
     def loaded(self):
         self._measure()
-
-    def not_loaded(self, error):
-        fields.show_error(self.panel.error, str(error))
 
     def _chosen(self):
         return MEASURES[max(self.panel.measure.currentIndex(), 0)]
@@ -151,8 +138,6 @@ class MeshQualityPanel(ViewPanel):
             self.panel.onlyBad.setChecked(True)
         self._draw([(outline, np.array((0.0, 0.0, 0.0)))])
 
-    def clear_view(self):
-        self.scene.close()
-
     def forget_widgets(self):
-        self.panel = self.histogram = None
+        super().forget_widgets()
+        self.histogram = None

@@ -48,7 +48,16 @@ class RefinePanel(CylinderPanel):
 
     def operation(self, tool, options):
         size, reach, gradation, angle = self._size.value, self._reach.value, self.sizes.gradation.value(), options["feature_angle"]
-        return lambda scalpel: femscalpel.refine(scalpel.mesh, tool, size, gradation=gradation, reach=reach, feature_angle=angle)
+        vain = translate("FemScalpel", "Nothing to refine: the elements that the tool reaches have no edge longer than the size. "
+                                       "Move the tool, give it a larger reach, or choose a smaller size.")
+
+        def operate(scalpel):
+            result = femscalpel.refine(scalpel.mesh, tool, size, gradation=gradation, reach=reach, feature_angle=angle)
+            if not result.report.elements_added:
+                raise femscalpel.ToolError(vain)
+            return result
+
+        return operate
 
     def read(self, obj):
         placement = obj.AxisPlacement

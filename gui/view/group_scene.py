@@ -7,41 +7,23 @@ from pivy import coin
 from . import colours
 from .label import LabelNode
 from .nodes import FaceNode, LineNode, PointNode
+from .overlay import Picture
 
 NAME = "FemScalpelInspector"
 
 
-class GroupScene:
+class GroupScene(Picture):
     """The nodes under one separator called "FemScalpelInspector": FemScalpelGhost, and one FemScalpelShape for each shape."""
 
     def __init__(self, view):
-        self._view = view
-        self.root = coin.SoSeparator()
-        self.root.setName(NAME)
-        pick = coin.SoPickStyle()
-        pick.style = coin.SoPickStyle.UNPICKABLE
-        self.root.addChild(pick)
-        blend = coin.SoTransparencyType()
-        blend.value = coin.SoTransparencyType.DELAYED_BLEND
-        self.root.addChild(blend)
-        for light in lights():
-            self.root.addChild(light)
+        super().__init__(view, NAME)
         self._shapes = coin.SoSeparator()
         self.root.addChild(self._shapes)
         self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.75)
         self.root.addChild(self.ghost.root)
         self.label = LabelNode("FemScalpelLabel")
         self.root.addChild(self.label.root)
-        view.getSceneGraph().addChild(self.root)
-
-    def close(self):
-        """Takes everything out of the view."""
-        try:
-            graph = self._view.getSceneGraph()
-        except (RuntimeError, AttributeError):
-            return
-        if graph.findChild(self.root) >= 0:
-            graph.removeChild(self.root)
+        self.open()
 
     def show(self, shapes):
         """Shows (GroupShape, colour) pairs, the first at the bottom, and no others. A colour is one, or one per face."""
@@ -59,15 +41,6 @@ class GroupScene:
             for part in (faces, lines, points):
                 holder.addChild(part.root)
             self._shapes.addChild(holder)
-
-
-def lights():
-    """Lights beside FreeCAD's own, which leaves faces seen at an angle too dark to tell colours apart."""
-    for direction, intensity in (((0.6, 1.0, -0.8), 0.45), ((-1.0, -0.3, -0.3), 0.45), ((0.2, -0.4, 1.0), 0.3)):
-        light = coin.SoDirectionalLight()
-        light.direction.setValue(*direction)
-        light.intensity = intensity
-        yield light
 
 
 def zoom_to(view, low, high):

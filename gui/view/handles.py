@@ -7,6 +7,7 @@ from pivy import coin
 
 from .colours import GRIP, HIGHLIGHT, TOOL
 from .nodes import PointNode, material, paint, style, two_sided
+from .overlay import Overlay, unpickable
 
 NAME = "FemScalpelHandles"
 _Z = FreeCAD.Vector(0, 0, 1)
@@ -32,12 +33,6 @@ def _line(*points):
     return line
 
 
-def _unpickable():
-    pick = coin.SoPickStyle()
-    pick.style = coin.SoPickStyle.UNPICKABLE
-    return pick
-
-
 def _grip(shape):
     """Something to grab that is not seen: thin lines are hard to hit."""
     grip = coin.SoSeparator()
@@ -53,7 +48,7 @@ def _arrow(direction, start, end):
     arrow = coin.SoSeparator()
     arrow.addChild(_turned((0, 1, 0), direction))
     shaft = coin.SoSeparator()
-    shaft.addChild(_unpickable())
+    shaft.addChild(unpickable())
     light = coin.SoLightModel()
     light.model = coin.SoLightModel.BASE_COLOR
     shaft.addChild(light)
@@ -86,7 +81,7 @@ def _ball(rgb):
     """Three thin great circles of radius 1, to be grabbed anywhere within."""
     node = coin.SoSeparator()
     rings = coin.SoSeparator()
-    rings.addChild(_unpickable())
+    rings.addChild(unpickable())
     paint(rings, rgb, style(1.5))
     angles = np.linspace(0, 2 * np.pi, 49)
     zero, c, s = np.zeros_like(angles), np.cos(angles), np.sin(angles)
@@ -97,48 +92,44 @@ def _ball(rgb):
     return node
 
 
-class Handles:
+class Handles(Overlay):
     """Draggers around one pose: a position and a rotation whose z axis is the plane's normal or the cylinder's axis.
 
     `changed(position, rotation, radius)` is called while the mouse drags, and when it lets go.
     """
 
     def __init__(self, view, size, changed):
-        self._view, self._size, self._changed = view, size, changed
+        super().__init__(view, NAME)
+        self._size, self._changed = size, changed
         self._quiet = False
         self._position, self._rotation, self._radius = FreeCAD.Vector(), FreeCAD.Rotation(), 0.0
-        self.root = coin.SoSeparator()
+        posed = coin.SoSeparator()
+        self.root.addChild(posed)
         self._place = coin.SoTransform()
-        self.root.addChild(self._place)
+        posed.addChild(self._place)
         pane = coin.SoSeparator()
-        pane.addChild(_unpickable())
+        pane.addChild(unpickable())
         self._add_tool_shape(pane)
-        self.root.addChild(pane)
+        posed.addChild(pane)
         self._draggers, self._callbacks, self._lengths = [], [], {}
         # In front of everything: they would be out of reach inside the part.
         self._front = coin.SoAnnotation()
-        self.root.addChild(self._front)
+        posed.addChild(self._front)
         self._make_draggers()
         self._marks = PointNode("FemScalpelPicked", HIGHLIGHT, 10.0)
         marks = coin.SoAnnotation()
         marks.addChild(self._marks.root)
-        top = coin.SoSeparator()
-        top.setName(NAME)
-        top.addChild(self.root)
-        top.addChild(marks)
-        self.root = top
-        view.getSceneGraph().addChild(self.root)
+        self.root.addChild(marks)
+        self.open()
 
     def close(self):
         """Takes the handles out of the view."""
+        super().close()
         try:
-            graph = self._view.getSceneGraph()
-        except (RuntimeError, AttributeError):
-            return
-        for dragger, kind, function in self._callbacks:
-            self._view.removeDraggerCallback(dragger, kind, function)
-        if graph.findChild(self.root) >= 0:
-            graph.removeChild(self.root)
+            for dragger, kind, function in self._callbacks:
+                self._view.removeDraggerCallback(dragger, kind, function)
+        except (RuntimeError, AttributeError):  # the view is gone
+            pass
         self._draggers.clear()
         self._callbacks.clear()
 

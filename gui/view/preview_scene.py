@@ -7,9 +7,9 @@ from pivy import coin
 from .. import preferences
 from ..translate import translate
 from . import colours
-from .group_scene import lights
 from .label import LabelNode
 from .nodes import FaceNode, LineNode, PointNode
+from .overlay import Picture
 
 NAME = "FemScalpelPreview"
 #: How much of the part is shown, and what the colours mean.
@@ -17,7 +17,7 @@ LOOKS = ("cut away", "whole", "changed part only")
 COLOURINGS = ("quality", "groups")
 
 
-class PreviewScene:
+class PreviewScene(Picture):
     """The nodes of the preview, under one separator called "FemScalpelPreview".
 
     Its parts are called FemScalpelBand, ...Rest, ...Ghost, ...Borders, ...Outline, ...Front, ...Moved, ...Removed,
@@ -25,16 +25,10 @@ class PreviewScene:
     """
 
     def __init__(self, view):
-        self._view = view
+        super().__init__(view, NAME)
         self.look, self.colouring = LOOKS[0], COLOURINGS[0]
         self.show_moved, self.show_worst = True, True
         self._data = None
-        self.root = coin.SoSeparator()
-        self.root.setName(NAME)
-        # What is drawn here is looked at, not picked: clicks go through to what can be selected.
-        pick = coin.SoPickStyle()
-        pick.style = coin.SoPickStyle.UNPICKABLE
-        self.root.addChild(pick)
         self.rest = FaceNode("FemScalpelRest", colours.NEUTRAL, edges=(0.62, 0.64, 0.68))
         self.band = FaceNode("FemScalpelBand", colours.NEUTRAL, edges=(0.15, 0.15, 0.18))
         self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.82)
@@ -53,26 +47,12 @@ class PreviewScene:
         front = coin.SoAnnotation()
         for part in (self.worst, self.highlight_lines, self.highlight_points):
             front.addChild(part.root)
-        blend = coin.SoTransparencyType()
-        blend.value = coin.SoTransparencyType.DELAYED_BLEND
-        self.root.addChild(blend)
-        for light in lights():
-            self.root.addChild(light)
         for part in (self.highlight_faces, self.rest, self.band, self.borders, self.outline, self.front, self.moved,
                      self.removed, self.ghost):
             self.root.addChild(part.root)
         self.root.addChild(front)
         self.root.addChild(self.worst_label.root)
-        self._view.getSceneGraph().addChild(self.root)
-
-    def close(self):
-        """Takes everything out of the view."""
-        try:
-            graph = self._view.getSceneGraph()
-        except (RuntimeError, AttributeError):  # the view is gone, and its graph with it
-            return
-        if graph.findChild(self.root) >= 0:
-            graph.removeChild(self.root)
+        self.open()
 
     def show_whole(self, surface):
         """Shows an unchanged mesh, while there is no result."""

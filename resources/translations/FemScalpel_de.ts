@@ -171,6 +171,14 @@
       <translation>Klicken Sie auf Knoten %1 von %2 des Netzes. Escape bricht ab.</translation>
     </message>
     <message>
+      <source>Colour of %1</source>
+      <translation>Farbe von %1</translation>
+    </message>
+    <message>
+      <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
+      <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
+    </message>
+    <message>
       <source>Crack</source>
       <translation>Riss</translation>
     </message>
@@ -199,12 +207,24 @@
       <translation>Zylindrischer Riss</translation>
     </message>
     <message>
+      <source>Divides the elements near a cylinder, sphere or plane until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
+      <translation>Teilt die Elemente nahe einem Zylinder, einer Kugel oder einer Ebene, bis ihre Kanten so kurz sind wie verlangt; zum übrigen Netz hin wachsen sie mit der Abstufung. Dort nützlich, wo ein Riss oder eine Bohrung ein feineres Netz um sich braucht. Alle Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+    <message>
+      <source>Double-click to change the colour</source>
+      <translation>Doppelklick ändert die Farbe</translation>
+    </message>
+    <message>
       <source>Drill</source>
       <translation>Bohrung</translation>
     </message>
     <message>
       <source>Drills a hole into the FEM mesh and keeps its groups</source>
       <translation>Bohrt ein Loch in das FEM-Netz und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and nothing else, and the report says which.</source>
+      <translation>Bohrt ein Loch, durchgehend oder bis zu einer Tiefe. Achse und Radius werden wie beim zylindrischen Riss angegeben; die Elemente, die wegfallen, erscheinen durchscheinend. Die Flächen der Wand werden eine Gruppe; Gruppen verlieren, was weggebohrt wird, und sonst nichts, und der Bericht sagt, welche.</translation>
     </message>
     <message>
       <source>Edit</source>
@@ -217,6 +237,10 @@
     <message>
       <source>Elementary groups</source>
       <translation>Elementargruppen</translation>
+    </message>
+    <message>
+      <source>Example: caisson</source>
+      <translation>Beispiel: Kastenträger</translation>
     </message>
     <message>
       <source>Export mesh</source>
@@ -251,6 +275,10 @@
       <translation>Verbindend (LE)</translation>
     </message>
     <message>
+      <source>Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, double-click a name to rename the group and a colour to change it. Elementary groups are the entities that are in exactly the same groups; bounding, linking and isolated entities are what an operation must keep in shape.</source>
+      <translation>Zählt die Gruppen des FEM-Netzes auf, mit Art, Größe, Maß und dem, was sie benutzt. Angekreuzte Gruppen sind zu sehen; ein Doppelklick auf einen Namen benennt die Gruppe um, auf eine Farbe ändert sie. Elementare Gruppen sind die Teile, die genau denselben Gruppen angehören; umrandende, verbindende und einzelne Teile sind das, was eine Operation in Form halten muss.</translation>
+    </message>
+    <message>
       <source>MED, Code_Aster and SALOME (*.med)</source>
       <translation>MED, Code_Aster und SALOME (*.med)</translation>
     </message>
@@ -279,12 +307,32 @@
       <translation>Keine Vorschau: siehe die Meldung in Rot.</translation>
     </message>
     <message>
+      <source>Nothing to refine: the elements that the tool reaches have no edge longer than the size. Move the tool, give it a larger reach, or choose a smaller size.</source>
+      <translation>Nichts zu verfeinern: Die Elemente, die das Werkzeug erreicht, haben keine Kante, die länger als die Größe ist. Werkzeug verschieben, Reichweite vergrößern oder eine kleinere Größe wählen.</translation>
+    </message>
+    <message>
       <source>Number of elements by mean ratio (1: equilateral, 0: flat). Bars: after; line: before</source>
       <translation>Anzahl der Elemente nach Mean ratio (1: gleichseitig, 0: flach). Balken: nachher; Linie: vorher</translation>
     </message>
     <message>
       <source>Open a document with a FEM mesh first.</source>
       <translation>Öffnen Sie zuerst ein Dokument mit einem FEM-Netz.</translation>
+    </message>
+    <message>
+      <source>Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.</source>
+      <translation>Öffnet ein neues Dokument mit dem Netz eines an Steifen hängenden Kastenträgers in einer Analyse: Tetraeder mit Gruppen für Teile, Lager, Lasten und Messstellen. Reißen Sie einen Hänger ein, bohren Sie den Boden an, vergleichen Sie die Gruppen vorher und nachher.</translation>
+    </message>
+    <message>
+      <source>Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on</source>
+      <translation>Öffnet einen geschweißten Kastenträger als neues Dokument, ein Netz mit 35 Gruppen zum Ausprobieren der Befehle</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. Elements that are large for the cylinder are divided first.</source>
+      <translation>Öffnet das FEM-Netz entlang eines Zylinders. Achse und Radius durch Zahlen angeben, aus der Ansicht holen (zylindrische Fläche, gerade oder kreisförmige Kante, zwei Knoten, Punkt auf einer Fläche) oder an den Griffen ziehen. Elemente, die für den Zylinder groß sind, werden zuerst geteilt.</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang einer Ebene. Die Ebene durch Zahlen angeben, aus der Ansicht holen (drei Knoten, ebene Fläche, Kante, Bezugselement, Skizze, Blickrichtung) oder an den Griffen ziehen; die Vorschau zeigt das Netz, wie es wird. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
       <source>ParaView (*.vtu)</source>
@@ -387,6 +435,10 @@
       <translation>Die drei Knoten liegen auf einer Geraden. Wählen Sie Knoten, die eine Ebene aufspannen.</translation>
     </message>
     <message>
+      <source>This workbench was built without its example: Gmsh was not there.</source>
+      <translation>Diese Arbeitsumgebung wurde ohne ihr Beispiel gebaut: Gmsh war nicht da.</translation>
+    </message>
+    <message>
       <source>Type</source>
       <translation>Typ</translation>
     </message>
@@ -409,6 +461,10 @@
     <message>
       <source>Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)</source>
       <translation>Schreibt das FEM-Netz mit seinen Gruppen für Code_Aster (MED), CalculiX (inp) oder ParaView (vtu)</translation>
+    </message>
+    <message>
+      <source>Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster and SALOME, inp for CalculiX, vtu for ParaView.</source>
+      <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt: med für Code_Aster und SALOME, inp für CalculiX, vtu für ParaView.</translation>
     </message>
     <message>
       <source>became empty</source>

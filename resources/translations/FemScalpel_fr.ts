@@ -171,6 +171,14 @@
       <translation>Cliquez sur le nœud %1 sur %2 du maillage. Échap arrête.</translation>
     </message>
     <message>
+      <source>Colour of %1</source>
+      <translation>Couleur de %1</translation>
+    </message>
+    <message>
+      <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
+      <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
+    </message>
+    <message>
       <source>Crack</source>
       <translation>Fissure</translation>
     </message>
@@ -199,12 +207,24 @@
       <translation>Fissure cylindrique</translation>
     </message>
     <message>
+      <source>Divides the elements near a cylinder, sphere or plane until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
+      <translation>Divise les éléments proches d'un cylindre, d'une sphère ou d'un plan jusqu'à ce que leurs arêtes soient aussi courtes que demandé ; vers le reste du maillage elles grandissent selon la gradation. Utile là où une fissure ou un perçage demande un maillage plus fin autour de lui. Tous les groupes gardent leur sens.</translation>
+    </message>
+    <message>
+      <source>Double-click to change the colour</source>
+      <translation>Double-cliquez pour changer la couleur</translation>
+    </message>
+    <message>
       <source>Drill</source>
       <translation>Perçage</translation>
     </message>
     <message>
       <source>Drills a hole into the FEM mesh and keeps its groups</source>
       <translation>Perce un trou dans le maillage EF en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and nothing else, and the report says which.</source>
+      <translation>Perce un trou, débouchant ou d'une profondeur donnée. L'axe et le rayon se donnent comme pour une fissure cylindrique ; les éléments enlevés sont montrés en transparence. Les faces de la paroi forment un groupe ; les groupes perdent ce qui est percé et rien d'autre, et le rapport dit lesquels.</translation>
     </message>
     <message>
       <source>Edit</source>
@@ -217,6 +237,10 @@
     <message>
       <source>Elementary groups</source>
       <translation>Groupes élémentaires</translation>
+    </message>
+    <message>
+      <source>Example: caisson</source>
+      <translation>Exemple : caisson</translation>
     </message>
     <message>
       <source>Export mesh</source>
@@ -251,6 +275,10 @@
       <translation>Liants (LE)</translation>
     </message>
     <message>
+      <source>Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, double-click a name to rename the group and a colour to change it. Elementary groups are the entities that are in exactly the same groups; bounding, linking and isolated entities are what an operation must keep in shape.</source>
+      <translation>Liste les groupes du maillage EF avec leur genre, leur taille, leur mesure et ce qui les utilise. Cochez des groupes pour les voir, double-cliquez sur un nom pour renommer le groupe et sur une couleur pour la changer. Les groupes élémentaires réunissent les entités qui sont exactement dans les mêmes groupes ; les entités de bord, de liaison et isolées sont celles dont une opération doit garder la forme.</translation>
+    </message>
+    <message>
       <source>MED, Code_Aster and SALOME (*.med)</source>
       <translation>MED, Code_Aster et SALOME (*.med)</translation>
     </message>
@@ -279,12 +307,32 @@
       <translation>Pas d'aperçu : voir le message en rouge.</translation>
     </message>
     <message>
+      <source>Nothing to refine: the elements that the tool reaches have no edge longer than the size. Move the tool, give it a larger reach, or choose a smaller size.</source>
+      <translation>Rien à raffiner : les éléments que l'outil atteint n'ont pas d'arête plus longue que la taille. Déplacez l'outil, donnez-lui une plus grande portée ou choisissez une taille plus petite.</translation>
+    </message>
+    <message>
       <source>Number of elements by mean ratio (1: equilateral, 0: flat). Bars: after; line: before</source>
       <translation>Nombre d'éléments par mean ratio (1 : équilatéral, 0 : plat). Barres : après ; ligne : avant</translation>
     </message>
     <message>
       <source>Open a document with a FEM mesh first.</source>
       <translation>Ouvrez d'abord un document avec un maillage EF.</translation>
+    </message>
+    <message>
+      <source>Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.</source>
+      <translation>Ouvre un nouveau document avec le maillage d'un caisson suspendu à des raidisseurs, dans une analyse : des tétraèdres avec des groupes pour les pièces, les appuis, les charges et les points de mesure. Fissurez une suspente, percez le plancher, regardez les groupes avant et après.</translation>
+    </message>
+    <message>
+      <source>Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on</source>
+      <translation>Ouvre un caisson soudé comme nouveau document, un maillage de 35 groupes pour essayer les commandes</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. Elements that are large for the cylinder are divided first.</source>
+      <translation>Ouvre le maillage EF le long d'un cylindre. Donnez l'axe et le rayon par des nombres, prenez-les dans la vue (une face cylindrique, une arête droite ou circulaire, deux nœuds, un point sur une face) ou tirez les poignées. Les éléments trop grands pour le cylindre sont d'abord divisés.</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long d'un plan. Donnez le plan par des nombres, prenez-le dans la vue (trois nœuds, une face plane, une arête, une référence, une esquisse, la direction de vue) ou tirez les poignées ; l'aperçu montre le maillage tel qu'il sera. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>ParaView (*.vtu)</source>
@@ -387,6 +435,10 @@
       <translation>Les trois nœuds sont alignés. Choisissez des nœuds qui définissent un plan.</translation>
     </message>
     <message>
+      <source>This workbench was built without its example: Gmsh was not there.</source>
+      <translation>Cet atelier a été construit sans son exemple : Gmsh n'était pas là.</translation>
+    </message>
+    <message>
       <source>Type</source>
       <translation>Type</translation>
     </message>
@@ -409,6 +461,10 @@
     <message>
       <source>Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)</source>
       <translation>Écrit le maillage EF avec ses groupes pour Code_Aster (MED), CalculiX (inp) ou ParaView (vtu)</translation>
+    </message>
+    <message>
+      <source>Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster and SALOME, inp for CalculiX, vtu for ParaView.</source>
+      <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format : med pour Code_Aster et SALOME, inp pour CalculiX, vtu pour ParaView.</translation>
     </message>
     <message>
       <source>became empty</source>

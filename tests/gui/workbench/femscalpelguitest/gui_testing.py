@@ -215,28 +215,39 @@ def screenshot(name):
         QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(folder, name + ".png"))
 
 
-def message_during(action):
-    """Does something that must open a message box; closes the box and returns its text."""
-    texts = []
+def with_dialog(kind, handle, action):
+    """Does something that must open a modal dialog of a class, for which handle(dialog) is called once; it must close it."""
+    handled = []
 
-    def close():
-        box = QtGui.QApplication.activeModalWidget()
-        if isinstance(box, QtGui.QMessageBox):
-            texts.append(box.text())
-            screenshot(f"message_{re.sub('[^a-z]+', '_', box.text().lower())[:40]}")
-            box.button(QtGui.QMessageBox.Ok).click()
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        if isinstance(dialog, kind) and not handled:
+            handled.append(True)
+            handle(dialog)
 
     timer = QtCore.QTimer()
-    timer.timeout.connect(close)
+    timer.timeout.connect(look)
     timer.start(50)
     try:
         action()
         spin(0.1)
     finally:
         timer.stop()
-    if not texts:
-        raise AssertionError("no message came up")
-    return " ".join(texts)
+    if not handled:
+        raise AssertionError(f"no {kind.__name__} came up")
+
+
+def message_during(action):
+    """Does something that must open a message box; closes the box and returns its text."""
+    texts = []
+
+    def close(box):
+        texts.append(box.text())
+        screenshot(f"message_{re.sub('[^a-z]+', '_', box.text().lower())[:40]}")
+        box.button(QtGui.QMessageBox.Ok).click()
+
+    with_dialog(QtGui.QMessageBox, close, action)
+    return texts[0]
 
 
 def report_view():

@@ -7,7 +7,7 @@ import tempfile
 import FreeCAD
 import FreeCADGui
 import numpy as np
-from PySide import QtCore, QtGui
+from PySide import QtCore
 
 import femmesh_bridge
 import femscalpel as fs
@@ -272,6 +272,25 @@ class CrackPicks(CrackTest):
         self.wait_for_preview()
         screenshot("crack_clicked_nodes")
 
+    def test_escape_ends_picking_then_the_panel(self):
+        before = traces(self.doc)
+        self.open_panel()
+        for place in (canvas(), widget("originX")):
+            for button in ("pickNodes", "pickGeometry"):
+                with self.subTest(button=button, place=place.objectName()):
+                    click(button)
+                    self.assertTrue(widget("hint").isVisible())
+                    place.setFocus()
+                    QTest.keyClick(place, QtCore.Qt.Key_Escape)
+                    spin(0.2)
+                    self.assertTrue(FreeCADGui.Control.activeDialog())
+                    self.assertFalse(widget(button).isChecked())
+                    self.assertFalse(is_shown("hint"))
+        QTest.keyClick(canvas(), QtCore.Qt.Key_Escape)
+        spin(0.2)
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertEqual(traces(self.doc), before)
+
     def test_mouse_click_on_a_face(self):
         self.open_panel()
         click("pickGeometry")
@@ -391,38 +410,6 @@ class CrackMessages(CrackTest):
         enter_plane((2.9, 2.5, 2.0), (1.0, 0.9, 0.8))
         choose("method", "deform")
         wait_until(lambda: is_shown("methodError") or "moved" in widget("status").text(), "an outcome")
-
-    def test_hexahedra_in_the_way(self):
-        points = np.array([(x, y, z) for z in range(2) for y in range(2) for x in range(5)], float)
-        cells = [[i, i + 1, i + 6, i + 5, i + 10, i + 11, i + 16, i + 15] for i in range(4)]
-        self.add_mesh(fs.Mesh(points, {"hexahedron": cells}), "Bricks")
-        FreeCADGui.Selection.addSelection(self.doc.Name, "Bricks")
-        self.run_command("FemScalpel_Crack")
-        self.assertIn("hexahedr", self.wait_for_message("geometryError").lower())
-        screenshot("crack_hexahedra")
-
-    def test_command_where_it_cannot_work(self):
-        command = FreeCADGui.Command.get("FemScalpel_Crack")
-        from femscalpelgui.commands.crack import Crack
-        activate = Crack().Activated
-        self.add_mesh(long_box(), "Second")
-        FreeCADGui.Selection.clearSelection()
-        self.assertIn("2 FEM meshes", message_during(activate))
-        FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
-        FreeCADGui.Selection.addSelection(self.doc.Name, "Second")
-        self.assertIn("Select one", message_during(activate))
-        FreeCADGui.Selection.clearSelection()
-        self.doc.addObject("App::FeaturePython", "Thing")
-        FreeCADGui.Selection.addSelection(self.doc.Name, "Thing")
-        self.assertIn("Thing is not a FEM mesh", message_during(activate))
-        FreeCADGui.Selection.clearSelection()
-        self.doc.addObject("Fem::FemMeshObject", "Empty")
-        FreeCADGui.Selection.addSelection(self.doc.Name, "Empty")
-        self.assertIn("empty", message_during(activate))
-        for name in ("Mesh", "Second", "Empty"):
-            self.doc.removeObject(name)
-        self.assertFalse(command.isActive())
-        self.assertIn("no FEM mesh", message_during(activate))
 
     def test_inactive_while_a_panel_is_open(self):
         self.open_panel()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The commands that look at a mesh: group inspector and mesh quality."""
 
+import FreeCAD
 import numpy as np
 
 import femmesh_bridge
@@ -95,6 +96,32 @@ class GroupInspector(GuiTest):
         self.assertIn("FIX", names())
         self.doc.redo()
         self.assertIn("SUPPORT", names())
+
+    def test_colour_chosen(self):
+        from femscalpelgui import preferences
+        self.open_panel()
+        self.tick("LEFT")
+        table = widget("groups")
+        cell = table.item(table.findItems("LEFT", QtCore.Qt.MatchExactly)[0].row(), 1)
+
+        def choose_colour(dialog):
+            dialog.setCurrentColor(QtGui.QColor(10, 200, 30))
+            screenshot("groups_colour")
+            dialog.accept()
+
+        place = table.visualItemRect(cell).center()
+        with_dialog(QtGui.QColorDialog, choose_colour, lambda: (
+            QTest.mouseClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place),
+            QTest.mouseDClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place)))
+        self.assertEqual(cell.background().color().getRgb()[:3], (10, 200, 30))
+        drawn = [tuple(round(255 * c) for c in m.diffuseColor[0].getValue()) for m in shapes_in("FemScalpelShapeFaces", coin.SoMaterial)]
+        self.assertIn((10, 200, 30), drawn)
+        press_button(QtGui.QDialogButtonBox.Close)
+        self.open_panel()
+        table = widget("groups")
+        again = table.item(table.findItems("LEFT", QtCore.Qt.MatchExactly)[0].row(), 1)
+        self.assertEqual(again.background().color().getRgb()[:3], (10, 200, 30))
+        FreeCAD.ParamGet(preferences.GROUP).RemGroup("GroupColours")
 
     def test_leaves_no_trace(self):
         before = traces(self.doc)

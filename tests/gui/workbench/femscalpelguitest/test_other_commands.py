@@ -88,6 +88,26 @@ class CylindricalCrack(CylinderTest):
         press_cancel()
         self.assertEqual(traces(self.doc), before)
 
+    def test_mouse_click_on_a_cylindrical_face(self):
+        part = self.doc.addObject("Part::Cylinder", "Pin")
+        part.Radius, part.Height = 0.9, 6
+        part.Placement.Base = FreeCAD.Vector(5, -2.5, -1)
+        self.doc.recompute()
+        self.run_command("FemScalpel_CylindricalCrack")
+        self.wait_for_preview_or_message()
+        click("pickGeometry")
+        # The side that faces the isometric view.
+        click_at(np.array((5, -2.5, 1.0)) + 0.9 * np.array((0.5**0.5, -(0.5**0.5), 0)))
+        np.testing.assert_allclose([value("originX"), value("originY"), abs(value("normalZ")), value("radius")], (5, -2.5, 1, 0.9), atol=0.006)
+        self.assertFalse(widget("pickGeometry").isChecked())
+
+    def test_axis_along_the_view(self):
+        self.run_command("FemScalpel_CylindricalCrack")
+        self.wait_for_preview_or_message()
+        view().viewTop()
+        click("pickView")
+        np.testing.assert_allclose([value("normalX"), value("normalY"), value("normalZ")], (0, 0, 1), atol=0.006)
+
     def wait_for_preview_or_message(self):
         wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
 
@@ -107,14 +127,16 @@ class CylindricalCrack(CylinderTest):
 class Drill(CylinderTest):
     PARTS = 2
 
-    def test_mesh_too_coarse(self):
-        self.add_mesh(long_box(), "Coarse")
+    def test_coarse_mesh_is_refined_first(self):
+        coarse = self.add_mesh(long_box(), "Coarse")
         FreeCADGui.Selection.addSelection(self.doc.Name, "Coarse")
         self.run_command("FemScalpel_Drill")
         spin(0.2)
         self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
-        self.assertIn("too coarse", self.wait_for_message("geometryError"))
-        screenshot("drill_too_coarse")
+        expected = fs.drill(femmesh_bridge.from_femmesh(coarse.FemMesh), fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3)).report
+        self.assertGreater(expected.elements_added, 100)
+        wait_until(lambda: f" {expected.elements_added} " in widget("status").text(), "the preview")
+        screenshot("drill_coarse")
 
     def test_through_then_blind(self):
         self.run_command("FemScalpel_Drill")
