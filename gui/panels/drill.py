@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Task panel: drill a hole."""
 
-import FreeCADGui
 import numpy as np
 
-from ..translate import QT_TRANSLATE_NOOP, form
+from ..translate import QT_TRANSLATE_NOOP
 from . import fields
 from .cylinder_panel import CylinderPanel
 
@@ -17,8 +16,7 @@ class DrillPanel(CylinderPanel):
     GROUP_NAME, OBJECT_NAME, MAKE = "HOLE", "Drill", "makeDrill"
 
     def add_inputs(self):
-        self.hole = FreeCADGui.PySideUic.loadUi(form("drill.ui"))
-        self.options.rows.insertWidget(0, self.hole)
+        self.hole = self.insert_form("drill.ui")
         self._depth = fields.Number(self.hole.holeDepth, self.update, self.geometry.size / 4)
         self.hole.through.toggled.connect(self._through)
 

@@ -2,11 +2,10 @@
 """Task panel: refine near a cylinder, sphere or plane."""
 
 import FreeCAD
-import FreeCADGui
 
 import femscalpel
 
-from ..translate import QT_TRANSLATE_NOOP, form, translate
+from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 from .cylinder_panel import CylinderPanel
 
@@ -21,8 +20,7 @@ class RefinePanel(CylinderPanel):
     GROUP_NAME, OBJECT_NAME, MAKE = "REFINED", "Refine", "makeRefine"
 
     def add_inputs(self):
-        self.sizes = FreeCADGui.PySideUic.loadUi(form("refine.ui"))
-        self.options.rows.insertWidget(0, self.sizes)
+        self.sizes = self.insert_form("refine.ui")
         texts = (translate("FemScalpel", "Cylinder"), translate("FemScalpel", "Sphere"), translate("FemScalpel", "Plane"))
         for text, shape in zip(texts, SHAPES):
             self.sizes.toolShape.addItem(text, shape)

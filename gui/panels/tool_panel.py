@@ -62,6 +62,12 @@ class ToolPanel(ViewPanel):
     def add_inputs(self):
         """Adds further inputs to the options; each must call update() when it changes."""
 
+    def insert_form(self, name):
+        """Puts a Qt Designer form above the options, and returns it."""
+        inserted = FreeCADGui.PySideUic.loadUi(form(name))
+        self.options.rows.insertWidget(0, inserted)
+        return inserted
+
     def tool(self):
         """The femscalpel.Tool as entered."""
         raise NotImplementedError

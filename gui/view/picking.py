@@ -85,12 +85,9 @@ def plane(click, source):
     """The plane that a face, edge, datum, sketch or mesh face says."""
     if click.on_mesh:
         return _mesh_face(click, source)
-    datum = _datum(click.obj)
+    datum, shape = _of_document(click, _pick_plane)
     if datum is not None:
         return datum
-    shape = _shape(click)
-    if shape is None:
-        raise PickError(_pick_plane())
     if shape.ShapeType == "Face":
         if "Plane" not in type(shape.Surface).__name__:
             raise PickError(translate("FemScalpel", "That face is curved. Pick a planar face."))
@@ -108,12 +105,9 @@ def axis(click, source):
     """The axis that a cylindrical face, an edge, a datum line or a face at the clicked point says."""
     if click.on_mesh:
         return Picked(click.point, _mesh_face(click, source).direction)
-    datum = _datum(click.obj)
+    datum, shape = _of_document(click, _pick_axis)
     if datum is not None:
         return datum
-    shape = _shape(click)
-    if shape is None:
-        raise PickError(_pick_axis())
     if shape.ShapeType == "Face":
         surface = shape.Surface
         if hasattr(surface, "Axis") and hasattr(surface, "Radius"):
@@ -153,6 +147,15 @@ def _datum(obj):
         return None
     placement = obj.getGlobalPlacement()
     return Picked(placement.Base, placement.Rotation.multVec(direction))
+
+
+def _of_document(click, ask):
+    """(what a datum or sketch says, None) or (None, the shape clicked at); PickError with ask() where there is neither."""
+    datum = _datum(click.obj)
+    shape = None if datum is not None else _shape(click)
+    if datum is None and shape is None:
+        raise PickError(ask())
+    return datum, shape
 
 
 def _shape(click):

@@ -265,6 +265,10 @@ class GuiTest(unittest.TestCase):
         window.resizeDocks([window.findChild(QtGui.QDockWidget, "Combo View")], [330], QtCore.Qt.Horizontal)
         self.reported = len(report_view())
         window.findChild(QtGui.QDockWidget, "Report view").hide()
+        window.findChild(QtGui.QMdiArea).closeAllSubWindows()  # the Start page
+        window.statusBar().clearMessage()
+        for bar in window.statusBar().findChildren(QtGui.QProgressBar):
+            bar.hide()
         self.doc = FreeCAD.newDocument("GuiTest")
         self.doc.UndoMode = 1
         spin(0.05)
