@@ -264,7 +264,7 @@ private:
         const std::vector<GroupSum> sums = group_sums(after_);
         for (std::size_t g = 0; g < before_.groups.size(); ++g) {
             const double was = model_.sums[g].measure, is = sums[g].measure;
-            if (model_.flat && is > was * (1 + 1e-9) + 1e-12) say("measure", before_.groups[g].name, " grew from ", was, " to ", is);
+            if (model_.flat && !before_.groups[g].hidden && is > was * (1 + 1e-9) + 1e-12 + model_.group_slack[g]) say("measure", before_.groups[g].name, " grew from ", was, " to ", is);
         }
     }
 

@@ -79,7 +79,7 @@ private:
                 continue;
             }
             if (was.count > 0 && sums[g].count == 0) say("group", before_.groups[g].name, " became empty");
-            if (was.dimension != (model_.solid ? 3 : 2) || before_.groups[g].kind != GroupKind::element) continue;
+            if (before_.groups[g].hidden || was.dimension != (model_.solid ? 3 : 2) || before_.groups[g].kind != GroupKind::element) continue;
             const double slack = model_.flat ? 1e-9 * was.measure + model_.group_slack[g] : 1e-2 * was.measure;
             if (std::abs(sums[g].measure - was.measure) > slack) say("measure", before_.groups[g].name, " ", was.measure, " -> ", sums[g].measure, ", allowed ", slack);
         }

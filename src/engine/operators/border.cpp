@@ -281,8 +281,29 @@ bool is_inside(const Interface& f, const Patch& patch, const auto& nodes) {
     return furthest < 0;
 }
 
+/// Whether some of the faces (edges of shells) on the tool reach into the patch, sampled.
+bool meets_material(const BandMesh& band, const Patch& patch) {
+    constexpr int n = 12;
+    const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
+    for (int s = 0; s < band.cut_faces.size(); ++s) {
+        if (!band.cut_faces.alive(s)) continue;
+        const auto& v = band.cut_faces[s];
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; i + j <= n; ++j)
+                if (patch.distance(at(v[0]) + (at(v[1]) - at(v[0])) * i / n + (at(v[2]) - at(v[0])) * j / n) < 0) return true;
+    }
+    for (int s = 0; s < band.cut_edges.size(); ++s) {
+        if (!band.cut_edges.alive(s)) continue;
+        const auto& v = band.cut_edges[s];
+        for (int i = 0; i <= n; ++i)
+            if (patch.distance(at(v[0]) + (at(v[1]) - at(v[0])) * i / n) < 0) return true;
+    }
+    return false;
+}
+
 /// A face of the crack all of whose nodes are on the front would stay closed: its longest edge inside the crack, or on the
-/// skin, gets a node in between. So does an edge of a shell's crack between two tips.
+/// skin, gets a node in between. So does an edge of the skin that joins two nodes of the front across the crack's mouth, and an edge
+/// of a shell's crack between two tips.
 void part_closed_faces(Interface& f, const Patch& patch) {
     BandMesh& band = f.d.band;
     const auto on_front = [&](int v) { return std::ranges::any_of(f.d.contact[v].tools(), [&](const Tool* t) { return patch.has(t); }); };
@@ -305,6 +326,12 @@ void part_closed_faces(Interface& f, const Patch& patch) {
         }
         if (side >= 0) split(n[side], n[(side + 1) % 3]);
     }
+    for (int s = 0; s < band.cut_faces.size(); ++s)
+        for (int k = 0; k < 3 && band.cut_faces.alive(s); ++k) {
+            const int a = band.cut_faces[s][k], b = band.cut_faces[s][(k + 1) % 3];
+            if (!on_front(a) || !on_front(b) || !band.is_cut_border(a, b) || !f.d.constraints.is_skin_edge(band, a, b)) continue;
+            if (patch.distance((band.nodes[a].at + band.nodes[b].at) / 2) < -10 * f.tolerance) split(a, b);
+        }
     for (int s = 0; s < band.cut_edges.size(); ++s)
         if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front)) split(band.cut_edges[s][0], band.cut_edges[s][1]);
 }
@@ -319,23 +346,27 @@ void cut_border(Interface& f, const Patch& patch) {
 
 void keep_patch(Interface& f, const Patch& patch) {
     BandMesh& band = f.d.band;
-    int left = 0;
-    const auto drop = [&](auto& list) {
-        for (int s = 0; s < list.size(); ++s) {
-            if (!list.alive(s)) continue;
-            if (is_inside(f, patch, list[s])) ++left;
-            else list.remove(s);
-        }
-    };
-    drop(band.cut_faces);
-    drop(band.cut_edges);
     const auto too_coarse = [&](const std::string& why) {
         throw ToolError("the mesh is too coarse for the crack: " + why + ". Refine the mesh near the crack front first, or make the crack larger");
     };
+    const auto any_inside = [&](const auto& list) {
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && is_inside(f, patch, list[s])) return true;
+        return false;
+    };
+    if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges)) {
+        if (meets_material(band, patch)) too_coarse("no element face fits in it");
+        throw ToolError("the crack lies outside the part: there is no material within its front. Move it, or make it larger");
+    }
+    const auto drop = [&](auto& list) {
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && !is_inside(f, patch, list[s])) list.remove(s);
+    };
+    drop(band.cut_faces);
+    drop(band.cut_edges);
     const auto on_corner = [&](int v) {
         return std::ranges::any_of(patch.corners, [&](const Patch::Corner& c) { return (c.at - band.nodes[v].at).norm() <= 100 * f.tolerance; });
     };
-    if (left == 0) too_coarse("no element face fits in it");
     double radius = std::numeric_limits<double>::infinity();
     for (const auto& side : patch.sides) radius = std::min(radius, side->feature_size());
     for (int s = 0; s < band.cut_faces.size(); ++s) {

@@ -52,6 +52,21 @@ std::vector<int> inner_border(const Interface& f, const Lips& lips) {
     return out;
 }
 
+/// All nodes of the lips must have been brought onto the tool, and into the patch if there is one.
+void check_lips(const Interface& f, const Lips& lips, const Patch* patch) {
+    for (const int v : lips.interface_nodes) {
+        const Vec3& x = f.d.band.nodes[v].at;
+        const double off = std::abs(f.tool->distance(x)), beyond = patch ? patch->distance(x) : 0;
+        if (off <= 10 * f.tolerance && beyond <= 100 * f.tolerance) continue;
+        std::ostringstream message;
+        message << "a node of the crack near (" << x.transpose() << ") cannot be brought ";
+        if (off > 10 * f.tolerance) message << "onto the " << f.tool->kind() << ": it stays off by " << off;
+        else message << "to the front: it stays " << beyond << " beyond it";
+        message << ". The mesh is too coarse there: refine it near the crack first";
+        throw QualityError(message.str());
+    }
+}
+
 /// Faces of elements that are long against a tool's curvature cut its corners off, or miss parts of it.
 void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
     const double radius = f.tool->feature_size();
@@ -125,6 +140,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
                         " into the material");
     find_node_sets(f);
     check_contacts(f);
+    check_lips(f, *lips, patch ? &*patch : nullptr);
     warn_of_coarse_mesh(f, *lips);
     return operation.finish(f, *lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }

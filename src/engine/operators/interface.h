@@ -71,8 +71,8 @@ void cut_along(Interface& interface, const Blade& blade);
 /// their curved surfaces.
 void relax_band(Interface& interface);
 
-/// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out of a curved mesh: where new nodes could not be
-/// brought onto the skin they were born on, or second-order elements came out folded, it starts again with other
+/// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out: where new nodes could not be brought onto the skin
+/// or line they were born on and their tools, or second-order elements came out folded, it starts again with other
 /// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times in all.
 ///
 /// Throws QualityError naming the place when nothing helps.

@@ -334,7 +334,9 @@ Slots misfits(const Interface& f) {
     for (const int t : folded_elements(f, least_curved)) found.tetras.push_back(band.tetras.origin(t));
     for (int v = band.original_nodes(); v < band.size(); ++v) {
         if (!band.in_use(v)) continue;
-        const bool on_shape = f.d.constraints.distance(f.d.constraints[v], band.nodes[v].at) <= largest_misfit * band.mean_edge_length(v);
+        const NodeConstraint& c = f.d.constraints[v];
+        const double allowed = f.d.constraints.is_straight(c) ? 10 * f.tolerance : largest_misfit * band.mean_edge_length(v);
+        const bool on_shape = f.d.constraints.distance(c, band.nodes[v].at) <= allowed;
         if (on_shape && f.off_tools(v) <= 10 * f.tolerance) continue;
         for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
         for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
@@ -393,13 +395,12 @@ void refine(Interface& f, const Slots& slots) {
 
 [[noreturn]] void fail_at(const Interface& f, const Slots& slots) {
     std::ostringstream text;
-    text << "no sound elements were found on the curved skin near (";
+    text << "no sound elements were found where the " << f.tool->kind() << " meets the skin near (";
     bool first = true;
     for_parts(f.d.band, slots, [&](const auto& nodes) {
         if (std::exchange(first, false)) text << f.d.band.nodes[nodes[0]].start.transpose();
     });
-    text << "): the mesh is too coarse for the way the " << f.tool->kind() << " meets the skin there. Move the " << f.tool->kind()
-         << " a little, or refine the mesh";
+    text << "): the mesh is too coarse there. Move the " << f.tool->kind() << " a little, or refine the mesh";
     throw QualityError(text.str());
 }
 
@@ -439,7 +440,8 @@ void relax_band(Interface& f) {
 }
 
 void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts) {
-    if (!f.d.mids.any() && !f.d.constraints.any_curved()) return cut(f);
+    // There geometry alone limits the quality.
+    const bool plain = !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
     std::optional<Interface> best;
     double best_quality = -1;
@@ -448,6 +450,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
         Slots bad = misfits(f);
         bool polish = false;
         if (bad.empty()) {
+            if (plain) return;
             const double quality = poorest(f, 1.5 * poor_quality, bad);
             if (quality >= poor_quality) return;
             if (quality > best_quality) {
