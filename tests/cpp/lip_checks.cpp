@@ -193,6 +193,7 @@ Tangency::Tangency(const Model& model) : model_(model) {
         for (int e = 0; e < 2; ++e) s.end[e] = Vec3(key[e][0], key[e][1], key[e][2]);
         creases_.push_back(s);
     }
+    if (!model.solid) creases_.insert(creases_.end(), model.lines.begin(), model.lines.end());
 }
 
 bool Tangency::of(const std::function<double(const Vec3&)>& distance, double radius) const {
@@ -225,6 +226,25 @@ bool Tangency::of(const std::function<double(const Vec3&)>& distance, double rad
             if (near(distance(x), edge) && std::abs(gradient(x).dot(s.end[1] - s.end[0])) < sine * edge) return true;
         }
     }
+    return false;
+}
+
+bool Tangency::of_curve(const std::vector<Vec3>& points, double radius) const {
+    const double sine = std::sin(5 * std::numbers::pi / 180);
+    std::vector<std::pair<Vec3, Vec3>> places;  // and directions
+    for (std::size_t k = 1; k < points.size(); ++k) {
+        const Vec3 along = points[k] - points[k - 1];
+        const int n = std::clamp(static_cast<int>(along.norm() / (0.01 * model_.size)), 1, 200);
+        for (int i = 0; i < n; ++i) places.emplace_back(points[k - 1] + along * (i + 0.5) / n, along.normalized());
+    }
+    for (const auto* faces : {&model_.skin, &model_.borders})
+        for (const Model::Face& f : *faces) {
+            const Vec3 low = f.corner[0].cwiseMin(f.corner[1]).cwiseMin(f.corner[2]).array() - f.edge / 2, high = f.corner[0].cwiseMax(f.corner[1]).cwiseMax(f.corner[2]).array() + f.edge / 2;
+            for (const auto& [x, along] : places)
+                if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all() && std::abs(f.normal.dot(x - f.corner[0])) < 0.15 * std::min(f.edge, radius / 2) &&
+                    std::abs(along.dot(f.normal)) < sine)
+                    return true;
+        }
     return false;
 }
 

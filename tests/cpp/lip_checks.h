@@ -27,6 +27,9 @@ public:
     explicit Tangency(const Model& model);
     bool of(const std::function<double(const Vec3&)>& distance, double radius) const;
 
+    /// The same of a front, or of the line where two walls meet, by points of it: as close together as it bends.
+    bool of_curve(const std::vector<Vec3>& points, double radius) const;
+
 private:
     const Model& model_;
     std::vector<Model::Segment> creases_;

@@ -122,16 +122,16 @@ protected:
     }
 
     /// A hole, or a cut, of walls with these distances; the groups of the walls by name.
-    Outcome carved(Result result, Distance depth, std::vector<Carved::Wall> walls, double radius) {
-        const bool grazes = std::ranges::any_of(walls, [&](const Carved::Wall& w) { return tangency_.of(w.distance, radius); });
+    Outcome carved(Result result, Distance depth, std::vector<Carved::Wall> walls, double radius, const std::vector<Vec3>& corner = {}) {
+        const bool grazes = std::ranges::any_of(walls, [&](const Carved::Wall& w) { return tangency_.of(w.distance, radius); }) || tangency_.of_curve(corner, radius);
         const Carved what{std::move(depth), std::move(walls), std::isfinite(radius) ? 1 / (8 * radius) : 0};
         std::vector<std::string> findings = check_carved(model_, what, result);
         return {std::move(result), std::move(findings), grazes};
     }
 
-    Outcome cracked(Result result, const CrackSurface& surface, double radius) {
+    Outcome cracked(Result result, const CrackSurface& surface, double radius, const std::vector<Vec3>& front = {}) {
         std::vector<std::string> findings = check_lips(model_, surface, result);
-        return {std::move(result), std::move(findings), tangency_.of(surface.distance, radius)};
+        return {std::move(result), std::move(findings), tangency_.of(surface.distance, radius) || tangency_.of_curve(front, radius)};
     }
 
     /// A random plane, and axes in it.
@@ -150,11 +150,18 @@ protected:
     }
 
     /// A crack within a part of a random plane.
-    Outcome crack_within(const Frame& f, const Within& within, Distance border, double size) {
+    Outcome crack_within(const Frame& f, const Within& within, Distance border, double size, const std::vector<Vec3>& front) {
         CrackOptions options;
         options.within = &within;
-        return cracked(session_.crack(Plane(f.origin, f.normal), options), {f.distance(), std::move(border)}, size);
+        return cracked(session_.crack(Plane(f.origin, f.normal), options), {f.distance(), std::move(border)}, size, front);
     }
+
+    static std::vector<Vec3> arc(const Vec3& centre, const Vec3& u, const Vec3& v, double degrees = 360) {
+        std::vector<Vec3> out;
+        for (int k = 0; k <= 200; ++k) out.push_back(centre + std::cos(k * degrees / 200 * std::numbers::pi / 180) * u + std::sin(k * degrees / 200 * std::numbers::pi / 180) * v);
+        return out;
+    }
+    std::vector<Vec3> line(const Vec3& origin, const Vec3& direction) const { return {origin - model_.size * direction, origin + model_.size * direction}; }
 
     static Distance to_cylinder(const Vec3& origin, const Vec3& axis, double radius) {
         return [=](const Vec3& x) {
@@ -200,9 +207,10 @@ TEST_P(ToolProperties, BlindHoles) {
         text_ << "radius " << radius << " depth " << *options.depth;
         const Cylinder cylinder(origin, axis, radius);
         const Tool* tool = &cylinder;
+        const Vec3 across = axis.unitOrthogonal();
         const Distance wall = to_cylinder(origin, axis, radius), bottom = [=, depth = *options.depth](const Vec3& x) { return axis.dot(x - origin) - depth; };
         return carved(session_.drill({&tool, 1}, options), [=](const Vec3& x) { return std::max(wall(x), bottom(x)); },
-                      {{"HOLE_WALL", wall}, {"HOLE_BOTTOM", bottom}}, radius);
+                      {{"HOLE_WALL", wall}, {"HOLE_BOTTOM", bottom}}, radius, arc(origin + *options.depth * axis, radius * across, radius * axis.cross(across)));
     });
 }
 
@@ -225,7 +233,7 @@ TEST_P(ToolProperties, NotchesOfTwoPlanes) {
         const Vec3 a = std::cos(half) * f.normal + std::sin(half) * f.v, b = -std::cos(half) * f.normal + std::sin(half) * f.v;
         const Distance p = [=](const Vec3& x) { return a.dot(x - f.origin); }, n = [=](const Vec3& x) { return b.dot(x - f.origin); };
         return carved(session_.cut(Plane(f.origin, a), Plane(f.origin, b)), [=](const Vec3& x) { return std::max(p(x), n(x)); }, {{"CUT_P", p}, {"CUT_N", n}},
-                      std::numeric_limits<double>::infinity());
+                      std::numeric_limits<double>::infinity(), line(f.origin, f.u));
     });
 }
 
@@ -240,7 +248,7 @@ TEST_P(ToolProperties, SawCuts) {
         const Distance p = [=](const Vec3& x) { return f.normal.dot(x - f.origin) - width / 2; }, n = [=](const Vec3& x) { return -f.normal.dot(x - f.origin) - width / 2; },
                        bottom = [=](const Vec3& x) { return f.v.dot(x - f.origin); };
         return carved(session_.cut(Plane(f.origin, f.normal), width, options), [=](const Vec3& x) { return std::max({p(x), n(x), bottom(x)}); },
-                      {{"CUT_P", p}, {"CUT_N", n}, {"CUT_BOTTOM", bottom}}, std::numeric_limits<double>::infinity());
+                      {{"CUT_P", p}, {"CUT_N", n}, {"CUT_BOTTOM", bottom}}, std::numeric_limits<double>::infinity(), line(f.origin, f.u));
     });
 }
 
@@ -269,7 +277,12 @@ TEST_P(ToolProperties, PartsOfCylinders) {
             if (angle < end / 2 - 180) angle += 360;
             return std::max(along, std::max(-angle, angle - end) * std::numbers::pi / 180 * radius);
         };
-        return cracked(session_.crack(Cylinder(f.origin, f.normal, radius), options), {to_cylinder(f.origin, f.normal, radius), border}, std::min(radius, length));
+        std::vector<Vec3> front = arc(f.origin, radius * f.u, radius * f.v, around ? 360 : end), far = front;
+        for (Vec3& x : far) x += length * f.normal;
+        std::ranges::reverse(far);
+        front.insert(front.end(), far.begin(), far.end());
+        if (!around) front.push_back(front.front());
+        return cracked(session_.crack(Cylinder(f.origin, f.normal, radius), options), {to_cylinder(f.origin, f.normal, radius), border}, std::min(radius, length), front);
     });
 }
 
@@ -278,7 +291,7 @@ TEST_P(ToolProperties, Disks) {
         const Frame f = random_frame(random);
         const double radius = random_size(random);
         text_ << "radius " << radius;
-        return crack_within(f, Disk(f.origin, radius), [=](const Vec3& x) { return (x - f.origin).norm() - radius; }, radius);
+        return crack_within(f, Disk(f.origin, radius), [=](const Vec3& x) { return (x - f.origin).norm() - radius; }, radius, arc(f.origin, radius * f.u, radius * f.v));
     });
 }
 
@@ -292,7 +305,7 @@ TEST_P(ToolProperties, Ellipses) {
             const double p = f.u.dot(x - f.origin) / a, q = f.v.dot(x - f.origin) / b, r = std::hypot(p, q);
             return (r - 1) * r / std::max(1e-12, std::hypot(p / a, q / b));
         };
-        return crack_within(f, Ellipse(f.origin, a, b, f.u), border, b * b / a);
+        return crack_within(f, Ellipse(f.origin, a, b, f.u), border, b * b / a, arc(f.origin, a * f.u, b * f.v));
     });
 }
 
@@ -307,14 +320,14 @@ TEST_P(ToolProperties, Polygons) {
             const double q = f.v.dot(x - f.origin), p = f.u.dot(x - f.origin) - q / b * skew;
             return std::max(std::abs(q) - b, (std::abs(p) - a) * b / std::hypot(b, skew));
         };
-        return crack_within(f, Polygon(corners), border, std::min(a, b));
+        return crack_within(f, Polygon(corners), border, std::min(a, b), {corners[0], corners[1], corners[2], corners[3], corners[0]});
     });
 }
 
 TEST_P(ToolProperties, HalfPlanes) {
     try_many("half-plane", 15, [&](Random& random) {
         const Frame f = random_frame(random);
-        return crack_within(f, HalfPlane(f.origin, f.u), [=](const Vec3& x) { return -f.u.dot(x - f.origin); }, std::numeric_limits<double>::infinity());
+        return crack_within(f, HalfPlane(f.origin, f.u), [=](const Vec3& x) { return -f.u.dot(x - f.origin); }, std::numeric_limits<double>::infinity(), line(f.origin, f.v));
     });
 }
 
