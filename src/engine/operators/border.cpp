@@ -336,6 +336,24 @@ void part_closed_faces(Interface& f, const Patch& patch) {
         if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front)) split(band.cut_edges[s][0], band.cut_edges[s][1]);
 }
 
+/// Nodes that were moved onto the tool where it is not wanted after all go back to where they were, if elements allow it; the others are
+/// relaxed with the crack's.
+void send_home(Interface& f, std::vector<int> nodes) {
+    for (bool any = true; any;) {
+        any = false;
+        for (int& v : nodes) {
+            if (v < 0 || f.d.band.is_new(v)) continue;
+            BandNode& node = f.d.band.nodes[v];
+            if (node.at != node.start && quality_around(f.d, v, node.start) < std::min(0.3, quality_around(f.d, v, node.at))) continue;
+            node.at = node.start;
+            v = -1;
+            any = true;
+        }
+    }
+    for (const int v : nodes)
+        if (v >= 0 && f.d.band.nodes[v].movable()) f.released.push_back(v);
+}
+
 }  // namespace
 
 void cut_border(Interface& f, const Patch& patch) {
@@ -389,8 +407,13 @@ void keep_patch(Interface& f, const Patch& patch) {
             throw QualityError(message.str());
         }
     part_closed_faces(f, patch);
+    std::vector<int> released;
     for (int v = 0; v < band.size(); ++v)
-        if (f.d.contact[v] && band.cut_faces.around(v).empty() && band.cut_edges.around(v).empty()) f.d.contact[v] = {};
+        if (f.d.contact[v] && band.cut_faces.around(v).empty() && band.cut_edges.around(v).empty()) {
+            f.d.contact[v] = {};
+            released.push_back(v);
+        }
+    send_home(f, released);
 }
 
 }  // namespace femscalpel

@@ -115,6 +115,10 @@ private:
                 return std::ranges::find(nodes, t) == nodes.end() && std::ranges::all_of(nodes, [&](int v) { return v == p || on_front(v); });
             });
         };
+        // So would the crack's mouth, were its only node between two of the front to go.
+        for (const int s : band_.cut_faces.around(p))
+            for (const int w : band_.cut_faces[s])
+                if (w != p && w != t && on_front(w) && band_.is_cut_border(p, w) && d_.constraints.is_skin_edge(band_, p, w)) return true;
         return any_closed(band_.cut_faces) || any_closed(band_.cut_edges);
     }
 
@@ -194,9 +198,7 @@ void improve(Interface& f, const Tool& tool, double goal) {
     Improver improver(f, tool);
     const auto relax_again = [&] {
         find_node_sets(f);
-        std::vector<int> movable = f.nodes;
-        movable.insert(movable.end(), f.transition.begin(), f.transition.end());
-        relax(f.d, movable);
+        relax(f.d, movable_nodes(f));
     };
     for (int round = 0; round < 4 && improver.merge_nodes(goal); ++round) relax_again();
     // Splitting must pay: two rounds without gain end it.

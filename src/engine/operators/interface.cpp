@@ -49,6 +49,16 @@ void find_node_sets(Interface& f) {
     std::ranges::sort(f.transition);
 }
 
+std::vector<int> movable_nodes(const Interface& f) {
+    std::vector<int> out = f.nodes;
+    out.insert(out.end(), f.transition.begin(), f.transition.end());
+    for (const int v : f.released)
+        if (f.d.band.in_use(v) && !f.d.contact[v]) out.push_back(v);
+    std::ranges::sort(out);
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
 void split_at_fixed_middles(Interface& f, const Blade& blade, const Mesh& mesh) {
     BandMesh& band = f.d.band;
     if (!f.d.constraints.has_fixed_middles()) return;

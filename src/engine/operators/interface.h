@@ -50,6 +50,7 @@ struct Interface {
     std::vector<std::pair<std::string, double>> seconds;
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side;
+    std::vector<int> released;       ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
     bool patched = false;            ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
@@ -84,6 +85,9 @@ void snap_to_tool(Interface& interface, const Blade& blade);
 
 /// Collects `nodes` (all with contact) and `transition` anew.
 void find_node_sets(Interface& interface);
+
+/// What relaxation may move: interface and transition nodes, and released ones; ascending.
+std::vector<int> movable_nodes(const Interface& interface);
 
 /// The paper's 3.1.1 and 3.1.2: finds a surface of element faces (edges, for shells) near the tool between a
 /// set T1 and a set T2 of elements, then moves its nodes, the interface nodes (CI), onto the tool.

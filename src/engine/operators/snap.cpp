@@ -427,13 +427,12 @@ void relax_band(Interface& f) {
     Stopwatch watch(f.seconds);
     find_node_sets(f);
     deform(f.d, f.nodes, f.transition);
+    if (!f.released.empty()) relax(f.d, movable_nodes(f));
     watch.lap("deform");
     improve(f, *f.tool, improvement_goal);
     for (int round = 0; round < 3 && fit_to_shapes(f, f.d); ++round) {
         find_node_sets(f);
-        std::vector<int> movable = f.nodes;
-        movable.insert(movable.end(), f.transition.begin(), f.transition.end());
-        relax(f.d, movable);
+        relax(f.d, movable_nodes(f));
     }
     mend_curved(f, *f.tool);
     watch.lap("improve");
