@@ -9,11 +9,12 @@ from .drill import Drill
 from .example import Example
 from .export import Export
 from .group_inspector import GroupInspector
+from .incision import Incision
 from .mesh_quality import MeshQuality
 from .refine import Refine
 
 #: In the order of menu and toolbar; None is a separator.
-COMMANDS = (Crack, CylindricalCrack, Drill, Refine, None, GroupInspector, MeshQuality, Export)
+COMMANDS = (Crack, CylindricalCrack, Drill, Incision, Refine, None, GroupInspector, MeshQuality, Export)
 #: In the menu alone, after the others.
 IN_MENU = (None, Example)
 

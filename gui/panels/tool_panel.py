@@ -72,6 +72,10 @@ class ToolPanel(ViewPanel):
         """The femscalpel.Tool as entered."""
         raise NotImplementedError
 
+    def surface(self, tool):
+        """Something whose distance(points) is zero on what the operator makes: lips, walls."""
+        return tool
+
     def removed_region(self, tool):
         """Something whose distance(points) is negative where the operator removes material; None when it removes none."""
         return None
@@ -189,8 +193,9 @@ class ToolPanel(ViewPanel):
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        operate, source, region = self.operation(tool, self.entered()), self.source, self.removed_region(tool)
-        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), tool, region))
+        operate, source = self.operation(tool, self.entered()), self.source
+        surface, region = self.surface(tool), self.removed_region(tool)
+        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), surface, region))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:

@@ -175,7 +175,8 @@ def make_preview(source, result, tool, removed_region=None):
     source : PreviewSource
     result : femscalpel.Result
         Of the whole mesh, or of its band alone.
-    tool : femscalpel.Tool
+    tool : femscalpel.Tool, or anything
+        Whose distance(points) is zero on what the operator made.
     removed_region : object, optional
         Its distance(points) is negative where the operator removes material.
     """

@@ -13,6 +13,7 @@ PANELS = {
     "FemScalpel::Crack": ("FemScalpel_Crack", "crack", "CrackPanel"),
     "FemScalpel::CylindricalCrack": ("FemScalpel_CylindricalCrack", "cylindrical_crack", "CylindricalCrackPanel"),
     "FemScalpel::Drill": ("FemScalpel_Drill", "drill", "DrillPanel"),
+    "FemScalpel::Cut": ("FemScalpel_Incision", "incision", "IncisionPanel"),
     "FemScalpel::Refine": ("FemScalpel_Refine", "refine", "RefinePanel"),
 }
 

@@ -199,6 +199,14 @@
       <translation>Aufgeschnitten</translation>
     </message>
     <message>
+      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, and the width; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
+      <translation>Schneidet einen Schlitz zwischen zwei parallelen Ebenen. Die Ebene in der Mitte wird wie bei einem Riss angegeben, dazu die Breite; die Elemente, die verschwinden, werden durchscheinend gezeigt. Die Flächen der beiden Wände werden zu Gruppen; Gruppen verlieren, was weggeschnitten wird, und sonst nichts, und der Bericht nennt sie.</translation>
+    </message>
+    <message>
+      <source>Cuts a slot into the FEM mesh and keeps its groups</source>
+      <translation>Schneidet einen Schlitz in das FEM-Netz und erhält seine Gruppen</translation>
+    </message>
+    <message>
       <source>Cylinder</source>
       <translation>Zylinder</translation>
     </message>
@@ -261,6 +269,10 @@
     <message>
       <source>Groups</source>
       <translation>Gruppen</translation>
+    </message>
+    <message>
+      <source>Incision</source>
+      <translation>Einschnitt</translation>
     </message>
     <message>
       <source>Isolated (IE)</source>
@@ -921,6 +933,21 @@
     <message>
       <source>Worst</source>
       <translation>Schlechtestes</translation>
+    </message>
+  </context>
+  <context>
+    <name>Slot</name>
+    <message>
+      <source>Between the two walls; the plane is in the middle</source>
+      <translation>Zwischen den beiden Wänden; die Ebene liegt in der Mitte</translation>
+    </message>
+    <message>
+      <source>Slot</source>
+      <translation>Schlitz</translation>
+    </message>
+    <message>
+      <source>Width</source>
+      <translation>Breite</translation>
     </message>
   </context>
 </TS>

@@ -199,6 +199,14 @@
       <translation>En coupe</translation>
     </message>
     <message>
+      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, and the width; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
+      <translation>Coupe une fente entre deux plans parallèles. Indiquez le plan du milieu comme pour une fissure, et la largeur ; les éléments qui disparaissent sont montrés en transparence. Les faces des deux parois deviennent des groupes ; les groupes perdent ce qui est enlevé et rien d'autre, et le rapport dit lesquels.</translation>
+    </message>
+    <message>
+      <source>Cuts a slot into the FEM mesh and keeps its groups</source>
+      <translation>Coupe une fente dans le maillage EF et garde ses groupes</translation>
+    </message>
+    <message>
       <source>Cylinder</source>
       <translation>Cylindre</translation>
     </message>
@@ -261,6 +269,10 @@
     <message>
       <source>Groups</source>
       <translation>Groupes</translation>
+    </message>
+    <message>
+      <source>Incision</source>
+      <translation>Incision</translation>
     </message>
     <message>
       <source>Isolated (IE)</source>
@@ -921,6 +933,21 @@
     <message>
       <source>Worst</source>
       <translation>Le pire</translation>
+    </message>
+  </context>
+  <context>
+    <name>Slot</name>
+    <message>
+      <source>Between the two walls; the plane is in the middle</source>
+      <translation>Entre les deux parois ; le plan est au milieu</translation>
+    </message>
+    <message>
+      <source>Slot</source>
+      <translation>Fente</translation>
+    </message>
+    <message>
+      <source>Width</source>
+      <translation>Largeur</translation>
     </message>
   </context>
 </TS>

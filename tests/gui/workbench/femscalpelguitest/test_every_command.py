@@ -14,7 +14,7 @@ from .test_crack_panel import long_box, traces
 from PySide import QtGui
 
 MESH_COMMANDS = [command for command in COMMANDS if command is not None]
-OPERATORS = ("FemScalpel_Crack", "FemScalpel_CylindricalCrack", "FemScalpel_Drill", "FemScalpel_Refine")
+OPERATORS = ("FemScalpel_Crack", "FemScalpel_CylindricalCrack", "FemScalpel_Drill", "FemScalpel_Incision", "FemScalpel_Refine")
 
 
 def bricks():

@@ -74,6 +74,29 @@ class Macro(GuiTest):
                 type_into(name, text)
             self.wait_for_preview()
             press_ok()
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(self.doc.Name, "CylindricalCrack")
+            self.run_command("FemScalpel_Drill")
+            wait_until(lambda: "…" not in widget("status").text(), "the panel")
+            for name, text in (("originX", "14.2"), ("originY", "2.4"), ("normalX", "0"), ("normalZ", "-1"), ("radius", "1.1")):
+                type_into(name, text)
+            self.wait_for_preview()
+            press_ok()
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(self.doc.Name, "Drill")
+            self.run_command("FemScalpel_Incision")
+            wait_until(lambda: "…" not in widget("status").text(), "the panel")
+            enter_plane((17.3, 2.5, 2.0), (1.0, 0.1, 0.0))
+            type_into("slotWidth", "0.4")
+            self.wait_for_preview()
+            press_ok()
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
+            self.run_command("FemScalpel_Refine")
+            wait_until(lambda: "…" not in widget("status").text(), "the panel")
+            type_into("size", "0.5")
+            self.wait_for_preview()
+            press_ok()
             self.doc.Crack.ViewObject.doubleClicked()
             self.wait_for_preview()
             type_into("offset", "0.3333")
@@ -82,12 +105,13 @@ class Macro(GuiTest):
             self.run_command("Std_MacroStopRecord")
 
             here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
-            self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack"})
+            self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack", "Drill", "Cut", "Refine"})
             self.assertTrue(os.path.exists(macro), os.listdir(folder))
             with open(macro) as file:
                 text = file.read()
             for line in ("import ObjectsFemScalpel", "ObjectsFemScalpel.renameGroup(", "ObjectsFemScalpel.makeCrack(",
-                         "ObjectsFemScalpel.makeCylindricalCrack(", ".PlanePlacement = FreeCAD.Placement("):
+                         "ObjectsFemScalpel.makeCylindricalCrack(", "ObjectsFemScalpel.makeDrill(",
+                         "ObjectsFemScalpel.makeCut(", "ObjectsFemScalpel.makeRefine(", ".PlanePlacement = FreeCAD.Placement("):
                 self.assertIn(line, text)
             out = os.path.join(folder, "meshes.json")
             script = os.path.join(folder, "replay.py")

@@ -14,7 +14,7 @@ import femscalpel as fs
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest
 from .mesh_content import content_of
-from .test_crack_panel import long_box, traces
+from .test_crack_panel import enter_plane, long_box, traces
 
 
 class CylinderTest(GuiTest):
@@ -122,6 +122,54 @@ class CylindricalCrack(CylinderTest):
         self.assertAlmostEqual(value("radius"), 1.7, delta=0.1)
         self.assertAlmostEqual(value("originX"), 7)
         screenshot("cylinder_handles")
+
+
+class Incision(CylinderTest):
+    def test_made_edited_undone(self):
+        self.run_command("FemScalpel_Incision")
+        spin(0.2)
+        enter_plane((6.1, 2.5, 2.0), (1.0, 0.2, 0.1))
+        type_into("slotWidth", "0.8 mm")
+        plane = fs.Plane((6.1, 2.5, 2), (1, 0.2, 0.1))
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        expected = fs.cut(source, plane, width=0.8)
+        wait_until(lambda: f" {expected.report.elements_removed} " in widget("status").text(), "the preview")
+        self.assertGreater(faces_drawn("FemScalpelRemoved"), 0)
+        self.assertGreater(faces_drawn("FemScalpelBand"), 0)
+        self.assertFalse(widget("method").isEnabled())
+        screenshot("incision_1_preview")
+        choose("look", "whole")
+        screenshot("incision_whole")
+        press_ok()
+        cut = self.doc.Cut
+        self.assertEqual(cut.FemMesh.NodeCount, expected.mesh.node_count)
+        screenshot("incision_2_made")
+        made = content_of(cut)
+        self.doc.undo()
+        self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
+        self.doc.redo()
+        self.assertEqual(content_of(self.doc.Cut), made)
+        self.doc.Cut.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertAlmostEqual(value("slotWidth"), 0.8)
+        type_into("slotWidth", "1.1 mm")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual(self.doc.Cut.FemMesh.NodeCount, fs.cut(source, plane, width=1.1).mesh.node_count)
+
+    def test_bottom_of_the_object_is_kept(self):
+        import ObjectsFemScalpel
+        bottom = FreeCAD.Placement(FreeCAD.Vector(0, 0, 1.7), FreeCAD.Rotation(FreeCAD.Vector(1, 0, 0), 180))
+        cut = ObjectsFemScalpel.makeCut(self.doc, self.mesh, origin=(6.1, 2.5, 2), normal=(1, 0, 0), width=0.8, bottom=bottom)
+        self.doc.recompute()
+        made = content_of(cut)
+        cut.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        names = [widget("groups").item(row, 0).text() for row in range(widget("groups").rowCount())]
+        self.assertIn("CUT_BOTTOM", names)
+        screenshot("incision_bottom")
+        press_ok()
+        self.assertEqual(content_of(cut), made)
 
 
 class Drill(CylinderTest):

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Command: cut a slot."""
+
+from ..panels.incision import IncisionPanel
+from ..translate import QT_TRANSLATE_NOOP
+from .base import Command
+
+
+class Incision(Command):
+    NAME = "FemScalpel_Incision"
+    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
+    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cuts a slot into the FEM mesh and keeps its groups")
+    WHATS_THIS = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, and the width; the "
+                      "elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut "
+                      "away and nothing else, and the report says which.")
+    ACCEL = "S, I"
+    PANEL = IncisionPanel
