@@ -78,7 +78,7 @@ class Macro(GuiTest):
             FreeCADGui.Selection.addSelection(self.doc.Name, "CylindricalCrack")
             self.run_command("FemScalpel_Drill")
             wait_until(lambda: "…" not in widget("status").text(), "the panel")
-            for name, text in (("originX", "14.2"), ("originY", "2.4"), ("normalX", "0"), ("normalZ", "-1"), ("radius", "1.1")):
+            for name, text in (("originX", "7.2"), ("originY", "2.4"), ("normalX", "0"), ("normalZ", "-1"), ("radius", "0.9")):
                 type_into(name, text)
             self.wait_for_preview()
             press_ok()
@@ -86,7 +86,7 @@ class Macro(GuiTest):
             FreeCADGui.Selection.addSelection(self.doc.Name, "Drill")
             self.run_command("FemScalpel_Incision")
             wait_until(lambda: "…" not in widget("status").text(), "the panel")
-            enter_plane((17.3, 2.5, 2.0), (1.0, 0.1, 0.0))
+            enter_plane((12.9, 2.5, 2.0), (1.0, 0.1, 0.0))
             type_into("slotWidth", "0.4")
             self.wait_for_preview()
             press_ok()
@@ -94,7 +94,7 @@ class Macro(GuiTest):
             FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
             self.run_command("FemScalpel_Refine")
             wait_until(lambda: "…" not in widget("status").text(), "the panel")
-            type_into("size", "0.5")
+            type_into("edgeSize", "0.6")
             self.wait_for_preview()
             press_ok()
             self.doc.Crack.ViewObject.doubleClicked()

@@ -125,14 +125,16 @@ class CylindricalCrack(CylinderTest):
 
 
 class Incision(CylinderTest):
+    PARTS = 2
+
     def test_made_edited_undone(self):
         self.run_command("FemScalpel_Incision")
         spin(0.2)
         enter_plane((6.1, 2.5, 2.0), (1.0, 0.2, 0.1))
-        type_into("slotWidth", "0.8 mm")
+        type_into("slotWidth", "1.7 mm")
         plane = fs.Plane((6.1, 2.5, 2), (1, 0.2, 0.1))
         source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
-        expected = fs.cut(source, plane, width=0.8)
+        expected = fs.cut(source, plane, width=1.7)
         wait_until(lambda: f" {expected.report.elements_removed} " in widget("status").text(), "the preview")
         self.assertGreater(faces_drawn("FemScalpelRemoved"), 0)
         self.assertGreater(faces_drawn("FemScalpelBand"), 0)
@@ -151,7 +153,7 @@ class Incision(CylinderTest):
         self.assertEqual(content_of(self.doc.Cut), made)
         self.doc.Cut.ViewObject.doubleClicked()
         self.wait_for_preview()
-        self.assertAlmostEqual(value("slotWidth"), 0.8)
+        self.assertAlmostEqual(value("slotWidth"), 1.7)
         type_into("slotWidth", "1.1 mm")
         self.wait_for_preview()
         press_ok()
