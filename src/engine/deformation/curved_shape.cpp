@@ -93,10 +93,12 @@ MidSide mid_side(const Deformable& d, int a, int b) {
     return fit(d, na.at, nb.at, shape_of(d, a, b));
 }
 
-CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {
-    if (!d.mids.any()) return;
-    const BandMesh& band = d.band;
-    std::vector<std::array<int, 2>> across;
+CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {}
+
+void CurvedStar::gather() {
+    gathered_ = true;
+    if (!d_.mids.any()) return;
+    std::vector<std::uint64_t> across;
     const auto place = [](auto& list, const auto& wanted) {
         const auto it = std::ranges::find(list, wanted);
         if (it != list.end()) return static_cast<int>(it - list.begin());
@@ -104,42 +106,58 @@ CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {
         return static_cast<int>(list.size()) - 1;
     };
     const auto& edges = traits(CellType::tetra10).edges;
-    for (const int t : band.tetras.around(node)) {
-        if (!is_second_order(d, t)) continue;
-        Element e{band.tetras[t], {}};
+    for (const int t : d_.band.tetras.around(node_)) {
+        if (!is_second_order(d_, t)) continue;
+        Element e{d_.band.tetras[t], {}};
         for (std::size_t k = 0; k < edges.size(); ++k) {
             const int a = e.corner[edges[k][0]], b = e.corner[edges[k][1]];
-            e.mid[k] = a == node || b == node ? place(spokes_, a == node ? b : a) : -1 - place(across, std::array{std::min(a, b), std::max(a, b)});
+            e.mid[k] = a == node_ || b == node_ ? place(spokes_, a == node_ ? b : a) : -1 - place(across, edge_key(a, b));
         }
         elements_.push_back(e);
     }
     mids_.resize(spokes_.size());
-    for (const auto& [a, b] : across) mids_.push_back(mid_side(d, a, b));
+    found_.resize(spokes_.size());
+    for (const std::uint64_t key : across) mids_.push_back(mid_side(d_, static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)));
     for (Element& e : elements_)
         for (int& m : e.mid)
             if (m < 0) m = static_cast<int>(spokes_.size()) - 1 - m;
 }
 
-double CurvedStar::worst(const Vec3& x) {
+double CurvedStar::worst(const Vec3& x, double enough) {
+    if (!gathered_) gather();
     if (elements_.empty()) return 1;
     Vec3& at = d_.band.nodes[node_].at;
     const Vec3 home = at;
     at = x;
-    for (std::size_t k = 0; k < spokes_.size(); ++k) mids_[k] = mid_side(d_, node_, spokes_[k]);
+    std::ranges::fill(found_, 0);
     double worst = 1;
-    for (const Element& e : elements_) {
+    for (std::size_t i = 0; i < elements_.size() && worst >= enough; ++i) {
+        const Element& e = elements_[i];
         std::array<Vec3, 4> corner;
         for (int k = 0; k < 4; ++k) corner[k] = d_.band.nodes[e.corner[k]].at;
-        worst = std::min(worst, ratio(corner, [&](std::size_t k) { return mids_[e.mid[k]]; }));
+        worst = std::min(worst, ratio(corner, [&](std::size_t k) {
+            const auto m = static_cast<std::size_t>(e.mid[k]);
+            if (m < found_.size() && !found_[m]) {
+                found_[m] = 1;
+                mids_[m] = mid_side(d_, node_, spokes_[m]);
+            }
+            return mids_[m];
+        }));
+        // It is likely to be the one that fails at the next place, too.
+        if (worst < enough) std::swap(elements_[0], elements_[i]);
     }
     at = home;
     return worst;
 }
 
 bool CurvedStar::stays_sound(const Vec3& x) {
-    if (elements_.empty()) return true;
-    const double after = worst(x);
-    return after >= curved_limit || after >= worst(d_.band.nodes[node_].at);
+    if (worst(x, curved_limit) >= curved_limit) return true;
+    const Vec3& home = d_.band.nodes[node_].at;
+    if (!home_ || *home_ != home) {
+        at_home_ = worst(home);
+        home_ = home;
+    }
+    return at_home_ < curved_limit && worst(x, at_home_) >= at_home_;
 }
 
 double curved_shape(const Deformable& d, int tetra) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "deformation/relaxation.h"
 
 namespace femscalpel {
@@ -23,28 +26,34 @@ Contact edge_tools(const Deformable& d, int a, int b);
 MidSide mid_side(const Deformable& d, int a, int b);
 
 /// The second-order elements around a node of which several places are to be tried. The mid-side nodes of the edges across
-/// from it are found once; so nothing else may change meanwhile.
+/// from it are found once, at the first; so nothing else may change from then on.
 class CurvedStar {
 public:
     CurvedStar(Deformable& d, int node);
 
     /// Smallest curved_ratio() of the elements, were the node at `x`; 1 if they are straight, -1 if a mid-side node does not
-    /// fit. Moves the node there and back.
-    double worst(const Vec3& x);
+    /// fit. Looks no further once it is below `enough`. Moves the node there and back.
+    double worst(const Vec3& x, double enough = -std::numeric_limits<double>::infinity());
 
-    /// Whether the elements stay sound when the node moves to `x`.
+    /// Whether the elements stay sound when the node moves to `x` from where it is.
     bool stays_sound(const Vec3& x);
 
 private:
+    void gather();
+
     struct Element {
         std::array<int, 4> corner;
         std::array<int, 6> mid;  // places in mids_
     };
     Deformable& d_;
     int node_;
+    bool gathered_ = false;
     std::vector<Element> elements_;
     std::vector<int> spokes_;      // the far ends of the edges at the node
     std::vector<MidSide> mids_;    // of the spokes, then of the edges across
+    std::vector<char> found_;      // which spokes' are those of the place tried
+    std::optional<Vec3> home_;     // for which at_home_ holds
+    double at_home_ = 0;           // worst() where the node is
 };
 
 /// curved_ratio() of a tetrahedron of the band as it is.

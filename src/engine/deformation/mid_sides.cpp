@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deformation/mid_sides.h"
 
-#include <Eigen/LU>
-
-#include "mesh/quality.h"
+#include <cmath>
+#include <limits>
 
 namespace femscalpel {
 
@@ -34,15 +33,42 @@ void MidSides::split(const BandMesh& band, int a, int b, int p, double t) {
 }
 
 double curved_ratio(const std::array<Vec3, 10>& x) {
-    const double straight = signed_volume(x[0], x[1], x[2], x[3]);
-    double smallest = smallest_jacobian(x);
-    // At a corner the columns of the Jacobian are the tangents of its edges. Mid-side nodes: 01 12 20 03 13 23.
-    constexpr int corner[4][7] = {{0, 1, 4, 2, 6, 3, 7}, {1, 2, 5, 0, 4, 3, 8}, {2, 0, 6, 1, 5, 3, 9}, {3, 0, 7, 2, 9, 1, 8}};
-    for (const auto& c : corner) {
-        const auto tangent = [&](int end, int mid) { return Vec3(4 * x[mid] - 3 * x[c[0]] - x[end]); };
-        smallest = std::min(smallest, tangent(c[1], c[2]).cross(tangent(c[3], c[4])).dot(tangent(c[5], c[6])) / 6);
+    // Bent edges add to the Jacobian of the straight element, each by its bulge times the gradient of its shape function
+    // 4 l_a l_b. Mid-side nodes: 01 12 20 03 13 23.
+    static constexpr int ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+    static const std::array<std::array<Vec3, 6>, 8> gradients = [] {
+        const std::array<Vec3, 4> slope{Vec3(-1, -1, -1), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+        const double near = (5 + 3 * std::sqrt(5.0)) / 20, far = (5 - std::sqrt(5.0)) / 20;  // integration points
+        std::array<std::array<Vec3, 6>, 8> out;
+        for (int p = 0; p < 8; ++p) {
+            std::array<double, 4> l;
+            l.fill(p < 4 ? far : 0);
+            l[p % 4] = p < 4 ? near : 1;
+            for (int k = 0; k < 6; ++k) out[p][k] = 4 * (l[ends[k][0]] * slope[ends[k][1]] + l[ends[k][1]] * slope[ends[k][0]]);
+        }
+        return out;
+    }();
+    std::array<Vec3, 6> bulge;
+    std::array<int, 6> bent;
+    int count = 0;
+    for (int k = 0; k < 6; ++k) {
+        bulge[k] = x[4 + k] - (x[ends[k][0]] + x[ends[k][1]]) / 2;
+        if (!bulge[k].isZero(0)) bent[count++] = k;
     }
-    return smallest / straight;
+    const Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto& g : gradients) {
+        Vec3 u = a, v = b, w = c;
+        for (int i = 0; i < count; ++i) {
+            const Vec3& off = bulge[bent[i]];
+            const Vec3& slope = g[bent[i]];
+            u += off * slope[0];
+            v += off * slope[1];
+            w += off * slope[2];
+        }
+        smallest = std::min(smallest, u.cross(v).dot(w));
+    }
+    return smallest / a.cross(b).dot(c);
 }
 
 }  // namespace femscalpel

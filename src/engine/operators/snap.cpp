@@ -314,9 +314,10 @@ bool fit_to_shapes(const Interface& f, Deformable& d) {
     return any;
 }
 
-/// Elements of the input, by slot.
+/// Elements of the input, by slot, and where in them something went wrong.
 struct Slots {
     std::vector<int> tetras, triangles;
+    std::vector<Vec3> places;
 
     bool empty() const { return tetras.empty() && triangles.empty(); }
     void tidy() {
@@ -327,17 +328,27 @@ struct Slots {
     }
 };
 
+Vec3 middle_of(const BandMesh& band, const auto& nodes) {
+    Vec3 sum = Vec3::Zero();
+    for (const int v : nodes) sum += band.nodes[v].at;
+    return sum / static_cast<double>(nodes.size());
+}
+
 /// Those in which new nodes are off their tools or the curved skin they were born on, or parts came out as folded second-order elements.
 Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     Slots found;
-    for (const int t : folded_elements(f, least_curved)) found.tetras.push_back(band.tetras.origin(t));
+    for (const int t : folded_elements(f, least_curved)) {
+        found.tetras.push_back(band.tetras.origin(t));
+        found.places.push_back(middle_of(band, band.tetras[t]));
+    }
     for (int v = band.original_nodes(); v < band.size(); ++v) {
         if (!band.in_use(v)) continue;
         const NodeConstraint& c = f.d.constraints[v];
         const double allowed = f.d.constraints.is_straight(c) ? 10 * f.tolerance : largest_misfit * band.mean_edge_length(v);
         const bool on_shape = f.d.constraints.distance(c, band.nodes[v].at) <= allowed;
         if (on_shape && f.off_tools(v) <= 10 * f.tolerance) continue;
+        found.places.push_back(band.nodes[v].at);
         for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
         for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
     }
@@ -354,7 +365,9 @@ double poorest(const Interface& f, double limit, Slots& poor) {
         if (std::ranges::none_of(band.tetras[t], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
         const double quality = tetra_quality(f.d, t);
         worst = std::min(worst, quality);
-        if (quality < limit) poor.tetras.push_back(band.tetras.origin(t));
+        if (quality >= limit) continue;
+        poor.tetras.push_back(band.tetras.origin(t));
+        poor.places.push_back(middle_of(band, band.tetras[t]));
     }
     poor.tidy();
     return worst;
@@ -371,12 +384,18 @@ void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
     look(band.triangles, slots.triangles);
 }
 
-/// Bisects the edges of some elements, longest first. Halves bulge a quarter as far, so that a tool finds room between a
+/// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves bulge a quarter as far, so that a tool finds room between a
 /// curved skin and its chords where it found none.
 void refine(Interface& f, const Slots& slots) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
     for_parts(band, slots, [&](const auto& nodes) {
+        const Vec3 middle = middle_of(band, nodes);
+        double longest = 0;
+        for (const int a : nodes)
+            for (const int b : nodes) longest = std::max(longest, (band.nodes[a].at - band.nodes[b].at).squaredNorm());
+        const bool divided = std::ranges::any_of(nodes, [&](int v) { return band.is_new(v); });
+        if (divided && std::ranges::none_of(slots.places, [&](const Vec3& x) { return (x - middle).squaredNorm() <= longest; })) return;
         for (const int a : nodes)
             for (const int b : nodes)
                 if (a < b && (band.nodes[a].movable() || band.nodes[b].movable())) edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
