@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "error.h"
+#include "operators/root.h"
 #include "operators/stopwatch.h"
 
 namespace femscalpel {
@@ -177,25 +178,8 @@ private:
     /// The point of the edge a-b on the border.
     Vec3 crossing(int a, int b) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
-        double ta = 0, tb = 1, da = value_[a], db = value_[b];
-        Vec3 at = pa;
-        // Regula falsi, Illinois variant.
-        for (int i = 0; i < 100; ++i) {
-            const double t = ta + (tb - ta) * da / (da - db);
-            at = pa + t * (pb - pa);
-            const double dt = patch_.distance(at);
-            if (std::abs(dt) <= 1e-3 * f_.tolerance) break;
-            if ((dt < 0) == (da < 0)) {
-                ta = t;
-                da = dt;
-                db /= 2;
-            } else {
-                tb = t;
-                db = dt;
-                da /= 2;
-            }
-        }
-        return at;
+        const auto at = [&](double t) { return Vec3(pa + t * (pb - pa)); };
+        return at(root_between(value_[a], value_[b], 1e-3 * f_.tolerance, [&](double t) { return patch_.distance(at(t)); }));
     }
 
     /// Makes a corner of the patch a node of the interface, if the interface gets there.

@@ -55,10 +55,9 @@ int bandwidth(const Location& location, const Mesh& mesh) {
     return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
 }
 
-/// Elements of the band's moving part before and after; `inverted` collects those that were bad on arrival.
+/// Elements of the band's moving part before and after.
 struct BandQuality {
     std::vector<ElementQuality> before, after;
-    std::vector<Index> inverted;
 };
 
 BandQuality band_quality(const Interface& f, const Mesh& mesh) {
@@ -485,7 +484,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     for (const GroupRecord& g : report_.groups)
         if (g.status == "became empty")
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
-    for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &rebuilt.warnings, &deck_warnings})
+    for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &deck_warnings})
         for (const std::string& w : *warnings)
             if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
     const bool refined = prepared_.refined && !prepared_.refined->tried_in_vain;

@@ -22,7 +22,6 @@ struct Rebuilt {
     Index nodes_removed = 0;
     Index elements_added = 0;
     Index elements_removed = 0;
-    std::vector<std::string> warnings;
     std::vector<Index> place;            ///< index in `mesh` of each node of the input, -1 if gone; empty when none is
 
     Index kept_node(Index input_node) const { return place.empty() ? input_node : place[input_node]; }

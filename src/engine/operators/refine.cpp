@@ -499,7 +499,6 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     report.warnings = f->warnings;
     if (bisector->off_shape() > 0)
         report.warnings.push_back(std::to_string(bisector->off_shape()) + " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
-    report.warnings.insert(report.warnings.end(), rebuilt.warnings.begin(), rebuilt.warnings.end());
     if (input.solver_input) {
         carry_deck(mesh, rebuilt.mesh, rebuilt.changes, options.strict, report.warnings);
         watch.lap("carry deck");

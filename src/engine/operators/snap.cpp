@@ -11,6 +11,7 @@
 #include "operators/improve.h"
 #include "operators/interface.h"
 #include "operators/mend_curved.h"
+#include "operators/root.h"
 #include "operators/stopwatch.h"
 
 namespace femscalpel {
@@ -33,6 +34,8 @@ constexpr double largest_misfit = 5e-4;
 /// Elements of a curved mesh below this mean ratio are refined before another try, of which there are so many.
 constexpr double poor_quality = 0.1;
 constexpr int polishings = 3;
+/// A curved mesh with elements below this is not returned.
+constexpr double degenerate_quality = 0.01;
 
 class Snapper {
 public:
@@ -261,24 +264,11 @@ private:
     /// The point of the edge a-b on the tool, and on the surface or curve the edge is on.
     Vec3 crossing(int a, int b, const Contact& tools) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
-        double ta = 0, tb = 1, da = value_[a], db = value_[b];
         Vec3 at = pa;
-        // Regula falsi, Illinois variant; exact in one step for a plane and a straight edge.
-        for (int i = 0; i < 60; ++i) {
-            const double t = ta + (tb - ta) * da / (da - db);
+        root_between(value_[a], value_[b], 1e-3 * f_.tolerance, [&](double t) {
             at = d_.along_edge(a, b, t);
-            const double dt = tool_.distance(at);
-            if (std::abs(dt) <= 1e-3 * f_.tolerance) break;
-            if ((dt < 0) == (da < 0)) {
-                ta = t;
-                da = dt;
-                db /= 2;
-            } else {
-                tb = t;
-                db = dt;
-                da /= 2;
-            }
-        }
+            return tool_.distance(at);
+        });
         const Deformable::SplitPoint bent = d_.fitted_split(a, b, at, tools);
         if (bent.fits && bent.worst > 0) return bent.at;
         // On the chord elements stay sound; the surface has to wait.
@@ -462,7 +452,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     const bool plain = !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
     std::optional<Interface> best;
-    double best_quality = -1;
+    double best_quality = degenerate_quality;
     for (int attempt = 1, polished = 0;; ++attempt) {
         cut(f);
         Slots bad = misfits(f);
@@ -476,7 +466,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
                 best = f;
             }
             polish = true;
-            if (++polished == polishings) break;
+            if (++polished >= polishings && best) break;
         }
         if (attempt == attempts) {
             if (!best) fail_at(f, bad);
