@@ -488,6 +488,11 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
         f.seconds = seconds;
     }
     f = std::move(*best);
+    std::ostringstream text;
+    text.precision(2);
+    text << "the " << f.tool->kind() << " meets curved surfaces so that elements there come out with a mean ratio of " << best_quality
+         << " at best: refine the mesh there for better ones";
+    f.warnings.push_back(text.str());
 }
 
 void snap_to_tool(Interface& f, const Blade& blade) {
