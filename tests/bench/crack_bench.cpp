@@ -35,7 +35,10 @@ void note(long bytes) {
 
 }  // namespace
 
-// Counted allocation, so that the engine's own memory can be told from the input mesh and the process.
+// Counted allocation, so that the engine's own memory can be told from the input mesh and the process. Inlined, the pairs confuse GCC.
+#if defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
 void* operator new(std::size_t size) {
     void* p = std::malloc(size);
     if (!p) throw std::bad_alloc();

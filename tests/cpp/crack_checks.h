@@ -90,7 +90,7 @@ public:
     /// A line element, or, in a shell mesh, an edge of a border, crease or junction.
     struct Segment {
         std::array<Vec3, 2> end;
-        Vec3 mid;
+        Vec3 mid = Vec3::Zero();
         std::vector<Vec3> plates;  ///< unit normals of the shells (skin faces) that meet here
         std::vector<Vec3> inward;  ///< unit directions from here into those faces
         std::string kind;          ///< shells: what meets here

@@ -39,19 +39,19 @@ inline constexpr double blade_margin = 1.5;
 /// A band in which element faces are being made to lie on tools.
 struct Interface {
     Deformable d;
-    const Tool* tool = nullptr;      ///< the first, to which `distance` belongs
-    std::vector<double> distance;    ///< signed, by band node; exactly 0 for nodes on the tool
-    double tolerance = 0;            ///< nodes nearer than this lie on the tool
-    std::vector<int> nodes;          ///< nodes on the tool (ICN and ECN), ascending
-    std::vector<int> transition;     ///< nodes within `bandwidth` edges of them (ITN and ETN), ascending
-    int bandwidth = 2;               ///< i of the paper's i-th neighbourhood
-    std::vector<CellRef> deep_inside;  ///< elements to be removed that are not in the band
-    std::vector<std::string> warnings;
-    std::vector<std::pair<std::string, double>> seconds;
+    const Tool* tool = nullptr;              ///< the first, to which `distance` belongs
+    std::vector<double> distance = {};       ///< signed, by band node; exactly 0 for nodes on the tool
+    double tolerance = 0;                    ///< nodes nearer than this lie on the tool
+    std::vector<int> nodes = {};             ///< nodes on the tool (ICN and ECN), ascending
+    std::vector<int> transition = {};        ///< nodes within `bandwidth` edges of them (ITN and ETN), ascending
+    int bandwidth = 2;                       ///< i of the paper's i-th neighbourhood
+    std::vector<CellRef> deep_inside = {};   ///< elements to be removed that are not in the band
+    std::vector<std::string> warnings = {};
+    std::vector<std::pair<std::string, double>> seconds = {};
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
-    std::function<Vec3(int, int)> mid_side;
-    std::vector<int> released;       ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
-    bool patched = false;            ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
+    std::function<Vec3(int, int)> mid_side = {};
+    std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
+    bool patched = false;                    ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
     /// the side its elements are on.

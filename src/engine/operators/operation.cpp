@@ -409,7 +409,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     constraint_options.pinned = pinned();
     constraint_options.shape = options_.skin;
     const Tool& first = *blades.front().tool;
-    Interface f{Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), &first, {}, location_.tolerance, {}, {}, width, {}, {}, {}, {}};
+    Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), .tool = &first, .tolerance = location_.tolerance, .bandwidth = width};
     f.deep_inside = std::move(removed);
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {

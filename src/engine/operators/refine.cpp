@@ -482,7 +482,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
         spread_levels(mesh, level, levels);
         bisector.reset();
         f.reset();
-        f.emplace(Interface{Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options), nullptr, {}, 0, {}, {}, 0, {}, {}, {}, {}});
+        f.emplace(Interface{.d = Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options), .tool = nullptr, .tolerance = 0, .bandwidth = 0});
         check_input_shape(*f, mesh);
         check_skin(*f);
         std::vector<double> known(static_cast<std::size_t>(f->d.band.size()));
