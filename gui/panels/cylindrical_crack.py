@@ -1,16 +1,64 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Task panel: crack along a cylinder."""
+"""Task panel: crack along a cylinder or a part of it."""
+
+import femscalpel
 
 from ..translate import QT_TRANSLATE_NOOP
+from . import fields
 from .cylinder_panel import CylinderPanel
+from .turned import X, turn_between, turned
 
 
 class CylindricalCrackPanel(CylinderPanel):
-    """Asks for the cylinder of a crack."""
+    """Asks for the cylinder of a crack, and for the heights between which it cracks. The angles of a document object are kept."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Cylindrical crack")
     ICON = "FemScalpel_CylindricalCrack"
     GROUP_NAME, OBJECT_NAME, MAKE = "CRACK", "CylindricalCrack", "makeCylindricalCrack"
 
+    def add_inputs(self):
+        self.part = self.insert_form("cylinder_part.ui")
+        self._low = fields.Number(self.part.partLow, self.update, -self.geometry.size / 10)
+        self._high = fields.Number(self.part.partHigh, self.update, self.geometry.size / 10)
+        self._angles, self._turn = (0.0, 360.0), 0.0
+        self.part.bounded.toggled.connect(self._bound)
+
+    def _bound(self, on):
+        for box in (self.part.partLow, self.part.partHigh):
+            box.setEnabled(on)
+        self.update()
+
+    def placement(self):
+        """The axis, its x axis where the angles of the document object are measured from."""
+        return turned(self.geometry.placement(), self._turn)
+
+    def _within(self):
+        if not self.part.bounded.isChecked():
+            return None
+        along, (start, end) = (self._low.value, self._high.value), self._angles
+        if end - start == 360:
+            return femscalpel.CylinderPart(along)
+        return femscalpel.CylinderPart(along, (start, end), self.placement().Rotation.multVec(X))
+
     def operation(self, tool, options):
-        return lambda scalpel: scalpel.crack(tool, band_only=True, **options)
+        within = self._within()
+        return lambda scalpel: scalpel.crack(tool, within=within, band_only=True, **options)
+
+    def read(self, obj):
+        super().read(obj)
+        self._turn = turn_between(self.geometry.rotation(), obj.AxisPlacement.Rotation)
+        self._angles = obj.StartAngle.Value, obj.EndAngle.Value
+        self._low.set(obj.Low.Value)
+        self._high.set(obj.High.Value)
+        self.part.bounded.setChecked(obj.Bounded)
+
+    def arguments(self):
+        along = {"along": repr((self._low.value, self._high.value))} if self.part.bounded.isChecked() else {}
+        return {**super().arguments(), **along}
+
+    def settings(self):
+        return {**super().settings(), "Bounded": repr(self.part.bounded.isChecked()), "Low": repr(self._low.value), "High": repr(self._high.value)}
+
+    def forget_widgets(self):
+        super().forget_widgets()
+        self.part = self._low = self._high = None

@@ -104,9 +104,13 @@ class ToolPanel(ViewPanel):
         return {"Method": repr(options["method"]), "Transition": repr(options["transition"] or 0),
                 "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"])}
 
+    def placement(self):
+        """The tool as the document object holds it."""
+        return self.geometry.placement()
+
     def placement_text(self):
-        """The geometry's placement as exact Python text."""
-        placement = self.geometry.placement()
+        """The placement as exact Python text."""
+        placement = self.placement()
         return f"FreeCAD.Placement(FreeCAD.Vector{tuple(placement.Base)!r}, FreeCAD.Rotation{placement.Rotation.Q!r})"
 
     # Set-up.
@@ -189,11 +193,11 @@ class ToolPanel(ViewPanel):
             return
         try:
             tool = self.tool()
+            operate, source = self.operation(tool, self.entered()), self.source
         except (femscalpel.Error, ValueError, TypeError) as error:
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        operate, source = self.operation(tool, self.entered()), self.source
         surface, region = self.surface(tool), self.removed_region(tool)
         self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), surface, region))
 

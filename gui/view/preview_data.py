@@ -310,9 +310,15 @@ def _outline(mesh, report, points, number, faces, lip, positive, on_tool):
         edges = mesh_faces.unique_edges(edges[on_tool[edges].all(axis=1)], total) if len(edges) else edges
     front = np.zeros(total, bool)
     name = report.name + "_FRONT"
-    if (name, "node") in [(g.name, g.kind) for g in report.groups]:
+    known = [(g.name, g.kind) for g in report.groups]
+    if (name, "node") in known:
         members = np.isin(mesh.node_ids, mesh.groups[name, "node"].ids)
         front[number[members]] = True
+    if (name, "element") in known:  # segments: the front of a bounded crack in a solid
+        for cell_type in ("line", "line3"):
+            if cell_type in mesh.cells:
+                members = np.isin(mesh.cell_ids[cell_type], mesh.groups[name, "element"].ids)
+                front[number[np.unique(mesh.cells[cell_type][members][:, :2])]] = True
     on_front = front[edges].all(axis=1) if len(edges) else np.zeros(0, bool)
     lines = points[edges].astype(np.float32).reshape(-1, 2, 3)
     return lines[~on_front], lines[on_front]

@@ -89,6 +89,33 @@
     </message>
   </context>
   <context>
+    <name>CylinderPart</name>
+    <message>
+      <source>Only a part of the cylinder cracks, between two heights along its axis; its border is the crack front</source>
+      <translation>Nur ein Teil des Zylinders reißt, zwischen zwei Höhen längs seiner Achse; sein Rand ist die Rissfront</translation>
+    </message>
+    <message>
+      <source>Only from</source>
+      <translation>Nur von</translation>
+    </message>
+    <message>
+      <source>Part of the cylinder</source>
+      <translation>Teil des Zylinders</translation>
+    </message>
+    <message>
+      <source>Where the crack begins: from the point, along the axis</source>
+      <translation>Wo der Riss beginnt: vom Punkt aus längs der Achse</translation>
+    </message>
+    <message>
+      <source>Where the crack ends: from the point, along the axis</source>
+      <translation>Wo der Riss endet: vom Punkt aus längs der Achse</translation>
+    </message>
+    <message>
+      <source>to</source>
+      <translation>bis</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
@@ -123,8 +150,20 @@
       <translation>%1 Knoten verschoben; Rand höchstens %2 mm von seiner alten Lage</translation>
     </message>
     <message>
+      <source>A disk</source>
+      <translation>Eine Kreisscheibe</translation>
+    </message>
+    <message>
+      <source>A half plane</source>
+      <translation>Eine Halbebene</translation>
+    </message>
+    <message>
       <source>After</source>
       <translation>Nachher</translation>
+    </message>
+    <message>
+      <source>An ellipse</source>
+      <translation>Eine Ellipse</translation>
     </message>
     <message>
       <source>Another task panel is open. Close it first.</source>
@@ -439,12 +478,20 @@
       <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
     </message>
     <message>
+      <source>The polygon it has</source>
+      <translation>Das vorhandene Polygon</translation>
+    </message>
+    <message>
       <source>The radius must be larger than 0.</source>
       <translation>Der Radius muss größer als 0 sein.</translation>
     </message>
     <message>
       <source>The three nodes lie on a line. Pick nodes that span a plane.</source>
       <translation>Die drei Knoten liegen auf einer Geraden. Wählen Sie Knoten, die eine Ebene aufspannen.</translation>
+    </message>
+    <message>
+      <source>The whole plane</source>
+      <translation>Die ganze Ebene</translation>
     </message>
     <message>
       <source>This workbench was built without its example: Gmsh was not there.</source>
@@ -760,6 +807,41 @@
     <message>
       <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
       <translation>snap: Knoten bewegen und Elemente teilen, gelingt auf einem gesunden Netz immer; deform: nur Knoten bewegen</translation>
+    </message>
+  </context>
+  <context>
+    <name>Patch</name>
+    <message>
+      <source>Of the disk, about the point; of the ellipse, along its first axis</source>
+      <translation>Der Kreisscheibe um den Punkt; der Ellipse längs ihrer ersten Achse</translation>
+    </message>
+    <message>
+      <source>Of the ellipse's first axis, or of the half plane's direction, about the normal</source>
+      <translation>Der ersten Achse der Ellipse oder der Richtung der Halbebene um die Normale</translation>
+    </message>
+    <message>
+      <source>Of the ellipse, along its second axis</source>
+      <translation>Der Ellipse längs ihrer zweiten Achse</translation>
+    </message>
+    <message>
+      <source>Part of the plane</source>
+      <translation>Teil der Ebene</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Radius</translation>
+    </message>
+    <message>
+      <source>The part of the plane that cracks; its border inside the part is the crack front</source>
+      <translation>Der Teil der Ebene, der reißt; sein Rand im Bauteil ist die Rissfront</translation>
+    </message>
+    <message>
+      <source>Turned by</source>
+      <translation>Gedreht um</translation>
+    </message>
+    <message>
+      <source>and</source>
+      <translation>und</translation>
     </message>
   </context>
   <context>

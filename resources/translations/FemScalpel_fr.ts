@@ -89,6 +89,33 @@
     </message>
   </context>
   <context>
+    <name>CylinderPart</name>
+    <message>
+      <source>Only a part of the cylinder cracks, between two heights along its axis; its border is the crack front</source>
+      <translation>Seule une partie du cylindre se fissure, entre deux hauteurs selon son axe ; son bord est le front de fissure</translation>
+    </message>
+    <message>
+      <source>Only from</source>
+      <translation>Seulement de</translation>
+    </message>
+    <message>
+      <source>Part of the cylinder</source>
+      <translation>Partie du cylindre</translation>
+    </message>
+    <message>
+      <source>Where the crack begins: from the point, along the axis</source>
+      <translation>Où la fissure commence : depuis le point, selon l'axe</translation>
+    </message>
+    <message>
+      <source>Where the crack ends: from the point, along the axis</source>
+      <translation>Où la fissure finit : depuis le point, selon l'axe</translation>
+    </message>
+    <message>
+      <source>to</source>
+      <translation>à</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
@@ -123,8 +150,20 @@
       <translation>%1 nœuds déplacés ; bord à %2 mm au plus de sa position d'origine</translation>
     </message>
     <message>
+      <source>A disk</source>
+      <translation>Un disque</translation>
+    </message>
+    <message>
+      <source>A half plane</source>
+      <translation>Un demi-plan</translation>
+    </message>
+    <message>
       <source>After</source>
       <translation>Après</translation>
+    </message>
+    <message>
+      <source>An ellipse</source>
+      <translation>Une ellipse</translation>
     </message>
     <message>
       <source>Another task panel is open. Close it first.</source>
@@ -439,12 +478,20 @@
       <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
     </message>
     <message>
+      <source>The polygon it has</source>
+      <translation>Le polygone existant</translation>
+    </message>
+    <message>
       <source>The radius must be larger than 0.</source>
       <translation>Le rayon doit être supérieur à 0.</translation>
     </message>
     <message>
       <source>The three nodes lie on a line. Pick nodes that span a plane.</source>
       <translation>Les trois nœuds sont alignés. Choisissez des nœuds qui définissent un plan.</translation>
+    </message>
+    <message>
+      <source>The whole plane</source>
+      <translation>Tout le plan</translation>
     </message>
     <message>
       <source>This workbench was built without its example: Gmsh was not there.</source>
@@ -760,6 +807,41 @@
     <message>
       <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
       <translation>snap : déplacer des nœuds et diviser des éléments, réussit toujours sur un maillage sain ; deform : seulement déplacer des nœuds</translation>
+    </message>
+  </context>
+  <context>
+    <name>Patch</name>
+    <message>
+      <source>Of the disk, about the point; of the ellipse, along its first axis</source>
+      <translation>Du disque, autour du point ; de l'ellipse, selon son premier axe</translation>
+    </message>
+    <message>
+      <source>Of the ellipse's first axis, or of the half plane's direction, about the normal</source>
+      <translation>Du premier axe de l'ellipse, ou de la direction du demi-plan, autour de la normale</translation>
+    </message>
+    <message>
+      <source>Of the ellipse, along its second axis</source>
+      <translation>De l'ellipse, selon son second axe</translation>
+    </message>
+    <message>
+      <source>Part of the plane</source>
+      <translation>Partie du plan</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Rayon</translation>
+    </message>
+    <message>
+      <source>The part of the plane that cracks; its border inside the part is the crack front</source>
+      <translation>La partie du plan qui se fissure ; son bord dans la pièce est le front de fissure</translation>
+    </message>
+    <message>
+      <source>Turned by</source>
+      <translation>Tourné de</translation>
+    </message>
+    <message>
+      <source>and</source>
+      <translation>et</translation>
     </message>
   </context>
   <context>

@@ -409,7 +409,7 @@ void refine(Interface& f, const Slots& slots) {
     for_parts(f.d.band, slots, [&](const auto& nodes) {
         if (std::exchange(first, false)) text << f.d.band.nodes[nodes[0]].start.transpose();
     });
-    text << "): the mesh is too coarse there. Move the " << f.tool->kind() << " a little, or refine the mesh";
+    text << "): the mesh is too coarse there, or only a thin layer of material is left. Move the " << f.tool->kind() << " a little, or refine the mesh";
     throw QualityError(text.str());
 }
 

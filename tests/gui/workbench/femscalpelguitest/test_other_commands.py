@@ -2,6 +2,7 @@
 """The commands with a cylinder, export, and the preferences page."""
 
 import os
+import re
 import tempfile
 
 import FreeCAD
@@ -122,6 +123,74 @@ class CylindricalCrack(CylinderTest):
         self.assertAlmostEqual(value("radius"), 1.7, delta=0.1)
         self.assertAlmostEqual(value("originX"), 7)
         screenshot("cylinder_handles")
+
+
+class Patches(CylinderTest):
+    PARTS = 2
+
+    def shown(self, expected):
+        wait_until(lambda: f" {expected.report.elements_added} " in widget("status").text(), "the preview")
+        self.assertGreater(lines_drawn("FemScalpelFront"), 5)
+
+    def test_parts_of_a_plane(self):
+        source, plane = femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((6.1, 2.5, 2), (1, 0, 0))
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        enter_plane((6.1, 2.5, 2.0), (1.0, 0.0, 0.0))
+        self.assertFalse(is_shown("patchRadius"))
+        choose("patch", "Disk")
+        type_into("patchRadius", "1.3 mm")
+        self.shown(fs.crack(source, plane, within=fs.Disk((6.1, 2.5, 2), 1.3)))
+        self.assertFalse(is_shown("patchTurn"))
+        screenshot("crack_disk")
+        type_into("patchRadius", "0 mm")
+        wait_until(lambda: is_shown("geometryError") and "radius is 0" in widget("geometryError").text(), "the error")
+        choose("patch", "Ellipse")
+        type_into("patchRadius", "1.6 mm")
+        type_into("patchSecondRadius", "0.9 mm")
+        type_into("patchTurn", "90 deg")
+        wait_until(lambda: re.match(r"\d+ ", widget("status").text()), "the preview")
+        screenshot("crack_ellipse")
+        press_ok()
+        crack = self.doc.Crack
+        self.assertEqual((crack.Patch, crack.PatchRadius.Value, crack.PatchSecondRadius.Value), ("Ellipse", 1.6, 0.9))
+        made = content_of(crack)
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertAlmostEqual(value("patchTurn"), 90)
+        press_ok()
+        self.assertEqual(content_of(crack), made)
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        choose("patch", "HalfPlane")
+        self.wait_for_preview()
+        screenshot("crack_half_plane")
+        press_ok()
+        self.assertEqual(crack.Patch, "HalfPlane")
+        self.assertNotEqual(content_of(crack), made)
+        self.doc.undo()
+        self.assertEqual(content_of(crack), made)
+
+    def test_part_of_a_cylinder(self):
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        self.run_command("FemScalpel_CylindricalCrack")
+        spin(0.2)
+        self.enter_axis((7.1, 2.4, 2.0), (0.0, 0.0, 1.0), 1.3)
+        click("bounded")
+        type_into("partLow", "-1 mm")
+        type_into("partHigh", "0.9 mm")
+        self.shown(fs.crack(source, fs.Cylinder((7.1, 2.4, 2), (0, 0, 1), 1.3), within=fs.CylinderPart((-1, 0.9))))
+        screenshot("cylinder_part")
+        press_ok()
+        crack = self.doc.CylindricalCrack
+        self.assertEqual((crack.Bounded, crack.Low.Value, crack.High.Value), (True, -1, 0.9))
+        crack.StartAngle, crack.EndAngle = 20, 200
+        self.doc.recompute()
+        made = content_of(crack)
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual(content_of(crack), made)
 
 
 class Incision(CylinderTest):
