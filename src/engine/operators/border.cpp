@@ -285,10 +285,28 @@ bool meets_material(const BandMesh& band, const Patch& patch) {
     return false;
 }
 
-/// A face of the crack all of whose nodes are on the front would stay closed: its longest edge inside the crack, or on the
-/// skin, gets a node in between. So does an edge of the skin that joins two nodes of the front across the crack's mouth, and an edge
-/// of a shell's crack between two tips.
-void part_closed_faces(Interface& f, const Patch& patch) {
+/// Nodes that were moved onto the tool where it is not wanted after all go back to where they were, if elements allow it; the others are
+/// relaxed with the crack's.
+void send_home(Interface& f, std::vector<int> nodes) {
+    for (bool any = true; any;) {
+        any = false;
+        for (int& v : nodes) {
+            if (v < 0 || f.d.band.is_new(v)) continue;
+            BandNode& node = f.d.band.nodes[v];
+            if (node.at != node.start && quality_around(f.d, v, node.start) < std::min(0.3, quality_around(f.d, v, node.at))) continue;
+            node.at = node.start;
+            v = -1;
+            any = true;
+        }
+    }
+    for (const int v : nodes)
+        if (v >= 0 && f.d.band.nodes[v].movable()) f.released.push_back(v);
+}
+
+}  // namespace
+
+bool part_closed_faces(Interface& f, const Patch& patch) {
+    const int before = f.d.band.size();
     BandMesh& band = f.d.band;
     const auto on_front = [&](int v) { return std::ranges::any_of(f.d.contact[v].tools(), [&](const Tool* t) { return patch.has(t); }); };
     const auto split = [&](int a, int b) {
@@ -318,27 +336,8 @@ void part_closed_faces(Interface& f, const Patch& patch) {
         }
     for (int s = 0; s < band.cut_edges.size(); ++s)
         if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front)) split(band.cut_edges[s][0], band.cut_edges[s][1]);
+    return f.d.band.size() > before;
 }
-
-/// Nodes that were moved onto the tool where it is not wanted after all go back to where they were, if elements allow it; the others are
-/// relaxed with the crack's.
-void send_home(Interface& f, std::vector<int> nodes) {
-    for (bool any = true; any;) {
-        any = false;
-        for (int& v : nodes) {
-            if (v < 0 || f.d.band.is_new(v)) continue;
-            BandNode& node = f.d.band.nodes[v];
-            if (node.at != node.start && quality_around(f.d, v, node.start) < std::min(0.3, quality_around(f.d, v, node.at))) continue;
-            node.at = node.start;
-            v = -1;
-            any = true;
-        }
-    }
-    for (const int v : nodes)
-        if (v >= 0 && f.d.band.nodes[v].movable()) f.released.push_back(v);
-}
-
-}  // namespace
 
 void cut_border(Interface& f, const Patch& patch) {
     Stopwatch watch(f.seconds);

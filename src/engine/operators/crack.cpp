@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
 #include <sstream>
+#include <vector>
 
+#include "deformation/relaxation.h"
 #include "operators/border.h"
 #include "operators/refine_first.h"
 #include "tools/face.h"
@@ -30,6 +35,10 @@ void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
     f.d.barrier = &tool;
     for (int v = 0; v < f.d.band.size(); ++v) f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
     relax_band(f);
+    if (part_closed_faces(f, patch)) {  // which improving elements may close again
+        find_node_sets(f);
+        relax(f.d, movable_nodes(f));
+    }
     // Nodes beyond the front are free to leave the tool.
     for (int v = 0; v < f.d.band.size(); ++v)
         if (!f.d.contact[v] && f.distance[v] == 0) f.distance[v] = tool.distance(f.d.band.nodes[v].at);
@@ -65,6 +74,59 @@ void check_lips(const Interface& f, const Lips& lips, const Patch* patch) {
         message << ". The mesh is too coarse there: refine it near the crack first";
         throw QualityError(message.str());
     }
+}
+
+/// Exactly the faces of a bounded crack must have come apart, each lip must have them all, and the front must be their whole border
+/// inside the material and lie on the patch's.
+void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
+    const BandMesh& band = f.d.band;
+    const auto fail = [&](int v) {
+        std::ostringstream message;
+        message << "the crack cannot be opened cleanly near (" << band.nodes[v].at.transpose() << "): the mesh is too coarse for its front there. Refine it near the front, "
+                << "or move the crack a little";
+        throw QualityError(message.str());
+    };
+    using Key = std::array<int, 3>;
+    const auto sorted = [](Key k) {
+        std::ranges::sort(k);
+        return k;
+    };
+    constexpr int corners[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+    std::set<int> near;
+    for (const int v : lips.interface_nodes) near.insert(band.tetras.around(v).begin(), band.tetras.around(v).end());
+    std::map<Key, std::vector<Key>> faces;  // as they are now, by what they were
+    for (const int t : near)
+        for (const auto& c : corners) {
+            const auto &was = band.tetras[t], &is = static_cast<std::size_t>(t) < lips.tetras.size() ? lips.tetras[t] : was;
+            faces[sorted({was[c[0]], was[c[1]], was[c[2]]})].push_back(sorted({is[c[0]], is[c[1]], is[c[2]]}));
+        }
+    std::multiset<Key> opened, listed;
+    for (const auto& [key, sides] : faces) {
+        if (sides.size() != 2) continue;
+        const bool open = sides[0] != sides[1];
+        if (open != (band.cut_faces.find(key) >= 0)) fail(key[0]);
+        if (open) opened.insert(sides.begin(), sides.end());
+    }
+    for (const auto& face : lips.faces) listed.insert(sorted(face.nodes));
+    if (opened != listed) fail(lips.interface_nodes.front());
+    // The edges that only one face of a lip has, and both lips: neither of their ends is doubled.
+    const std::set<int> doubled(lips.copy_of.begin(), lips.copy_of.end());
+    std::map<std::array<int, 2>, int> edges;
+    for (const auto& face : lips.faces)
+        for (int k = 0; face.group == 1 && k < 3; ++k) {
+            const auto [low, high] = std::minmax(face.nodes[k], face.nodes[(k + 1) % 3]);
+            if (high < band.size() && !doubled.contains(low) && !doubled.contains(high)) ++edges[{low, high}];
+        }
+    std::set<std::array<int, 2>> border, front;
+    for (const auto& [edge, count] : edges)
+        if (count == 1) border.insert(edge);
+    for (const auto& chain : lips.front_chains)
+        for (std::size_t k = 1; k < chain.size(); ++k) {
+            front.insert({std::min(chain[k - 1], chain[k]), std::max(chain[k - 1], chain[k])});
+            for (const int v : {chain[k - 1], chain[k]})
+                if (std::abs(patch.distance(band.nodes[v].at)) > 100 * f.tolerance) fail(v);
+        }
+    if (border != front) fail(lips.front_nodes.empty() ? lips.interface_nodes.front() : lips.front_nodes.front());
 }
 
 /// Faces of elements that are long against a tool's curvature cut its corners off, or miss parts of it.
@@ -141,6 +203,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     find_node_sets(f);
     check_contacts(f);
     check_lips(f, *lips, patch ? &*patch : nullptr);
+    if (patch && !lips->faces.empty()) check_opening(f, *lips, *patch);
     warn_of_coarse_mesh(f, *lips);
     return operation.finish(f, *lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }

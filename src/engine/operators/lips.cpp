@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace femscalpel {
@@ -86,14 +87,20 @@ private:
             }
         }
         std::ranges::stable_sort(faces, {}, &Seen::key);
+        std::unordered_map<std::uint64_t, int> faces_at;
         for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
             const Seen &one = faces[i], &other = faces[i + 1];
             if (one.key != other.key || side(band_.tetras[one.tetra]) * side(band_.tetras[other.tetra]) >= 0) continue;
             if (f_.patched && band_.cut_faces.find(one.key) < 0) continue;
             for (const Seen* s : {&one, &other}) open_faces_.push_back({s->nodes, s->tetra});
-            for (int k = 0; k < 3; ++k) open_edges_.insert(edge_key(one.key[k], one.key[(k + 1) % 3]));
+            for (int k = 0; k < 3; ++k) ++faces_at[edge_key(one.key[k], one.key[(k + 1) % 3])];
             face_keys_.push_back(one.key);
             for (const int v : one.key) is_interface_[v] = 1;
+        }
+        // Around an edge of the front the elements hang together, on the far side of it.
+        for (const auto& [edge, count] : faces_at) {
+            const int a = static_cast<int>(edge >> 32), b = static_cast<int>(edge & 0xffffffffu);
+            if (!f_.patched || count > 1 || f_.d.constraints.is_skin_edge(band_, a, b)) open_edges_.insert(edge);
         }
     }
 
