@@ -74,10 +74,11 @@ void relax_band(Interface& interface);
 
 /// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out: where new nodes could not be brought onto the skin
 /// or line they were born on and their tools, or second-order elements came out folded, it starts again with other
-/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times in all.
+/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times in all. Poor elements are a reason,
+/// too, but for a whole plane through flat surfaces: there geometry alone limits the quality.
 ///
 /// Throws QualityError naming the place when nothing helps.
-void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12);
+void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12, bool whole_plane = false);
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.

@@ -346,19 +346,22 @@ Slots misfits(const Interface& f) {
     return found;
 }
 
-/// The smallest mean ratio of the tetrahedra that were changed, and those that have parts below `limit`.
+/// The smallest mean ratio of the tetrahedra and shells that were changed, and those that have parts below `limit`.
 double poorest(const Interface& f, double limit, Slots& poor) {
     const BandMesh& band = f.d.band;
     double worst = 1;
-    for (int t = 0; t < band.tetras.size(); ++t) {
-        if (!band.tetras.alive(t)) continue;
-        if (std::ranges::none_of(band.tetras[t], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
-        const double quality = tetra_quality(f.d, t);
-        worst = std::min(worst, quality);
-        if (quality >= limit) continue;
-        poor.tetras.push_back(band.tetras.origin(t));
-        poor.places.push_back(middle_of(band, band.tetras[t]));
-    }
+    const auto look = [&](const auto& list, std::vector<int>& origins, auto quality_of) {
+        for (int s = 0; s < list.size(); ++s) {
+            if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
+            const double quality = quality_of(s);
+            worst = std::min(worst, quality);
+            if (quality >= limit) continue;
+            origins.push_back(list.origin(s));
+            poor.places.push_back(middle_of(band, list[s]));
+        }
+    };
+    look(band.tetras, poor.tetras, [&](int t) { return tetra_quality(f.d, t); });
+    look(band.triangles, poor.triangles, [&](int t) { return f.d.constraints.is_shell(band.triangles.origin(t)) ? shell_quality(f.d, t) : 1.0; });
     poor.tidy();
     return worst;
 }
@@ -447,9 +450,8 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts) {
-    // There geometry alone limits the quality.
-    const bool plain = !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_plane) {
+    const bool plain = whole_plane && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
     std::optional<Interface> best;
     double best_quality = degenerate_quality;
@@ -490,7 +492,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     f = std::move(*best);
     std::ostringstream text;
     text.precision(2);
-    text << "the " << f.tool->kind() << " meets curved surfaces so that elements there come out with a mean ratio of " << best_quality
+    text << "the " << f.tool->kind() << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality
          << " at best: refine the mesh there for better ones";
     f.warnings.push_back(text.str());
 }
@@ -502,7 +504,7 @@ void snap_to_tool(Interface& f, const Blade& blade) {
         for (int v = 0; v < g.d.band.size(); ++v)
             g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
         relax_band(g);
-    });
+    }, 12, true);
 }
 
 }  // namespace femscalpel
