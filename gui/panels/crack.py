@@ -8,11 +8,11 @@ import femscalpel
 from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 from .plane_panel import PlanePanel
-from .turned import X, turn_between, turned
+from .placements import X, Z, turn_between, turned
 
 
 class CrackPanel(PlanePanel):
-    """Asks for the plane of a crack, and for the part of it that cracks. The polygon of a document object is kept."""
+    """Asks for the plane of a crack, and for the part of it that cracks: also what a picked sketch encloses."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Crack")
     ICON = "FemScalpel_Crack"
@@ -20,24 +20,59 @@ class CrackPanel(PlanePanel):
 
     def add_inputs(self):
         self.part = self.insert_form("patch.ui")
-        self._corners = []
+        self._corners = []  # of the polygon, in the axes of placement()
         for text, data in ((translate("FemScalpel", "The whole plane"), "Whole"), (translate("FemScalpel", "A disk"), "Disk"),
-                           (translate("FemScalpel", "An ellipse"), "Ellipse"), (translate("FemScalpel", "A half plane"), "HalfPlane")):
+                           (translate("FemScalpel", "An ellipse"), "Ellipse"), (translate("FemScalpel", "A half plane"), "HalfPlane"),
+                           (translate("FemScalpel", "A polygon"), "Polygon")):
             self.part.patch.addItem(text, data)
-        self._radius = fields.Number(self.part.patchRadius, self.update, self.geometry.size / 8)
-        self._second = fields.Number(self.part.patchSecondRadius, self.update, self.geometry.size / 16)
-        self._turn = fields.Number(self.part.patchTurn, self.update, 0)
+        self._radius = fields.Number(self.part.patchRadius, self._changed, self.geometry.size / 8)
+        self._second = fields.Number(self.part.patchSecondRadius, self._changed, self.geometry.size / 16)
+        self._turn = fields.Number(self.part.patchTurn, self._changed, 0, 10)
         self.part.patch.currentIndexChanged.connect(lambda *_: self._choose())
+        self.geometry.picked.connect(self._take_outline)
+        self.geometry.flipping.connect(self._stay)
         self._choose()
 
     def _choose(self):
         """Shows the fields that matter to the part chosen."""
         shown, p = self._patch(), self.part
         for widgets, parts in (((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")), ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),
-                               ((p.turnLabel, p.patchTurn), ("Ellipse", "HalfPlane"))):
+                               ((p.turnLabel, p.patchTurn), ("Ellipse", "HalfPlane", "Polygon"))):
             for widget in widgets:
                 widget.setVisible(shown in parts)
+        self._changed()
+
+    def _changed(self):
+        """The part has other numbers: its handles follow, and the preview."""
+        shown = self._patch()
+        self.geometry.show_part(shown != "Whole", self._radius if shown in ("Disk", "Ellipse") else None, self._turn.value)
         self.update()
+
+    def _take_outline(self, picked):
+        """Enters what a picked sketch encloses; the plane follows."""
+        if picked.outline is None:
+            return
+        self._corners = list(picked.outline.corners)
+        if self._corners:
+            kind = "Polygon"
+        else:
+            first, second = picked.outline.radii
+            self._radius.set(first)
+            self._second.set(second)
+            kind = "Disk" if first == second else "Ellipse"
+        straight = FreeCAD.Rotation(Z, picked.direction)
+        self._turn.set(turn_between(straight, picked.outline.placement.Rotation))
+        blocked = self.part.patch.blockSignals(True)
+        self.part.patch.setCurrentIndex(self.part.patch.findData(kind))
+        self.part.patch.blockSignals(blocked)
+        self._choose()
+
+    def _stay(self):
+        """Leaves the part where it is when the plane is about to be flipped."""
+        along, normal = self.placement().Rotation.multVec(X), self.geometry.direction().negative()
+        if normal.Length > 0:
+            self._turn.set(turn_between(FreeCAD.Rotation(Z, normal), FreeCAD.Rotation(along, FreeCAD.Vector(), normal, "ZXY")))
+            self._corners = [FreeCAD.Vector(corner.x, -corner.y, 0) for corner in self._corners]
 
     def _patch(self):
         return self.part.patch.currentData()
@@ -56,6 +91,8 @@ class CrackPanel(PlanePanel):
         if self._patch() == "HalfPlane":
             return femscalpel.HalfPlane(placement.Base, along)
         if self._patch() == "Polygon":
+            if not self._corners:
+                raise femscalpel.ToolError(translate("FemScalpel", "Pick a sketch: its closed line of straight sides is the polygon."))
             return femscalpel.Polygon([placement.multVec(corner) for corner in self._corners])
         return None
 
@@ -68,9 +105,7 @@ class CrackPanel(PlanePanel):
         self._turn.set(turn_between(self.geometry.rotation(), obj.PlanePlacement.Rotation))
         self._radius.set(obj.PatchRadius.Value)
         self._second.set(obj.PatchSecondRadius.Value)
-        if obj.Patch == "Polygon":
-            self._corners = [FreeCAD.Vector(c.x, c.y, 0) for c in obj.PatchCorners]
-            self.part.patch.addItem(translate("FemScalpel", "The polygon it has"), "Polygon")
+        self._corners = [FreeCAD.Vector(c.x, c.y, 0) for c in obj.PatchCorners]
         self.part.patch.setCurrentIndex(self.part.patch.findData(obj.Patch))
 
     def arguments(self):
@@ -78,13 +113,15 @@ class CrackPanel(PlanePanel):
         if self._patch() == "Whole":
             return arguments
         del arguments["origin"], arguments["normal"]
-        radii = {"Disk": {"patch_radius": self._radius}, "Ellipse": {"patch_radius": self._radius, "patch_second_radius": self._second}}
-        return {"placement": self.placement_text(), "patch": repr(self._patch()),
-                **{name: repr(field.value) for name, field in radii.get(self._patch(), {}).items()}, **arguments}
+        shape = {"Disk": {"patch_radius": repr(self._radius.value)},
+                 "Ellipse": {"patch_radius": repr(self._radius.value), "patch_second_radius": repr(self._second.value)},
+                 "Polygon": {"patch_corners": repr([(corner.x, corner.y) for corner in self._corners])}}
+        return {"placement": self.placement_text(), "patch": repr(self._patch()), **shape.get(self._patch(), {}), **arguments}
 
     def settings(self):
+        corners = ", ".join(f"FreeCAD.Vector({corner.x!r}, {corner.y!r}, 0)" for corner in self._corners)
         return {**super().settings(), "Patch": repr(self._patch()), "PatchRadius": repr(self._radius.value),
-                "PatchSecondRadius": repr(self._second.value)}
+                "PatchSecondRadius": repr(self._second.value), "PatchCorners": f"[{corners}]"}
 
     def forget_widgets(self):
         super().forget_widgets()

@@ -6,11 +6,11 @@ import femscalpel
 from ..translate import QT_TRANSLATE_NOOP
 from . import fields
 from .cylinder_panel import CylinderPanel
-from .turned import X, turn_between, turned
+from .placements import X, turn_between, turned
 
 
 class CylindricalCrackPanel(CylinderPanel):
-    """Asks for the cylinder of a crack, and for the heights between which it cracks. The angles of a document object are kept."""
+    """Asks for the cylinder of a crack, and for the heights and angles between which it cracks."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Cylindrical crack")
     ICON = "FemScalpel_CylindricalCrack"
@@ -20,22 +20,24 @@ class CylindricalCrackPanel(CylinderPanel):
         self.part = self.insert_form("cylinder_part.ui")
         self._low = fields.Number(self.part.partLow, self.update, -self.geometry.size / 10)
         self._high = fields.Number(self.part.partHigh, self.update, self.geometry.size / 10)
-        self._angles, self._turn = (0.0, 360.0), 0.0
+        self._start = fields.Number(self.part.partStart, self.update, 0, 10)
+        self._end = fields.Number(self.part.partEnd, self.update, 360, 10)
+        self._turn = 0.0  # of the direction angles are measured from
         self.part.bounded.toggled.connect(self._bound)
 
     def _bound(self, on):
-        for box in (self.part.partLow, self.part.partHigh):
+        for box in (self.part.partLow, self.part.partHigh, self.part.partStart, self.part.partEnd):
             box.setEnabled(on)
         self.update()
 
     def placement(self):
-        """The axis, its x axis where the angles of the document object are measured from."""
+        """The axis, its x axis where the angles are measured from."""
         return turned(self.geometry.placement(), self._turn)
 
     def _within(self):
         if not self.part.bounded.isChecked():
             return None
-        along, (start, end) = (self._low.value, self._high.value), self._angles
+        along, start, end = (self._low.value, self._high.value), self._start.value, self._end.value
         if end - start == 360:
             return femscalpel.CylinderPart(along)
         return femscalpel.CylinderPart(along, (start, end), self.placement().Rotation.multVec(X))
@@ -47,18 +49,26 @@ class CylindricalCrackPanel(CylinderPanel):
     def read(self, obj):
         super().read(obj)
         self._turn = turn_between(self.geometry.rotation(), obj.AxisPlacement.Rotation)
-        self._angles = obj.StartAngle.Value, obj.EndAngle.Value
+        self._start.set(obj.StartAngle.Value)
+        self._end.set(obj.EndAngle.Value)
         self._low.set(obj.Low.Value)
         self._high.set(obj.High.Value)
         self.part.bounded.setChecked(obj.Bounded)
 
     def arguments(self):
-        along = {"along": repr((self._low.value, self._high.value))} if self.part.bounded.isChecked() else {}
-        return {**super().arguments(), **along}
+        arguments = super().arguments()
+        if not self.part.bounded.isChecked():
+            return arguments
+        arguments["along"] = repr((self._low.value, self._high.value))
+        if self._end.value - self._start.value != 360:
+            del arguments["origin"], arguments["axis"]
+            arguments = {"placement": self.placement_text(), **arguments, "angles": repr((self._start.value, self._end.value))}
+        return arguments
 
     def settings(self):
-        return {**super().settings(), "Bounded": repr(self.part.bounded.isChecked()), "Low": repr(self._low.value), "High": repr(self._high.value)}
+        return {**super().settings(), "Bounded": repr(self.part.bounded.isChecked()), "Low": repr(self._low.value), "High": repr(self._high.value),
+                "StartAngle": repr(self._start.value), "EndAngle": repr(self._end.value)}
 
     def forget_widgets(self):
         super().forget_widgets()
-        self.part = self._low = self._high = None
+        self.part = self._low = self._high = self._start = self._end = None

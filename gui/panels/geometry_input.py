@@ -12,9 +12,11 @@ from . import fields
 
 class GeometryInput(QtCore.QObject):
     """A form with a point and a direction. `changed` comes with every new position, also while a handle is dragged;
-    `picking_changed(bool)` when clicks in the 3-D view begin or stop to mean something."""
+    `picked(Picked)` before it when the position was picked; `picking_changed(bool)` when clicks in the 3-D view begin or
+    stop to mean something."""
 
     changed = QtCore.Signal()
+    picked = QtCore.Signal(object)
     picking_changed = QtCore.Signal(bool)
 
     UI = ""
@@ -181,6 +183,7 @@ class GeometryInput(QtCore.QObject):
 
     def take(self, picked):
         """Enters what was picked."""
+        self.picked.emit(picked)
         self.set_pose(picked.origin, picked.direction.normalize(), picked.radius)
 
     def _from_nodes(self, points):

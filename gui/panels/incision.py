@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Task panel: incision, a slot between two parallel planes."""
 
+import FreeCAD
 import numpy as np
 
 import femscalpel
 
-from ..translate import QT_TRANSLATE_NOOP
+from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 from .plane_panel import PlanePanel
+from .placements import Z, as_text, turned
 
 
 class IncisionPanel(PlanePanel):
-    """Asks for the middle plane and the width of a slot. A bottom that a document object has is kept."""
+    """Asks for the middle plane and the width of a slot, and where it ends: the bottom that a document object has can stay."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
     ICON = "FemScalpel_Incision"
@@ -20,39 +22,71 @@ class IncisionPanel(PlanePanel):
     def add_inputs(self):
         self.slot = self.insert_form("incision.ui")
         self._width = fields.Number(self.slot.slotWidth, self.update, self.geometry.size / 50)
-        self._bottom = None  # femscalpel.Plane
+        self._kept = None  # the bottom of the document object, as a placement
+        for text, data in ((translate("FemScalpel", "Through the whole part"), "Through"), (translate("FemScalpel", "Down to the point"), "Point")):
+            self.slot.slotEnd.addItem(text, data)
+        self._turn = fields.Number(self.slot.slotTurn, self.update, 0, 10)
+        self.slot.slotEnd.currentIndexChanged.connect(lambda *_: self._choose())
+        self._choose()
         # Two walls are made by moving and splitting only.
         self.options.method.setCurrentIndex(self.options.method.findData("snap"))
         self.options.method.setEnabled(False)
 
+    def _end(self):
+        return self.slot.slotEnd.currentData()
+
+    def _choose(self):
+        for box in (self.slot.turnLabel, self.slot.slotTurn):
+            box.setVisible(self._end() == "Point")
+        self.update()
+
+    def _bottom_placement(self):
+        """Placement whose z axis points from the bottom into the material that stays; None without a bottom."""
+        if self._end() == "Kept":
+            return self._kept
+        if self._end() == "Through":
+            return None
+        plane = turned(self.geometry.placement(), self._turn.value)
+        return FreeCAD.Placement(plane.Base, plane.Rotation * FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), -90))
+
+    def _bottom(self):
+        bottom = self._bottom_placement()
+        return None if bottom is None else femscalpel.Plane(bottom.Base, bottom.Rotation.multVec(Z))
+
     def operation(self, tool, options):
-        width, bottom = self._width.value, self._bottom
+        width, bottom = self._width.value, self._bottom()
         return lambda scalpel: scalpel.cut(tool, width=width, bottom=bottom, band_only=True, **options)
 
     def surface(self, tool):
         return _Walls(tool, self._width.value)
 
     def removed_region(self, tool):
-        return _Slot(tool, self._width.value, self._bottom)
+        return _Slot(tool, self._width.value, self._bottom())
 
     def read(self, obj):
         super().read(obj)
         self._width.set(obj.Width.Value)
         if not obj.Through:
-            bottom = obj.BottomPlacement
-            self._bottom = femscalpel.Plane(bottom.Base, bottom.Rotation.multVec(type(bottom.Base)(0, 0, 1)))
+            self._kept = obj.BottomPlacement
+            self.slot.slotEnd.addItem(translate("FemScalpel", "At the bottom it has"), "Kept")
+            self.slot.slotEnd.setCurrentIndex(self.slot.slotEnd.findData("Kept"))
 
     def arguments(self):
         arguments = {**super().arguments(), "width": repr(self._width.value)}
+        bottom = self._bottom_placement()
+        if bottom is not None:
+            arguments["bottom"] = as_text(bottom)
         del arguments["method"]
         return arguments
 
     def settings(self):
-        return {**super().settings(), "Width": repr(self._width.value)}
+        bottom = self._bottom_placement()
+        placed = {} if bottom is None else {"BottomPlacement": as_text(bottom)}
+        return {**super().settings(), "Width": repr(self._width.value), "Through": repr(bottom is None), **placed}
 
     def forget_widgets(self):
         super().forget_widgets()
-        self.slot = self._width = None
+        self.slot = self._width = self._turn = None
 
 
 class _Walls:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Input of a plane."""
 
+from PySide import QtCore
+
 from ..translate import translate
 from ..view import picking
 from ..view.handles import PlaneHandles
@@ -9,13 +11,18 @@ from .geometry_input import GeometryInput, _round_step
 
 
 class PlaneInput(GeometryInput):
-    """A plane by point, normal and offset; by three nodes, a face, an edge, a datum, a sketch or the view."""
+    """A plane by point, normal and offset; by three nodes, a face, an edge, a datum, a sketch or the view.
+
+    `flipping` comes before its sides change places."""
+
+    flipping = QtCore.Signal()
 
     UI = "plane_input.ui"
     NODES = 3
 
     def __init__(self, source_object):
-        self._offset = None
+        self._offset = self._part_radius = None
+        self._part_movable, self._part_turn = False, 0.0
         super().__init__(source_object)
         self._offset = fields.Number(self.form.offset, self._tell, step=_round_step(self.size / 100))
         self.form.flip.clicked.connect(self._flip)
@@ -32,10 +39,28 @@ class PlaneInput(GeometryInput):
         super().set_pose(origin, direction, radius, from_handle)
 
     def _flip(self):
+        self.flipping.emit()
         self.set_pose(self.origin(), self.direction().negative())
 
+    def show_part(self, movable, radius=None, turn=0.0):
+        """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`; by how many
+        degrees it is turned about the normal."""
+        self._part_movable, self._part_radius, self._part_turn = movable, radius, turn
+        if self.handles is not None:
+            self.handles.show_part(movable, turn)
+            self.handles.set_pose(self.origin(), self.rotation(), self.radius())
+
+    def radius(self):
+        return self._part_radius.value if self._part_radius is not None else 0.0
+
+    def _set_radius(self, radius):
+        if self._part_radius is not None:
+            self._part_radius.set(radius)
+
     def _make_handles(self, view):
-        return PlaneHandles(view, self.size, self._dragged)
+        handles = PlaneHandles(view, self.size, self._dragged)
+        handles.show_part(self._part_movable, self._part_turn)
+        return handles
 
     def _ask_geometry(self):
         return translate("FemScalpel", "Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.")
@@ -48,4 +73,4 @@ class PlaneInput(GeometryInput):
 
     def close(self):
         super().close()
-        self._offset = None
+        self._offset = self._part_radius = None

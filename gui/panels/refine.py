@@ -30,9 +30,9 @@ class RefinePanel(CylinderPanel):
         self.sizes.gradation.valueChanged.connect(lambda *_: self.update())
         self.sizes.toolShape.currentIndexChanged.connect(lambda *_: self.update())
         # Refining makes no groups and knows one method.
-        for name in ("groupName", "nameError", "method", "transition"):
+        for name in ("groupName", "nameError", "method", "transition", "refine"):
             getattr(self.options, name).hide()
-        for row in (0, 2, 4):
+        for row in (0, 2, 4, 6):
             self.options.grid.itemAtPosition(row, 0).widget().hide()
 
     def _shape(self):

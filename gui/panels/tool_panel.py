@@ -14,6 +14,7 @@ from ..view import preview_scene
 from ..view.preview_data import group_in_preview, make_preview
 from . import fields, group_table
 from .histogram import Histogram
+from .placements import as_text
 from .view_panel import ViewPanel, abort_transaction
 
 
@@ -91,18 +92,26 @@ class ToolPanel(ViewPanel):
         self.options.method.setCurrentIndex(self.options.method.findData(obj.Method))
         self.options.transition.setValue(obj.Transition)
         self._feature_angle.set(obj.FeatureAngle.Value)
+        self.options.refine.setCurrentIndex(self.options.refine.findData(obj.Refine))
+        if obj.Refine == "Size":
+            self._refine_size.set(obj.RefineSize.Value)
 
     def arguments(self):
         """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
         options = self.entered()
+        refine = {} if options["refine"] is None else {"refine": repr(options["refine"])}
         return {"method": repr(options["method"]), "transition": repr(options["transition"] or 0),
-                "group_name": repr(options["name"]), "feature_angle": repr(options["feature_angle"])}
+                "group_name": repr(options["name"]), "feature_angle": repr(options["feature_angle"]), **refine}
 
     def settings(self):
         """Properties of the document object as Python text by name."""
         options = self.entered()
         return {"Method": repr(options["method"]), "Transition": repr(options["transition"] or 0),
-                "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"])}
+                "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"]), **self._refinement()}
+
+    def _refinement(self):
+        how = self.options.refine.currentData()
+        return {"Refine": repr(how), **({"RefineSize": repr(self._refine_size.value)} if how == "Size" else {})}
 
     def placement(self):
         """The tool as the document object holds it."""
@@ -110,8 +119,7 @@ class ToolPanel(ViewPanel):
 
     def placement_text(self):
         """The placement as exact Python text."""
-        placement = self.placement()
-        return f"FreeCAD.Placement(FreeCAD.Vector{tuple(placement.Base)!r}, FreeCAD.Rotation{placement.Rotation.Q!r})"
+        return as_text(self.placement())
 
     # Set-up.
 
@@ -123,6 +131,12 @@ class ToolPanel(ViewPanel):
         o.method.setCurrentIndex(o.method.findData(preferences.method()))
         o.transition.setValue(preferences.transition())
         self._feature_angle = fields.Number(o.featureAngle, self.update, 30)
+        for text, data in ((translate("FemScalpel", "where the tool is finer"), "Automatic"), (translate("FemScalpel", "never"), "Never"),
+                           (translate("FemScalpel", "to an edge length"), "Size")):
+            o.refine.addItem(text, data)
+        self._refine_size = fields.Number(o.refineSize, self.update, self.geometry.size / 50)
+        o.refine.currentIndexChanged.connect(lambda *_: self._choose_refinement())
+        self._choose_refinement()
         o.groupName.setText(self._free_name())
         o.groupName.textChanged.connect(lambda *_: self.update())
         o.method.currentIndexChanged.connect(lambda *_: self.update())
@@ -130,6 +144,11 @@ class ToolPanel(ViewPanel):
         analysis = self._analysis()
         o.intoAnalysis.setVisible(analysis is not None and self.edited is None)
         o.intoAnalysis.setChecked(analysis is not None and self.edited is None and preferences.put_into_analysis())
+
+    def _choose_refinement(self):
+        for box in (self.options.refineSizeLabel, self.options.refineSize):
+            box.setVisible(self.options.refine.currentData() == "Size")
+        self.update()
 
     def _free_name(self):
         taken = {self.source_object.FemMesh.getGroupName(g) for g in self.source_object.FemMesh.Groups}
@@ -169,6 +188,8 @@ class ToolPanel(ViewPanel):
 
     def loaded(self):
         self.geometry.source = self.source
+        if self.options.refine.currentData() != "Size":
+            self._refine_size.set(self.source.edge_length() / 2)
         self.scene.show_whole(self.source.whole())
         self.update()
 
@@ -176,10 +197,11 @@ class ToolPanel(ViewPanel):
         self._no_result(str(error))
 
     def entered(self):
-        """What the options say: name, method, transition (None: automatic), feature_angle."""
+        """What the options say: name, method, transition (None: automatic), feature_angle, refine (None: automatic)."""
         o = self.options
+        refine = {"Automatic": None, "Never": False, "Size": self._refine_size.value}[o.refine.currentData()]
         return {"name": o.groupName.text(), "method": o.method.currentData(), "transition": o.transition.value() or None,
-                "feature_angle": self._feature_angle.value}
+                "feature_angle": self._feature_angle.value, "refine": refine}
 
     def update(self):
         """Asks for a new preview of what is entered now."""
@@ -233,7 +255,7 @@ class ToolPanel(ViewPanel):
 
     def _clear_errors(self):
         self.geometry.show_error("")
-        for label in (self.options.nameError, self.options.methodError, self.result.resultError):
+        for label in (self.options.nameError, self.options.methodError, self.options.refineError, self.result.resultError):
             fields.show_error(label, "")
 
     def _place_error(self, error):
@@ -242,6 +264,8 @@ class ToolPanel(ViewPanel):
         text = str(error)
         if isinstance(error, femscalpel.ToolError) and text.startswith("name"):
             fields.show_error(self.options.nameError, _sentence(text))
+        elif text.startswith("refine"):
+            fields.show_error(self.options.refineError, _sentence(text))
         elif isinstance(error, femscalpel.QualityError) or text.startswith(("transition", "feature_angle", "method")):
             fields.show_error(self.options.methodError, _sentence(text))
         elif isinstance(error, (femscalpel.ToolError, femscalpel.UnsupportedElementError)):
@@ -356,7 +380,7 @@ class ToolPanel(ViewPanel):
         self.scene.close()
 
     def forget_widgets(self):
-        self.options = self.result = self.histogram = self._feature_angle = None
+        self.options = self.result = self.histogram = self._feature_angle = self._refine_size = None
 
 
 def _sentence(text):

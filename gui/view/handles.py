@@ -111,7 +111,7 @@ class Handles(Overlay):
         pane.addChild(unpickable())
         self._add_tool_shape(pane)
         posed.addChild(pane)
-        self._draggers, self._callbacks, self._lengths = [], [], {}
+        self._draggers, self._callbacks, self._lengths, self._switches = [], [], {}, {}
         # In front of everything: they would be out of reach inside the part.
         self._front = coin.SoAnnotation()
         posed.addChild(self._front)
@@ -166,12 +166,19 @@ class Handles(Overlay):
         scale.scaleFactor.setValue(length, length, length)
         branch.addChild(scale)
         branch.addChild(dragger)
-        self._front.addChild(branch)
+        self._switches[name] = coin.SoSwitch()
+        self._switches[name].whichChild = coin.SO_SWITCH_ALL
+        self._switches[name].addChild(branch)
+        self._front.addChild(self._switches[name])
         self._draggers.append((name, dragger))
         # Through FreeCAD's view, which takes Python's lock first; pivy's own callbacks do not.
         for kind, function in (("addMotionCallback", self._moved), ("addFinishCallback", self._finish)):
             self._callbacks.append((dragger, kind, function))
             self._view.addDraggerCallback(dragger, kind, function)
+
+    def _switch(self, name, shown):
+        """Shows or hides a dragger."""
+        self._switches[name].whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE
 
     def _moved(self, dragger):
         if not self._quiet:
@@ -206,7 +213,8 @@ class Handles(Overlay):
 
 
 class PlaneHandles(Handles):
-    """Arrow along the normal, ball to tilt; the plane itself as a pane."""
+    """Arrow along the normal, ball to tilt; the plane itself as a pane. For a part of the plane also four arrows to move it in the
+    plane, and where it has a radius, arrows on its border."""
 
     def _add_tool_shape(self, pane):
         half = 0.36 * self._size
@@ -230,10 +238,32 @@ class PlaneHandles(Handles):
         self._add("move", coin.SoTranslate1Dragger(), arrow, lambda rgb: _arrows(rgb, ((1, 0, 0), ball / arrow, 1)),
                   (_turned((1, 0, 0), (0, 0, 1)),))
         self._add("tilt", coin.SoRotateSphericalDragger(), ball, _ball)
+        self._angle, self._border, self._between = coin.SoRotation(), coin.SoTranslation(), coin.SoRotation()
+        self._in_plane, cross, radius = FreeCAD.Rotation(), 0.13 * self._size, 0.05 * self._size
+        both = ((1, 0, 0), 0.1, 1), ((-1, 0, 0), 0.1, 1)
+        self._add("radius", coin.SoTranslate1Dragger(), radius, lambda rgb: _arrows(rgb, *both), (self._angle, self._border))
+        four = [(direction, ball / cross, 1) for direction in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
+        self._add("slide", coin.SoTranslate2Dragger(), cross, lambda rgb: _arrows(rgb, *four), (self._between,))
+        self.show_part(False)
+
+    def show_part(self, movable, turn=0.0):
+        """Whether there is a part of the plane to move; by how many degrees its first axis is turned about the normal."""
+        self._switch("slide", movable)
+        self._angle.rotation.setValue(_sb_rotation(FreeCAD.Rotation(_Z, turn)))
+        # Between the arrows on the border, which may be as far away.
+        self._in_plane = FreeCAD.Rotation(_Z, turn + 45)
+        self._between.rotation.setValue(_sb_rotation(self._in_plane))
+
+    def set_pose(self, position, rotation, radius=0.0):
+        super().set_pose(position, rotation, radius)
+        self._switch("radius", radius > 0)
+        # Beyond the ball, which takes every click within it.
+        self._border.translation.setValue(max(radius, 0.06 * self._size) + 0.05 * self._size, 0, 0)
 
     def _local(self):
-        shift = self._shift("move")
-        return FreeCAD.Vector(0, 0, shift.x), self._turn("tilt"), 0.0
+        slide = self._in_plane.multVec(self._shift("slide"))
+        radius = max(self._radius + self._shift("radius").x, 1e-3 * self._size) if self._radius > 0 else 0.0
+        return FreeCAD.Vector(slide.x, slide.y, self._shift("move").x), self._turn("tilt"), radius
 
 
 class AxisHandles(Handles):

@@ -21,11 +21,21 @@ class PickError(ValueError):
 
 @dataclass(frozen=True)
 class Picked:
-    """A point and a direction; for an axis also a radius, None where nothing says one."""
+    """A point and a direction; for an axis also a radius, None where nothing says one; of a sketch its outline, where that is closed."""
 
     origin: FreeCAD.Vector
     direction: FreeCAD.Vector
     radius: object = None
+    outline: object = None
+
+
+@dataclass(frozen=True)
+class Outline:
+    """What a sketch encloses: a polygon with `corners`, or an ellipse (a circle) with `radii`, in the axes of `placement`, z = 0."""
+
+    placement: FreeCAD.Placement
+    corners: tuple = ()
+    radii: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -136,6 +146,29 @@ def _global(obj):
     return obj.getGlobalPlacement().multiply(obj.Placement.inverse()) if hasattr(obj, "Placement") else FreeCAD.Placement()
 
 
+def _outline(sketch):
+    """What the lines of a sketch enclose, as Outline; None where they are no closed polygon, circle or ellipse."""
+    wires = sketch.Shape.Wires
+    if len(wires) != 1 or not wires[0].isClosed():
+        return None
+    edges = wires[0].OrderedEdges
+    kinds = {type(edge.Curve).__name__ for edge in edges}
+    axes = sketch.getGlobalPlacement().Rotation
+    if kinds <= {"Line", "LineSegment"} and len(edges) > 2:
+        corners = [_global(sketch).multVec(vertex.Point) for vertex in wires[0].OrderedVertexes]
+        middle = FreeCAD.Placement(sum(corners, FreeCAD.Vector()) / len(corners), axes)
+        return Outline(middle, corners=tuple(middle.inverse().multVec(corner) for corner in corners))
+    if len(edges) == 1 and kinds <= {"Circle", "Ellipse"}:
+        curve = edges[0].Curve
+        centre = _global(sketch).multVec(curve.Center)
+        if kinds == {"Circle"}:
+            return Outline(FreeCAD.Placement(centre, axes), radii=(curve.Radius, curve.Radius))
+        along = _global(sketch).Rotation.multVec(curve.XAxis)
+        rotation = FreeCAD.Rotation(along, FreeCAD.Vector(), axes.multVec(_Z), "ZXY")
+        return Outline(FreeCAD.Placement(centre, rotation), radii=(curve.MajorRadius, curve.MinorRadius))
+    return None
+
+
 def _datum(obj):
     """Plane or line of a datum object or sketch; None for other objects."""
     if obj.isDerivedFrom("PartDesign::Plane") or obj.isDerivedFrom("App::Plane") or obj.isDerivedFrom("Sketcher::SketchObject") \
@@ -146,7 +179,8 @@ def _datum(obj):
     else:
         return None
     placement = obj.getGlobalPlacement()
-    return Picked(placement.Base, placement.Rotation.multVec(direction))
+    outline = _outline(obj) if obj.isDerivedFrom("Sketcher::SketchObject") else None
+    return Picked(outline.placement.Base if outline else placement.Base, placement.Rotation.multVec(direction), outline=outline)
 
 
 def _of_document(click, ask):

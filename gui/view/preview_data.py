@@ -154,6 +154,12 @@ class PreviewSource:
         at = np.minimum(np.searchsorted(self._ascending, node_ids), len(self._ascending) - 1)
         return np.where(self._ascending[at] == node_ids, self._order[at], -1)
 
+    def edge_length(self):
+        """Mean length of the edges of the outer faces; of a mesh without such a twentieth of its size."""
+        if not len(self.skin):
+            return self.size / 20
+        return float(np.linalg.norm(self.points[self.skin[:, 0]] - self.points[self.skin[:, 1]], axis=1).mean())
+
     def whole(self):
         """The unchanged mesh as a Surface."""
         return Surface.make(self.points, self.skin, self.skin_quality, self.skin_family)

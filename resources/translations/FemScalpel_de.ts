@@ -91,8 +91,8 @@
   <context>
     <name>CylinderPart</name>
     <message>
-      <source>Only a part of the cylinder cracks, between two heights along its axis; its border is the crack front</source>
-      <translation>Nur ein Teil des Zylinders reißt, zwischen zwei Höhen längs seiner Achse; sein Rand ist die Rissfront</translation>
+      <source>Only a part of the cylinder cracks, between two heights along its axis and two angles about it; its border is the crack front</source>
+      <translation>Nur ein Teil des Zylinders reißt, zwischen zwei Höhen entlang seiner Achse und zwei Winkeln um sie; sein Rand ist die Rissfront</translation>
     </message>
     <message>
       <source>Only from</source>
@@ -103,8 +103,16 @@
       <translation>Teil des Zylinders</translation>
     </message>
     <message>
+      <source>Where the crack begins about the axis; 0 to 360: all around</source>
+      <translation>Wo der Riss um die Achse beginnt; 0 bis 360: ringsum</translation>
+    </message>
+    <message>
       <source>Where the crack begins: from the point, along the axis</source>
       <translation>Wo der Riss beginnt: vom Punkt aus längs der Achse</translation>
+    </message>
+    <message>
+      <source>Where the crack ends about the axis, counter-clockwise seen against it</source>
+      <translation>Wo der Riss um die Achse endet, gegen den Uhrzeigersinn bei Blick gegen die Achse</translation>
     </message>
     <message>
       <source>Where the crack ends: from the point, along the axis</source>
@@ -158,6 +166,10 @@
       <translation>Eine Halbebene</translation>
     </message>
     <message>
+      <source>A polygon</source>
+      <translation>Ein Polygon</translation>
+    </message>
+    <message>
       <source>After</source>
       <translation>Nachher</translation>
     </message>
@@ -168,6 +180,10 @@
     <message>
       <source>Another task panel is open. Close it first.</source>
       <translation>Ein anderer Aufgabenbereich ist offen. Schließen Sie ihn zuerst.</translation>
+    </message>
+    <message>
+      <source>At the bottom it has</source>
+      <translation>Am Grund, den es hat</translation>
     </message>
     <message>
       <source>Before</source>
@@ -260,6 +276,10 @@
     <message>
       <source>Double-click to change the colour</source>
       <translation>Doppelklick ändert die Farbe</translation>
+    </message>
+    <message>
+      <source>Down to the point</source>
+      <translation>Bis zum Punkt</translation>
     </message>
     <message>
       <source>Drill</source>
@@ -398,6 +418,10 @@
       <translation>Wählen Sie eine ebene Fläche, eine Kante, eine Bezugsebene oder -linie, eine Skizze oder eine Seite des Netzes.</translation>
     </message>
     <message>
+      <source>Pick a sketch: its closed line of straight sides is the polygon.</source>
+      <translation>Wählen Sie eine Skizze: Ihr geschlossener Zug gerader Seiten ist das Polygon.</translation>
+    </message>
+    <message>
       <source>Plane</source>
       <translation>Ebene</translation>
     </message>
@@ -478,10 +502,6 @@
       <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
     </message>
     <message>
-      <source>The polygon it has</source>
-      <translation>Das vorhandene Polygon</translation>
-    </message>
-    <message>
       <source>The radius must be larger than 0.</source>
       <translation>Der Radius muss größer als 0 sein.</translation>
     </message>
@@ -496,6 +516,10 @@
     <message>
       <source>This workbench was built without its example: Gmsh was not there.</source>
       <translation>Diese Arbeitsumgebung wurde ohne ihr Beispiel gebaut: Gmsh war nicht da.</translation>
+    </message>
+    <message>
+      <source>Through the whole part</source>
+      <translation>Durch das ganze Teil</translation>
     </message>
     <message>
       <source>Type</source>
@@ -562,6 +586,10 @@
       <translation>Mean ratio; Linie: vorher</translation>
     </message>
     <message>
+      <source>never</source>
+      <translation>nie</translation>
+    </message>
+    <message>
       <source>new</source>
       <translation>neu</translation>
     </message>
@@ -582,12 +610,20 @@
       <translation>snap: bewegen und teilen</translation>
     </message>
     <message>
+      <source>to an edge length</source>
+      <translation>bis zu einer Kantenlänge</translation>
+    </message>
+    <message>
       <source>untouched</source>
       <translation>unberührt</translation>
     </message>
     <message>
       <source>volumes</source>
       <translation>Volumen</translation>
+    </message>
+    <message>
+      <source>where the tool is finer</source>
+      <translation>wo das Werkzeug feiner ist</translation>
     </message>
     <message>
       <source>worst %1</source>
@@ -761,12 +797,20 @@
   <context>
     <name>Options</name>
     <message>
+      <source>Edge length</source>
+      <translation>Kantenlänge</translation>
+    </message>
+    <message>
       <source>Feature angle</source>
       <translation>Kantenwinkel</translation>
     </message>
     <message>
       <source>Group name</source>
       <translation>Gruppenname</translation>
+    </message>
+    <message>
+      <source>Longest edge wanted there; farther away edges grow longer again</source>
+      <translation>Längste dort gewünschte Kante; weiter entfernt werden Kanten wieder länger</translation>
     </message>
     <message>
       <source>Method</source>
@@ -785,6 +829,10 @@
       <translation>In der Analyse an die Stelle der Quelle setzen</translation>
     </message>
     <message>
+      <source>Refine first</source>
+      <translation>Erst verfeinern</translation>
+    </message>
+    <message>
       <source>Rings of elements around the tool that may move</source>
       <translation>Ringe von Elementen um das Werkzeug, die sich bewegen dürfen</translation>
     </message>
@@ -801,6 +849,10 @@
       <translation>Übergang</translation>
     </message>
     <message>
+      <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
+      <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
+    </message>
+    <message>
       <source>automatic</source>
       <translation>automatisch</translation>
     </message>
@@ -812,12 +864,12 @@
   <context>
     <name>Patch</name>
     <message>
-      <source>Of the disk, about the point; of the ellipse, along its first axis</source>
-      <translation>Der Kreisscheibe um den Punkt; der Ellipse längs ihrer ersten Achse</translation>
+      <source>About the normal: the ellipse's first axis, the half plane's direction, the polygon</source>
+      <translation>Um die Normale: die erste Achse der Ellipse, die Richtung der Halbebene, das Polygon</translation>
     </message>
     <message>
-      <source>Of the ellipse's first axis, or of the half plane's direction, about the normal</source>
-      <translation>Der ersten Achse der Ellipse oder der Richtung der Halbebene um die Normale</translation>
+      <source>Of the disk, about the point; of the ellipse, along its first axis</source>
+      <translation>Der Kreisscheibe um den Punkt; der Ellipse längs ihrer ersten Achse</translation>
     </message>
     <message>
       <source>Of the ellipse, along its second axis</source>
@@ -1022,6 +1074,18 @@
     <message>
       <source>Between the two walls; the plane is in the middle</source>
       <translation>Zwischen den beiden Wänden; die Ebene liegt in der Mitte</translation>
+    </message>
+    <message>
+      <source>Direction in the plane from the bottom, at the plane's point, to the mouth of the slot: turned about the normal</source>
+      <translation>Richtung in der Ebene vom Grund, am Punkt der Ebene, zur Öffnung des Schlitzes: um die Normale gedreht</translation>
+    </message>
+    <message>
+      <source>How deep the slot is</source>
+      <translation>Wie tief der Schlitz ist</translation>
+    </message>
+    <message>
+      <source>Opens towards</source>
+      <translation>Öffnet sich nach</translation>
     </message>
     <message>
       <source>Slot</source>

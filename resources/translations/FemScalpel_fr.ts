@@ -91,8 +91,8 @@
   <context>
     <name>CylinderPart</name>
     <message>
-      <source>Only a part of the cylinder cracks, between two heights along its axis; its border is the crack front</source>
-      <translation>Seule une partie du cylindre se fissure, entre deux hauteurs selon son axe ; son bord est le front de fissure</translation>
+      <source>Only a part of the cylinder cracks, between two heights along its axis and two angles about it; its border is the crack front</source>
+      <translation>Seule une partie du cylindre se fissure, entre deux hauteurs le long de son axe et deux angles autour de lui ; son bord est le front de fissure</translation>
     </message>
     <message>
       <source>Only from</source>
@@ -103,8 +103,16 @@
       <translation>Partie du cylindre</translation>
     </message>
     <message>
+      <source>Where the crack begins about the axis; 0 to 360: all around</source>
+      <translation>Où la fissure commence autour de l'axe ; 0 à 360 : tout autour</translation>
+    </message>
+    <message>
       <source>Where the crack begins: from the point, along the axis</source>
       <translation>Où la fissure commence : depuis le point, selon l'axe</translation>
+    </message>
+    <message>
+      <source>Where the crack ends about the axis, counter-clockwise seen against it</source>
+      <translation>Où la fissure finit autour de l'axe, dans le sens inverse des aiguilles d'une montre vu contre l'axe</translation>
     </message>
     <message>
       <source>Where the crack ends: from the point, along the axis</source>
@@ -158,6 +166,10 @@
       <translation>Un demi-plan</translation>
     </message>
     <message>
+      <source>A polygon</source>
+      <translation>Un polygone</translation>
+    </message>
+    <message>
       <source>After</source>
       <translation>Après</translation>
     </message>
@@ -168,6 +180,10 @@
     <message>
       <source>Another task panel is open. Close it first.</source>
       <translation>Un autre panneau de tâches est ouvert. Fermez-le d'abord.</translation>
+    </message>
+    <message>
+      <source>At the bottom it has</source>
+      <translation>Au fond qu'il a</translation>
     </message>
     <message>
       <source>Before</source>
@@ -260,6 +276,10 @@
     <message>
       <source>Double-click to change the colour</source>
       <translation>Double-cliquez pour changer la couleur</translation>
+    </message>
+    <message>
+      <source>Down to the point</source>
+      <translation>Jusqu'au point</translation>
     </message>
     <message>
       <source>Drill</source>
@@ -398,6 +418,10 @@
       <translation>Choisissez une face plane, une arête, un plan ou une ligne de référence, une esquisse ou une face du maillage.</translation>
     </message>
     <message>
+      <source>Pick a sketch: its closed line of straight sides is the polygon.</source>
+      <translation>Choisissez une esquisse : sa ligne fermée de côtés droits est le polygone.</translation>
+    </message>
+    <message>
       <source>Plane</source>
       <translation>Plan</translation>
     </message>
@@ -478,10 +502,6 @@
       <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
     </message>
     <message>
-      <source>The polygon it has</source>
-      <translation>Le polygone existant</translation>
-    </message>
-    <message>
       <source>The radius must be larger than 0.</source>
       <translation>Le rayon doit être supérieur à 0.</translation>
     </message>
@@ -496,6 +516,10 @@
     <message>
       <source>This workbench was built without its example: Gmsh was not there.</source>
       <translation>Cet atelier a été construit sans son exemple : Gmsh n'était pas là.</translation>
+    </message>
+    <message>
+      <source>Through the whole part</source>
+      <translation>À travers toute la pièce</translation>
     </message>
     <message>
       <source>Type</source>
@@ -562,6 +586,10 @@
       <translation>mean ratio ; ligne : avant</translation>
     </message>
     <message>
+      <source>never</source>
+      <translation>jamais</translation>
+    </message>
+    <message>
       <source>new</source>
       <translation>nouveau</translation>
     </message>
@@ -582,12 +610,20 @@
       <translation>snap : déplacer et diviser</translation>
     </message>
     <message>
+      <source>to an edge length</source>
+      <translation>jusqu'à une longueur d'arête</translation>
+    </message>
+    <message>
       <source>untouched</source>
       <translation>intact</translation>
     </message>
     <message>
       <source>volumes</source>
       <translation>volumes</translation>
+    </message>
+    <message>
+      <source>where the tool is finer</source>
+      <translation>où l'outil est plus fin</translation>
     </message>
     <message>
       <source>worst %1</source>
@@ -761,12 +797,20 @@
   <context>
     <name>Options</name>
     <message>
+      <source>Edge length</source>
+      <translation>Longueur d'arête</translation>
+    </message>
+    <message>
       <source>Feature angle</source>
       <translation>Angle vif</translation>
     </message>
     <message>
       <source>Group name</source>
       <translation>Nom du groupe</translation>
+    </message>
+    <message>
+      <source>Longest edge wanted there; farther away edges grow longer again</source>
+      <translation>Plus longue arête voulue à cet endroit ; plus loin, les arêtes redeviennent plus longues</translation>
     </message>
     <message>
       <source>Method</source>
@@ -785,6 +829,10 @@
       <translation>Mettre à la place de sa source dans l'analyse</translation>
     </message>
     <message>
+      <source>Refine first</source>
+      <translation>Raffiner d'abord</translation>
+    </message>
+    <message>
       <source>Rings of elements around the tool that may move</source>
       <translation>Couches d'éléments autour de l'outil qui peuvent bouger</translation>
     </message>
@@ -801,6 +849,10 @@
       <translation>Transition</translation>
     </message>
     <message>
+      <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
+      <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
+    </message>
+    <message>
       <source>automatic</source>
       <translation>automatique</translation>
     </message>
@@ -812,12 +864,12 @@
   <context>
     <name>Patch</name>
     <message>
-      <source>Of the disk, about the point; of the ellipse, along its first axis</source>
-      <translation>Du disque, autour du point ; de l'ellipse, selon son premier axe</translation>
+      <source>About the normal: the ellipse's first axis, the half plane's direction, the polygon</source>
+      <translation>Autour de la normale : le premier axe de l'ellipse, la direction du demi-plan, le polygone</translation>
     </message>
     <message>
-      <source>Of the ellipse's first axis, or of the half plane's direction, about the normal</source>
-      <translation>Du premier axe de l'ellipse, ou de la direction du demi-plan, autour de la normale</translation>
+      <source>Of the disk, about the point; of the ellipse, along its first axis</source>
+      <translation>Du disque, autour du point ; de l'ellipse, selon son premier axe</translation>
     </message>
     <message>
       <source>Of the ellipse, along its second axis</source>
@@ -1022,6 +1074,18 @@
     <message>
       <source>Between the two walls; the plane is in the middle</source>
       <translation>Entre les deux parois ; le plan est au milieu</translation>
+    </message>
+    <message>
+      <source>Direction in the plane from the bottom, at the plane's point, to the mouth of the slot: turned about the normal</source>
+      <translation>Direction dans le plan du fond, au point du plan, vers l'ouverture de la fente : tournée autour de la normale</translation>
+    </message>
+    <message>
+      <source>How deep the slot is</source>
+      <translation>La profondeur de la fente</translation>
+    </message>
+    <message>
+      <source>Opens towards</source>
+      <translation>S'ouvre vers</translation>
     </message>
     <message>
       <source>Slot</source>

@@ -8,6 +8,7 @@ import tempfile
 import FreeCAD
 import FreeCADGui
 import numpy as np
+import Part
 from PySide import QtCore, QtGui
 
 import femmesh_bridge
@@ -171,6 +172,121 @@ class Patches(CylinderTest):
         self.doc.undo()
         self.assertEqual(content_of(crack), made)
 
+    def test_handles_of_a_disk(self):
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        enter_plane((7.0, 2.5, 2.0), (0.0, 0.0, 1.0))
+        choose("patch", "Disk")
+        type_into("patchRadius", "1.2 mm")
+        self.wait_for_preview()
+        screenshot("crack_disk_handles")
+        size = self.mesh.FemMesh.BoundBox.DiagonalLength
+        centre, out = np.array((7, 2.5, 2)), np.array((1, 0, 0))
+        drag(centre + (1.2 + 0.095 * size) * out, centre + (1.7 + 0.095 * size) * out)
+        self.assertAlmostEqual(value("patchRadius"), 1.7, delta=0.1)
+        np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre, atol=1e-9)
+        across = np.array((0.5**0.5, 0.5**0.5, 0))
+        drag(centre + 0.12 * size * across, centre + (0.12 * size + 0.6) * across)
+        np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1)
+        self.assertAlmostEqual(value("originZ"), 2, places=5)
+        self.assertAlmostEqual(value("patchRadius"), 1.7, delta=0.1)
+        self.wait_for_preview()
+        choose("patch", "Whole")
+        drag(centre + (0.12 * size + 0.6) * across, centre + (0.12 * size + 1.2) * across)  # nothing to drag any more
+        np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1)
+
+    def sketch(self, *lines):
+        """A sketch in the plane x = 6.1, its axes along y and z, its origin at (6.1, 2, 2)."""
+        sketch = self.doc.addObject("Sketcher::SketchObject", "Outline")
+        axes = FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(1, 0, 0), "XYZ")
+        sketch.Placement = FreeCAD.Placement(FreeCAD.Vector(6.1, 2, 2), axes)
+        for line in lines:
+            sketch.addGeometry(line)
+        self.doc.recompute()
+        self.doc.clearUndos()
+
+    def pick_sketch(self):
+        click("pickGeometry")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Outline", "Edge1")
+        spin(0.1)
+
+    def test_polygon_of_a_sketch(self):
+        corners = [FreeCAD.Vector(*xy, 0) for xy in ((-1.2, -1), (1.7, -0.8), (1.1, 0.9), (-0.3, 1.4))]
+        self.sketch(*(Part.LineSegment(a, b) for a, b in zip(corners, corners[1:] + corners[:1])))
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        polygon = fs.Polygon([(6.1, 2 + c.x, 2 + c.y) for c in corners])
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        choose("patch", "Polygon")
+        self.assertIn("Pick a sketch", self.wait_for_message("geometryError"))
+        self.pick_sketch()
+        expected = fs.crack(source, fs.Plane((6.1, 2, 2), (1, 0, 0)), within=polygon)
+        self.shown(expected)
+        screenshot("crack_polygon")
+        click("flip")  # the sides change places, the polygon stays
+        self.shown(fs.crack(source, fs.Plane((6.1, 2, 2), (-1, 0, 0)), within=polygon))
+        press_ok()
+        crack = self.doc.Crack
+        places = [crack.PlanePlacement.multVec(corner) for corner in crack.PatchCorners]
+        np.testing.assert_allclose(places, [(6.1, 2 + c.x, 2 + c.y) for c in corners], atol=1e-12)
+        self.assertAlmostEqual(crack.PlanePlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)).x, -1)
+        made = content_of(crack)
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertEqual(widget("patch").currentData(), "Polygon")
+        press_ok()
+        self.assertEqual(content_of(crack), made)
+
+    def test_ellipse_and_disk_of_a_sketch(self):
+        self.sketch(Part.Ellipse(FreeCAD.Vector(0.3, 1.6, 0), FreeCAD.Vector(1, 0.1, 0), FreeCAD.Vector(0.3, 0.1, 0)))
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        self.pick_sketch()
+        self.assertEqual(widget("patch").currentData(), "Ellipse")
+        np.testing.assert_allclose([value("originY"), value("originZ"), value("patchRadius"), value("patchSecondRadius")], (2.3, 2.1, 1.5, 0.7), atol=0.006)
+        self.shown(fs.crack(source, fs.Plane((6.1, 2.3, 2.1), (1, 0, 0)), within=fs.Ellipse((6.1, 2.3, 2.1), (1.5, 0.7), (0, 0, 1))))
+        self.doc.Outline.delGeometry(0)
+        self.doc.Outline.addGeometry(Part.Circle(FreeCAD.Vector(0.1, 0.2, 0), FreeCAD.Vector(0, 0, 1), 1.1))
+        self.doc.recompute()
+        self.pick_sketch()
+        self.shown(fs.crack(source, fs.Plane((6.1, 2.1, 2.2), (1, 0, 0)), within=fs.Disk((6.1, 2.1, 2.2), 1.1)))
+        self.assertEqual(widget("patch").currentData(), "Disk")
+        press_cancel()
+
+    def test_refined_at_the_front_first(self):
+        source, plane = femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((6.1, 2.5, 2), (1, 0, 0))
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        enter_plane((6.1, 2.5, 2.0), (1.0, 0.0, 0.0))
+        choose("patch", "Disk")
+        type_into("patchRadius", "1.3 mm")
+        self.assertFalse(is_shown("refineSize"))
+        choose("refine", "Never")
+        self.shown(fs.crack(source, plane, within=fs.Disk((6.1, 2.5, 2), 1.3), refine=False))
+        choose("refine", "Size")
+        self.assertGreater(value("refineSize"), 0)
+        type_into("refineSize", "0 mm")
+        self.assertIn("positive", self.wait_for_message("refineError"))
+        type_into("refineSize", "0.3 mm")
+        expected = fs.crack(source, plane, within=fs.Disk((6.1, 2.5, 2), 1.3), refine=0.3)
+        self.assertGreater(expected.report.refinement.elements_after, expected.report.refinement.elements_before)
+        self.shown(expected)
+        self.assertFalse(is_shown("refineError"))
+        screenshot("crack_refined")
+        press_ok()
+        crack = self.doc.Crack
+        self.assertEqual((crack.Refine, crack.RefineSize.Value, crack.RefinedTo.Value), ("Size", 0.3, 0.3))
+        made = content_of(crack)
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertEqual(value("refineSize"), 0.3)
+        choose("refine", "Automatic")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual(crack.Refine, "Automatic")
+        self.assertNotEqual(content_of(crack), made)
+
     def test_part_of_a_cylinder(self):
         source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
         self.run_command("FemScalpel_CylindricalCrack")
@@ -181,11 +297,15 @@ class Patches(CylinderTest):
         type_into("partHigh", "0.9 mm")
         self.shown(fs.crack(source, fs.Cylinder((7.1, 2.4, 2), (0, 0, 1), 1.3), within=fs.CylinderPart((-1, 0.9))))
         screenshot("cylinder_part")
+        type_into("partStart", "20 deg")
+        type_into("partEnd", "10 deg")
+        wait_until(lambda: is_shown("geometryError") and "angle" in widget("geometryError").text(), "the error")
+        type_into("partEnd", "200 deg")
+        self.shown(fs.crack(source, fs.Cylinder((7.1, 2.4, 2), (0, 0, 1), 1.3), within=fs.CylinderPart((-1, 0.9), (20, 200), (1, 0, 0))))
+        screenshot("cylinder_part_angles")
         press_ok()
         crack = self.doc.CylindricalCrack
-        self.assertEqual((crack.Bounded, crack.Low.Value, crack.High.Value), (True, -1, 0.9))
-        crack.StartAngle, crack.EndAngle = 20, 200
-        self.doc.recompute()
+        self.assertEqual((crack.Bounded, crack.Low.Value, crack.High.Value, crack.StartAngle.Value, crack.EndAngle.Value), (True, -1, 0.9, 20, 200))
         made = content_of(crack)
         crack.ViewObject.doubleClicked()
         self.wait_for_preview()
@@ -227,6 +347,23 @@ class Incision(CylinderTest):
         self.wait_for_preview()
         press_ok()
         self.assertEqual(self.doc.Cut.FemMesh.NodeCount, fs.cut(source, plane, width=1.1).mesh.node_count)
+
+    def test_down_to_the_point(self):
+        source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
+        self.run_command("FemScalpel_Incision")
+        spin(0.2)
+        enter_plane((6.1, 2.5, 1.7), (1.0, 0.0, 0.0))
+        type_into("slotWidth", "0.8 mm")
+        self.assertFalse(is_shown("slotTurn"))
+        choose("slotEnd", "Point")
+        type_into("slotTurn", "180 deg")
+        expected = fs.cut(source, fs.Plane((6.1, 2.5, 1.7), (1, 0, 0)), width=0.8, bottom=fs.Plane((6.1, 2.5, 1.7), (0, 0, -1)))
+        wait_until(lambda: f" {expected.report.elements_removed} removed" in widget("status").text(), "the preview")
+        screenshot("incision_down_to_the_point")
+        press_ok()
+        self.assertFalse(self.doc.Cut.Through)
+        np.testing.assert_allclose(self.doc.Cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), (0, 0, -1), atol=1e-12)
+        self.assertEqual(self.doc.Cut.FemMesh.NodeCount, expected.mesh.node_count)
 
     def test_bottom_of_the_object_is_kept(self):
         import ObjectsFemScalpel
