@@ -31,8 +31,10 @@ constexpr double dip = 0.15;
 
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
-/// Elements of a curved mesh below this mean ratio are refined before another try, of which there are so many.
+/// Elements below this mean ratio are refined before another try, of which there are so many.
 constexpr double poor_quality = 0.1;
+/// The same in second-order meshes, where mending curved elements costs their corners' shape.
+constexpr double second_order_quality = 0.27;
 constexpr int polishings = 3;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
@@ -461,8 +463,9 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
         bool polish = false;
         if (bad.empty()) {
             if (plain) return;
-            const double quality = poorest(f, 1.5 * poor_quality, bad);
-            if (quality >= poor_quality) return;
+            const double enough = f.d.mids.any() ? second_order_quality : poor_quality;
+            const double quality = poorest(f, std::max(1.5 * poor_quality, enough), bad);
+            if (quality >= enough) return;
             if (quality > best_quality) {
                 best_quality = quality;
                 best = f;
@@ -490,6 +493,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
         f.seconds = seconds;
     }
     f = std::move(*best);
+    if (best_quality >= poor_quality) return;
     std::ostringstream text;
     text.precision(2);
     text << "the " << f.tool->kind() << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality
