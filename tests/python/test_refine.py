@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+import re
+
 import numpy as np
 import pytest
 
@@ -187,3 +189,17 @@ def test_nothing_to_do():
 def test_bad_arguments(near, options, error, message):
     with pytest.raises(error, match=message):
         fs.refine(grid_box(), near, **options)
+
+
+def test_flat_walls_of_a_coarse_hole_are_told():
+    """Chords of a hole leave material standing; how much of the hole is said where it is much."""
+    mesh, hole = box_with_groups(), fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 1.2)
+    def left(result):
+        removed = next(g.measure_before - g.measure_after for g in result.report.groups if g.name == "ALL")
+        return 1 - removed / (np.pi * hole.radius ** 2 * 4)
+    coarse = fs.drill(mesh, hole, refine=False)
+    warning, = (w for w in coarse.report.warnings if "the mesh is coarse for the cylinder of radius 1.2" in w)
+    assert left(coarse) > 0.05
+    assert float(re.search(r"leave about (\d+) %", warning)[1]) / 100 == pytest.approx(left(coarse), abs=0.03)
+    fine = fs.drill(mesh, hole)
+    assert left(fine) < 0.05 and not fine.report.warnings

@@ -2,6 +2,7 @@
 #include "operators/carve.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -12,11 +13,14 @@
 namespace femscalpel {
 namespace {
 
-/// Refining again and again does not help a hole much: its own wall bends the elements.
-constexpr int carve_attempts = 4;
+/// Fewer than for planes: refining does not help a hole so much, as its own wall bends the elements.
+constexpr int carve_attempts = 8;
 
 /// Elements that stay may bulge so deep into a hole, in its radii.
 constexpr double deepest_bulge = 0.25;
+
+/// Part of a hole that its flat wall faces may leave standing without a warning.
+constexpr double flat_walls = 0.05;
 
 /// The surfaces of a body, each bounded by the others, in the order they are cut.
 std::vector<Blade> blades_of(const Body& body, int first_tag) {
@@ -72,6 +76,33 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
         };
         look(band.tetras);
         look(band.triangles);
+    }
+}
+
+/// Warns where the flat faces of a curved wall, whose nodes lie on it, leave much of what was to be removed standing.
+void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* const> tool_of_tag) {
+    for (std::size_t tag = 0; tag < tool_of_tag.size(); ++tag) {
+        const Tool& tool = *tool_of_tag[tag];
+        const double radius = tool.feature_size();
+        if (!std::isfinite(radius)) continue;
+        double measure = 0, left = 0;  // of the wall; what is between it and the tool, where distances grow as squares
+        const auto add = [&](double size, double sum_of_middles) {
+            measure += size;
+            left -= size * sum_of_middles;
+        };
+        const auto at = [&](int v) { return f.d.band.nodes[v].at; };
+        const auto middle = [&](int v, int w) { return tool.distance((at(v) + at(w)) / 2); };
+        for (const auto& [n, group, element, second_order] : walls.faces)
+            if (group == static_cast<int>(tag) && !second_order)
+                add((at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2, (middle(n[0], n[1]) + middle(n[1], n[2]) + middle(n[2], n[0])) / 3);
+        for (const auto& [n, group, element, second_order] : walls.edges)
+            if (group == static_cast<int>(tag) && !second_order) add((at(n[1]) - at(n[0])).norm(), middle(n[0], n[1]) * 2 / 3);
+        const double part = measure > 0 ? 2 * left / (radius * measure) : 0;
+        if (part <= flat_walls) continue;
+        std::ostringstream message;
+        message << "the mesh is coarse for the " << tool.kind() << " of radius " << radius << ": the flat faces of the wall leave about " << std::lround(100 * part)
+                << " % of what was to be removed. Refine the mesh there first, to edges of at most " << radius / 2;
+        f.warnings.push_back(message.str());
     }
 }
 
@@ -174,7 +205,9 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     check_shape(f, mesh);
     find_node_sets(f);
     check_contacts(f);
-    return operation.finish(f, open_walls(f), naming);
+    const Lips walls = open_walls(f);
+    warn_of_flat_walls(f, walls, tool_of_tag);
+    return operation.finish(f, walls, naming);
 }
 
 }  // namespace femscalpel
