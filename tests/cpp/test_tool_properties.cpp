@@ -376,5 +376,38 @@ TEST_P(ToolProperties, Cones) {
     });
 }
 
+// Tools of the random ones that once gave 0.135, 0.09 and an error, or 0.066 and 0.079.
+TEST(HardTools, quadratic_elbow) {
+    const Scalpel session(std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/quadratic_elbow.inp")));
+    const Cylinder cylinder({9.9037660860745707, -2.3080284512263174, 0.40376788794297624}, {-0.71130512027933934, -0.65799532260725968, -0.24715821105385724},
+                            1.9304847191064833);
+    const Tool* tool = &cylinder;
+    EXPECT_GE(session.drill({&tool, 1}).report.quality_after.minimum, 0.2);
+    const auto saw = [&](const Vec3& origin, const Vec3& normal, const Vec3& along, double width) {
+        const Plane end(origin, normal.cross(along));
+        CutOptions options;
+        options.bottom = &end;
+        return session.cut(Plane(origin, normal), width, options).report.quality_after.minimum;
+    };
+    EXPECT_GE(saw({2.7642395860580455, 2.5717963948281666, -0.58055278032366564}, {-0.17636009857374377, -0.40267790232642992, -0.89819130624218668},
+                  {0.96584267142559399, 0.10520810330017154, -0.2368104496289222}, 0.60050355475635286),
+              0.25);
+    EXPECT_GE(saw({11.06591107320232, 3.6228918695382726, -3.4208221265237944}, {0.97380127218376655, 0.22738468317602473, 0.0026996574258155719},
+                  {0.010663575617585739, -0.033802815339047734, -0.9993716314916099}, 3.217724203297939),
+              0.1);
+}
+
+// Refinement first gave the skin's node groups members inside the material, which must not hold the hole's elements.
+TEST(HardTools, WhereNodeGroupsHaveShortcuts) {
+    const Scalpel session(std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/flanged_cylinder.inp")));
+    const Cylinder hole({5.9901303649373165, -4.4317384343779231, 10.877042977766873}, {-0.42100958011237904, 0.32964658321558343, 0.84503494816953562},
+                        2.6631721588197017);
+    const Tool* tool = &hole;
+    EXPECT_GE(session.drill({&tool, 1}).report.quality_after.minimum, 0.3);
+    const Cylinder crack({5.4057293144542449, -0.13805930270946476, 13.913284515777582}, {0.95049167541930035, -0.22629054917662053, -0.21297455789824984},
+                         0.78085438098654536);
+    EXPECT_GE(session.crack(crack).report.quality_after.minimum, 0.1);
+}
+
 }  // namespace
 }  // namespace femscalpel

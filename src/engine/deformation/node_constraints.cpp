@@ -80,7 +80,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     for (std::size_t g = 0; g < mesh.groups.size(); ++g)
         drifting[g] = mesh.groups[g].hidden ? options.kept_hidden.empty() || !options.kept_hidden[g]
                                             : !options.drifting_groups.empty() && options.drifting_groups[g];
-    const BandBoundaries boundaries(band, mesh, drifting);
+    const BandBoundaries boundaries(band, mesh, drifting, options.on_shortcuts);
     struct Face {
         std::array<int, 3> nodes;
         int kind;

@@ -34,6 +34,7 @@ struct ConstraintOptions {
     std::vector<bool> drifting_groups;   ///< by group index: boundary may drift; empty = all are kept
     std::vector<bool> kept_hidden;       ///< by group index: hidden, but its boundary is kept; empty = none
     std::vector<Index> pinned;           ///< nodes (indices in the mesh, ascending) that must not move
+    std::vector<Index> on_shortcuts;     ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
     const CadShape* shape = nullptr;     ///< what the mesh was made from: its skin is taken to be this, where it lies on it
 };
 

@@ -136,7 +136,7 @@ private:
 
 }  // namespace
 
-BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting) {
+BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting, std::span<const Index> on_shortcuts) {
     Sets sets(sets_);
     std::vector<int> kept(static_cast<std::size_t>(mesh.families.size()), -1);
     const auto kept_groups = [&](FamilyIndex f) {
@@ -239,6 +239,9 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (kept_anyway[k]) note_kept(f);
     }
     for (const Face& shell : faces_) note_kept(shell);
+    if (!on_shortcuts.empty())
+        for (int v = 0; v < band.size(); ++v)
+            if (!band.is_new(v) && std::ranges::binary_search(on_shortcuts, mesh.node_ids[band.nodes[v].global])) on_kept[v] = in[v];
     const auto opposite = [&](int tetra, const std::array<int, 3>& face) {
         for (const int v : band.tetras[tetra])
             if (!holds(face, v)) return in[v];

@@ -50,8 +50,9 @@ public:
         int kind;
     };
 
-    /// Analyses `band`. Groups with drifting[g] count for nothing; if `drifting` is empty, hidden groups do.
-    BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {});
+    /// Analyses `band`. Groups with drifting[g] count for nothing; if `drifting` is empty, hidden groups do. `on_shortcuts`: numbers,
+    /// ascending, of nodes that were born on shortcuts: they count as nodes on kept faces of their groups.
+    BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {}, std::span<const Index> on_shortcuts = {});
 
     /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once.
     std::span<const Face> faces() const { return faces_; }

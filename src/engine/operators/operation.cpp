@@ -407,6 +407,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     constraint_options.drifting_groups = drifting_;
     constraint_options.kept_hidden = marks_->kept;
     constraint_options.pinned = pinned();
+    if (prepared_.refined) constraint_options.on_shortcuts = prepared_.refined->on_shortcuts;
     constraint_options.shape = options_.skin;
     const Tool& first = *blades.front().tool;
     Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), .tool = &first, .tolerance = location_.tolerance, .bandwidth = width};

@@ -438,7 +438,8 @@ DistanceField distance_to(std::vector<Vec3> points) {
 }
 
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
-    if (std::optional<Result> result = refine_where_needed(input, distance, options)) return std::move(*result);
+    std::vector<Index> on_shortcuts;
+    if (std::optional<Result> result = refine_where_needed(input, distance, options, on_shortcuts)) return std::move(*result);
     Result untouched;
     const FamilyTotals totals = family_totals(input);
     untouched.report.operation = "refine";
@@ -450,7 +451,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     return untouched;
 }
 
-std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
+std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance, const RefineOptions& options, std::vector<Index>& on_shortcuts) {
     check(options);
     Result result;
     Report& report = result.report;
@@ -496,6 +497,9 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     auto [output, totals] = copy.get();
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
     watch.lap("rebuild");
+    for (int v = f->d.band.original_nodes(); v < f->d.band.size(); ++v)
+        if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free && !rebuilt.mesh.families.groups(rebuilt.mesh.node_families[n]).empty())
+            on_shortcuts.push_back(rebuilt.mesh.node_ids[n]);
     report.warnings = f->warnings;
     if (bisector->off_shape() > 0)
         report.warnings.push_back(std::to_string(bisector->off_shape()) + " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");

@@ -50,7 +50,8 @@ struct RefineOptions {
 /// bisected is one of a quadrangle, prism, pyramid or hexahedron), QualityError (inverted elements near the tool).
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
 
-/// The same, but nothing when no edge is longer than wanted.
-std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
+/// The same, but nothing when no edge is longer than wanted. `on_shortcuts` gets the numbers, ascending, of new nodes inside the
+/// material that are in node groups: those of edges from member to member that are on no boundary of the group.
+std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options, std::vector<Index>& on_shortcuts);
 
 }  // namespace femscalpel

@@ -74,7 +74,7 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     if (!asked) o.max_elements = most_elements;
     Refined out;
     try {
-        std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o);
+        std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.on_shortcuts);
         if (!result) return {};
         out.mesh = std::move(result->mesh);
         out.report = std::move(result->report);
