@@ -884,16 +884,16 @@
       <translation>Radius</translation>
     </message>
     <message>
+      <source>Second radius</source>
+      <translation>Zweiter Radius</translation>
+    </message>
+    <message>
       <source>The part of the plane that cracks; its border inside the part is the crack front</source>
       <translation>Der Teil der Ebene, der reißt; sein Rand im Bauteil ist die Rissfront</translation>
     </message>
     <message>
       <source>Turned by</source>
       <translation>Gedreht um</translation>
-    </message>
-    <message>
-      <source>and</source>
-      <translation>und</translation>
     </message>
   </context>
   <context>

@@ -884,16 +884,16 @@
       <translation>Rayon</translation>
     </message>
     <message>
+      <source>Second radius</source>
+      <translation>Second rayon</translation>
+    </message>
+    <message>
       <source>The part of the plane that cracks; its border inside the part is the crack front</source>
       <translation>La partie du plan qui se fissure ; son bord dans la pièce est le front de fissure</translation>
     </message>
     <message>
       <source>Turned by</source>
       <translation>Tourné de</translation>
-    </message>
-    <message>
-      <source>and</source>
-      <translation>et</translation>
     </message>
   </context>
   <context>
