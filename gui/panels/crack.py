@@ -8,7 +8,10 @@ import femscalpel
 from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 from .plane_panel import PlanePanel
-from .placements import X, Z, turn_between, turned
+from .placements import X, Turn, turn_between, turned
+
+#: Parts of a plane to which its x axis matters.
+TURNED = ("Ellipse", "HalfPlane", "Polygon")
 
 
 class CrackPanel(PlanePanel):
@@ -27,17 +30,16 @@ class CrackPanel(PlanePanel):
             self.part.patch.addItem(text, data)
         self._radius = fields.Number(self.part.patchRadius, self._changed, self.geometry.size / 8)
         self._second = fields.Number(self.part.patchSecondRadius, self._changed, self.geometry.size / 16)
-        self._turn = fields.Number(self.part.patchTurn, self._changed, 0, 10)
+        self._turn = Turn(self.geometry, lambda: self._patch() in TURNED, fields.Number(self.part.patchTurn, self._changed, 0, 10), self._mirror)
         self.part.patch.currentIndexChanged.connect(lambda *_: self._choose())
         self.geometry.picked.connect(self._take_outline)
-        self.geometry.flipping.connect(self._stay)
         self._choose()
 
     def _choose(self):
         """Shows the fields that matter to the part chosen."""
         shown, p = self._patch(), self.part
         for widgets, parts in (((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")), ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),
-                               ((p.turnLabel, p.patchTurn), ("Ellipse", "HalfPlane", "Polygon"))):
+                               ((p.turnLabel, p.patchTurn), TURNED)):
             for widget in widgets:
                 widget.setVisible(shown in parts)
         self._changed()
@@ -45,34 +47,34 @@ class CrackPanel(PlanePanel):
     def _changed(self):
         """The part has other numbers: its handles follow, and the preview."""
         shown = self._patch()
-        self.geometry.show_part(shown != "Whole", self._radius if shown in ("Disk", "Ellipse") else None, self._turn.value)
+        self.geometry.show_part(shown != "Whole", self._radius if shown in ("Disk", "Ellipse") else None, self._turn)
         self.update()
 
     def _take_outline(self, picked):
-        """Enters what a picked sketch encloses; the plane follows."""
-        if picked.outline is None:
+        """Enters what a picked sketch encloses. A sketch without such says the plane only."""
+        outline = picked.outline
+        if outline is None:
             return
-        self._corners = list(picked.outline.corners)
-        if self._corners:
-            kind = "Polygon"
-        else:
-            first, second = picked.outline.radii
-            self._radius.set(first)
-            self._second.set(second)
-            kind = "Disk" if first == second else "Ellipse"
-        straight = FreeCAD.Rotation(Z, picked.direction)
-        self._turn.set(turn_between(straight, picked.outline.placement.Rotation))
-        blocked = self.part.patch.blockSignals(True)
-        self.part.patch.setCurrentIndex(self.part.patch.findData(kind))
-        self.part.patch.blockSignals(blocked)
+        self._corners = list(outline.corners)
+        kind = "Polygon" if outline.corners else None
+        if outline.radii:
+            self._radius.set(outline.radii[0])
+            self._second.set(outline.radii[1])
+            kind = "Disk" if outline.radii[0] == outline.radii[1] else "Ellipse"
+        if kind is not None:
+            self._choose_quietly(kind)
+            self.geometry.set_pose(outline.placement.Base, self.geometry.direction())
+            self._turn.set(turn_between(self.geometry.rotation(), outline.placement.Rotation))
         self._choose()
 
-    def _stay(self):
-        """Leaves the part where it is when the plane is about to be flipped."""
-        along, normal = self.placement().Rotation.multVec(X), self.geometry.direction().negative()
-        if normal.Length > 0:
-            self._turn.set(turn_between(FreeCAD.Rotation(Z, normal), FreeCAD.Rotation(along, FreeCAD.Vector(), normal, "ZXY")))
-            self._corners = [FreeCAD.Vector(corner.x, -corner.y, 0) for corner in self._corners]
+    def _choose_quietly(self, patch):
+        blocked = self.part.patch.blockSignals(True)
+        self.part.patch.setCurrentIndex(self.part.patch.findData(patch))
+        self.part.patch.blockSignals(blocked)
+
+    def _mirror(self):
+        """Leaves the polygon where it is when the plane has been turned over."""
+        self._corners = [FreeCAD.Vector(corner.x, -corner.y, 0) for corner in self._corners]
 
     def _patch(self):
         return self.part.patch.currentData()
@@ -92,7 +94,7 @@ class CrackPanel(PlanePanel):
             return femscalpel.HalfPlane(placement.Base, along)
         if self._patch() == "Polygon":
             if not self._corners:
-                raise femscalpel.ToolError(translate("FemScalpel", "Pick a sketch: its closed line of straight sides is the polygon."))
+                raise femscalpel.ToolError(translate("FemScalpel", "Pick a sketch with one closed line of straight sides: that is the polygon."))
             return femscalpel.Polygon([placement.multVec(corner) for corner in self._corners])
         return None
 
@@ -102,7 +104,7 @@ class CrackPanel(PlanePanel):
 
     def read(self, obj):
         super().read(obj)
-        self._turn.set(turn_between(self.geometry.rotation(), obj.PlanePlacement.Rotation))
+        self._turn.set(turn_between(self.geometry.rotation(), obj.PlanePlacement.Rotation))  # the patch is still the whole
         self._radius.set(obj.PatchRadius.Value)
         self._second.set(obj.PatchSecondRadius.Value)
         self._corners = [FreeCAD.Vector(c.x, c.y, 0) for c in obj.PatchCorners]

@@ -6,7 +6,7 @@ import femscalpel
 from ..translate import QT_TRANSLATE_NOOP
 from . import fields
 from .cylinder_panel import CylinderPanel
-from .placements import X, turn_between, turned
+from .placements import X, Turn, turn_between, turned
 
 
 class CylindricalCrackPanel(CylinderPanel):
@@ -22,7 +22,7 @@ class CylindricalCrackPanel(CylinderPanel):
         self._high = fields.Number(self.part.partHigh, self.update, self.geometry.size / 10)
         self._start = fields.Number(self.part.partStart, self.update, 0, 10)
         self._end = fields.Number(self.part.partEnd, self.update, 360, 10)
-        self._turn = 0.0  # of the direction angles are measured from
+        self._turn = Turn(self.geometry, self.part.bounded.isChecked)  # of the direction angles are measured from
         self.part.bounded.toggled.connect(self._bound)
 
     def _bound(self, on):
@@ -32,7 +32,7 @@ class CylindricalCrackPanel(CylinderPanel):
 
     def placement(self):
         """The axis, its x axis where the angles are measured from."""
-        return turned(self.geometry.placement(), self._turn)
+        return turned(self.geometry.placement(), self._turn.value)
 
     def _within(self):
         if not self.part.bounded.isChecked():
@@ -48,7 +48,7 @@ class CylindricalCrackPanel(CylinderPanel):
 
     def read(self, obj):
         super().read(obj)
-        self._turn = turn_between(self.geometry.rotation(), obj.AxisPlacement.Rotation)
+        self._turn.set(turn_between(self.geometry.rotation(), obj.AxisPlacement.Rotation))
         self._start.set(obj.StartAngle.Value)
         self._end.set(obj.EndAngle.Value)
         self._low.set(obj.Low.Value)
@@ -71,4 +71,4 @@ class CylindricalCrackPanel(CylinderPanel):
 
     def forget_widgets(self):
         super().forget_widgets()
-        self.part = self._low = self._high = self._start = self._end = None
+        self.part = self._turn = self._low = self._high = self._start = self._end = None

@@ -12,7 +12,7 @@ from . import fields
 
 class GeometryInput(QtCore.QObject):
     """A form with a point and a direction. `changed` comes with every new position, also while a handle is dragged;
-    `picked(Picked)` before it when the position was picked; `picking_changed(bool)` when clicks in the 3-D view begin or
+    `picked(Picked)` after it when the position was picked; `picking_changed(bool)` when clicks in the 3-D view begin or
     stop to mean something."""
 
     changed = QtCore.Signal()
@@ -104,8 +104,8 @@ class GeometryInput(QtCore.QObject):
     def _make_handles(self, view):
         raise NotImplementedError
 
-    def _dragged(self, position, rotation, radius):
-        self.set_pose(position, rotation.multVec(FreeCAD.Vector(0, 0, 1)), radius or None, from_handle=True)
+    def _dragged(self, position, rotation, radius, done):
+        self.set_pose(position, rotation.multVec(FreeCAD.Vector(0, 0, 1)), radius or None, from_handle=not done)
 
     # Picking.
 
@@ -183,8 +183,8 @@ class GeometryInput(QtCore.QObject):
 
     def take(self, picked):
         """Enters what was picked."""
-        self.picked.emit(picked)
         self.set_pose(picked.origin, picked.direction.normalize(), picked.radius)
+        self.picked.emit(picked)
 
     def _from_nodes(self, points):
         raise NotImplementedError

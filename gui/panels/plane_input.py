@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Input of a plane."""
 
-from PySide import QtCore
-
 from ..translate import translate
 from ..view import picking
 from ..view.handles import PlaneHandles
@@ -11,18 +9,14 @@ from .geometry_input import GeometryInput, _round_step
 
 
 class PlaneInput(GeometryInput):
-    """A plane by point, normal and offset; by three nodes, a face, an edge, a datum, a sketch or the view.
-
-    `flipping` comes before its sides change places."""
-
-    flipping = QtCore.Signal()
+    """A plane by point, normal and offset; by three nodes, a face, an edge, a datum, a sketch or the view."""
 
     UI = "plane_input.ui"
     NODES = 3
 
     def __init__(self, source_object):
         self._offset = self._part_radius = None
-        self._part_movable, self._part_turn = False, 0.0
+        self._part_movable, self._part_turn = False, None
         super().__init__(source_object)
         self._offset = fields.Number(self.form.offset, self._tell, step=_round_step(self.size / 100))
         self.form.flip.clicked.connect(self._flip)
@@ -39,16 +33,23 @@ class PlaneInput(GeometryInput):
         super().set_pose(origin, direction, radius, from_handle)
 
     def _flip(self):
-        self.flipping.emit()
         self.set_pose(self.origin(), self.direction().negative())
 
-    def show_part(self, movable, radius=None, turn=0.0):
-        """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`; by how many
-        degrees it is turned about the normal."""
+    def show_part(self, movable, radius, turn):
+        """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if any. `turn`
+        says by how many degrees it is turned about the normal."""
         self._part_movable, self._part_radius, self._part_turn = movable, radius, turn
         if self.handles is not None:
-            self.handles.show_part(movable, turn)
+            self._turn_handles(self.handles)
             self.handles.set_pose(self.origin(), self.rotation(), self.radius())
+
+    def _turn_handles(self, handles):
+        handles.show_part(self._part_movable, self._part_turn.value if self._part_turn is not None else 0.0)
+
+    def _tell(self, from_handle=False):
+        super()._tell(from_handle)
+        if self.handles is not None and not from_handle:
+            self._turn_handles(self.handles)
 
     def radius(self):
         return self._part_radius.value if self._part_radius is not None else 0.0
@@ -59,7 +60,7 @@ class PlaneInput(GeometryInput):
 
     def _make_handles(self, view):
         handles = PlaneHandles(view, self.size, self._dragged)
-        handles.show_part(self._part_movable, self._part_turn)
+        self._turn_handles(handles)
         return handles
 
     def _ask_geometry(self):
@@ -73,4 +74,4 @@ class PlaneInput(GeometryInput):
 
     def close(self):
         super().close()
-        self._offset = self._part_radius = None
+        self._offset = self._part_radius = self._part_turn = None

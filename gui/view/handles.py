@@ -95,7 +95,7 @@ def _ball(rgb):
 class Handles(Overlay):
     """Draggers around one pose: a position and a rotation whose z axis is the plane's normal or the cylinder's axis.
 
-    `changed(position, rotation, radius)` is called while the mouse drags, and when it lets go.
+    `changed(position, rotation, radius, done)` is called while the mouse drags, and when it lets go; then set_pose() is to follow.
     """
 
     def __init__(self, view, size, changed):
@@ -182,14 +182,12 @@ class Handles(Overlay):
 
     def _moved(self, dragger):
         if not self._quiet:
-            self._changed(*self._pose())
+            self._changed(*self._pose(), False)
 
     def _finish(self, dragger):
         if self._quiet:
             return
-        pose = self._pose()
-        self.set_pose(*pose)
-        self._changed(*pose)
+        self._changed(*self._pose(), True)
 
     def _local(self):
         """Translation in units of the model and rotation the draggers show, in the pose's own axes; radius."""

@@ -21,7 +21,7 @@ class PickError(ValueError):
 
 @dataclass(frozen=True)
 class Picked:
-    """A point and a direction; for an axis also a radius, None where nothing says one; of a sketch its outline, where that is closed."""
+    """A point and a direction; for an axis also a radius, None where nothing says one; of a sketch its Outline."""
 
     origin: FreeCAD.Vector
     direction: FreeCAD.Vector
@@ -31,7 +31,7 @@ class Picked:
 
 @dataclass(frozen=True)
 class Outline:
-    """What a sketch encloses: a polygon with `corners`, or an ellipse (a circle) with `radii`, in the axes of `placement`, z = 0."""
+    """What a sketch encloses: a polygon with `corners`, an ellipse (a circle) with `radii`, or neither; in the axes of `placement`, z = 0."""
 
     placement: FreeCAD.Placement
     corners: tuple = ()
@@ -115,7 +115,8 @@ def axis(click, source):
     """The axis that a cylindrical face, an edge, a datum line or a face at the clicked point says."""
     if click.on_mesh:
         return Picked(click.point, _mesh_face(click, source).direction)
-    datum, shape = _of_document(click, _pick_axis)
+    # An edge of a sketch is meant itself.
+    datum, shape = (None, _shape(click)) if _is_sketch(click.obj) and click.name else _of_document(click, _pick_axis)
     if datum is not None:
         return datum
     if shape.ShapeType == "Face":
@@ -146,11 +147,15 @@ def _global(obj):
     return obj.getGlobalPlacement().multiply(obj.Placement.inverse()) if hasattr(obj, "Placement") else FreeCAD.Placement()
 
 
+def _is_sketch(obj):
+    return obj.isDerivedFrom("Sketcher::SketchObject")
+
+
 def _outline(sketch):
-    """What the lines of a sketch enclose, as Outline; None where they are no closed polygon, circle or ellipse."""
+    """What the lines of a sketch enclose, as Outline; an empty one where they are no closed polygon, circle or ellipse."""
     wires = sketch.Shape.Wires
     if len(wires) != 1 or not wires[0].isClosed():
-        return None
+        return Outline(sketch.getGlobalPlacement())
     edges = wires[0].OrderedEdges
     kinds = {type(edge.Curve).__name__ for edge in edges}
     axes = sketch.getGlobalPlacement().Rotation
@@ -166,7 +171,7 @@ def _outline(sketch):
         along = _global(sketch).Rotation.multVec(curve.XAxis)
         rotation = FreeCAD.Rotation(along, FreeCAD.Vector(), axes.multVec(_Z), "ZXY")
         return Outline(FreeCAD.Placement(centre, rotation), radii=(curve.MajorRadius, curve.MinorRadius))
-    return None
+    return Outline(sketch.getGlobalPlacement())
 
 
 def _datum(obj):
@@ -179,8 +184,8 @@ def _datum(obj):
     else:
         return None
     placement = obj.getGlobalPlacement()
-    outline = _outline(obj) if obj.isDerivedFrom("Sketcher::SketchObject") else None
-    return Picked(outline.placement.Base if outline else placement.Base, placement.Rotation.multVec(direction), outline=outline)
+    outline = _outline(obj) if _is_sketch(obj) else None
+    return Picked(placement.Base, placement.Rotation.multVec(direction), outline=outline)
 
 
 def _of_document(click, ask):

@@ -91,6 +91,10 @@
   <context>
     <name>CylinderPart</name>
     <message>
+      <source>Angle about the axis where the crack begins; 0 to 360: all around. 0 is towards x when the axis is z; the preview shows it</source>
+      <translation>Winkel um die Achse, wo der Riss beginnt; 0 bis 360: ringsum. 0 zeigt nach x, wenn die Achse z ist; die Vorschau zeigt es</translation>
+    </message>
+    <message>
       <source>Only a part of the cylinder cracks, between two heights along its axis and two angles about it; its border is the crack front</source>
       <translation>Nur ein Teil des Zylinders reißt, zwischen zwei Höhen entlang seiner Achse und zwei Winkeln um sie; sein Rand ist die Rissfront</translation>
     </message>
@@ -101,10 +105,6 @@
     <message>
       <source>Part of the cylinder</source>
       <translation>Teil des Zylinders</translation>
-    </message>
-    <message>
-      <source>Where the crack begins about the axis; 0 to 360: all around</source>
-      <translation>Wo der Riss um die Achse beginnt; 0 bis 360: ringsum</translation>
     </message>
     <message>
       <source>Where the crack begins: from the point, along the axis</source>
@@ -254,8 +254,8 @@
       <translation>Aufgeschnitten</translation>
     </message>
     <message>
-      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, and the width; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
-      <translation>Schneidet einen Schlitz zwischen zwei parallelen Ebenen. Die Ebene in der Mitte wird wie bei einem Riss angegeben, dazu die Breite; die Elemente, die verschwinden, werden durchscheinend gezeigt. Die Flächen der beiden Wände werden zu Gruppen; Gruppen verlieren, was weggeschnitten wird, und sonst nichts, und der Bericht nennt sie.</translation>
+      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, and whether it goes right through or down to the plane's point; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
+      <translation>Schneidet einen Schlitz zwischen zwei parallelen Ebenen. Geben Sie die Ebene in der Mitte wie für einen Riss an, die Breite, und ob er ganz hindurch oder bis zum Punkt der Ebene geht; die Elemente, die verschwinden, werden durchscheinend gezeigt. Die Flächen der beiden Wände werden Gruppen; Gruppen verlieren, was weggeschnitten wird, und sonst nichts, und der Bericht sagt, welche.</translation>
     </message>
     <message>
       <source>Cuts a slot into the FEM mesh and keeps its groups</source>
@@ -398,8 +398,8 @@
       <translation>Öffnet einen geschweißten Kastenträger als neues Dokument, ein Netz mit 35 Gruppen zum Ausprobieren der Befehle</translation>
     </message>
     <message>
-      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. Elements that are large for the cylinder are divided first.</source>
-      <translation>Öffnet das FEM-Netz entlang eines Zylinders. Achse und Radius durch Zahlen angeben, aus der Ansicht holen (zylindrische Fläche, gerade oder kreisförmige Kante, zwei Knoten, Punkt auf einer Fläche) oder an den Griffen ziehen. Elemente, die für den Zylinder groß sind, werden zuerst geteilt.</translation>
+      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.</source>
+      <translation>Öffnet das FEM-Netz entlang eines Zylinders. Geben Sie Achse und Radius in Zahlen ein, wählen Sie sie in der Ansicht (eine Zylinderfläche, eine gerade oder kreisförmige Kante, zwei Knoten, ein Punkt auf einer Fläche) oder ziehen Sie die Griffe. Er kann auch nur zwischen zwei Höhen und zwei Winkeln reißen. Elemente, die für den Zylinder groß sind, werden zuerst geteilt.</translation>
     </message>
     <message>
       <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
@@ -418,8 +418,8 @@
       <translation>Wählen Sie eine ebene Fläche, eine Kante, eine Bezugsebene oder -linie, eine Skizze oder eine Seite des Netzes.</translation>
     </message>
     <message>
-      <source>Pick a sketch: its closed line of straight sides is the polygon.</source>
-      <translation>Wählen Sie eine Skizze: Ihr geschlossener Zug gerader Seiten ist das Polygon.</translation>
+      <source>Pick a sketch with one closed line of straight sides: that is the polygon.</source>
+      <translation>Wählen Sie eine Skizze mit einem geschlossenen Zug gerader Seiten: Der ist das Polygon.</translation>
     </message>
     <message>
       <source>Plane</source>

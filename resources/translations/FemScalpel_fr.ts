@@ -91,6 +91,10 @@
   <context>
     <name>CylinderPart</name>
     <message>
+      <source>Angle about the axis where the crack begins; 0 to 360: all around. 0 is towards x when the axis is z; the preview shows it</source>
+      <translation>Angle autour de l'axe où la fissure commence ; 0 à 360 : tout autour. 0 est vers x quand l'axe est z ; l'aperçu le montre</translation>
+    </message>
+    <message>
       <source>Only a part of the cylinder cracks, between two heights along its axis and two angles about it; its border is the crack front</source>
       <translation>Seule une partie du cylindre se fissure, entre deux hauteurs le long de son axe et deux angles autour de lui ; son bord est le front de fissure</translation>
     </message>
@@ -101,10 +105,6 @@
     <message>
       <source>Part of the cylinder</source>
       <translation>Partie du cylindre</translation>
-    </message>
-    <message>
-      <source>Where the crack begins about the axis; 0 to 360: all around</source>
-      <translation>Où la fissure commence autour de l'axe ; 0 à 360 : tout autour</translation>
     </message>
     <message>
       <source>Where the crack begins: from the point, along the axis</source>
@@ -254,8 +254,8 @@
       <translation>En coupe</translation>
     </message>
     <message>
-      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, and the width; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
-      <translation>Coupe une fente entre deux plans parallèles. Indiquez le plan du milieu comme pour une fissure, et la largeur ; les éléments qui disparaissent sont montrés en transparence. Les faces des deux parois deviennent des groupes ; les groupes perdent ce qui est enlevé et rien d'autre, et le rapport dit lesquels.</translation>
+      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, and whether it goes right through or down to the plane's point; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
+      <translation>Coupe une fente entre deux plans parallèles. Donnez le plan du milieu comme pour une fissure, la largeur, et si elle traverse toute la pièce ou va jusqu'au point du plan ; les éléments qui disparaissent sont montrés en fantômes. Les faces des deux parois deviennent des groupes ; les groupes perdent ce qui est coupé et rien d'autre, et le rapport dit lesquels.</translation>
     </message>
     <message>
       <source>Cuts a slot into the FEM mesh and keeps its groups</source>
@@ -398,8 +398,8 @@
       <translation>Ouvre un caisson soudé comme nouveau document, un maillage de 35 groupes pour essayer les commandes</translation>
     </message>
     <message>
-      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. Elements that are large for the cylinder are divided first.</source>
-      <translation>Ouvre le maillage EF le long d'un cylindre. Donnez l'axe et le rayon par des nombres, prenez-les dans la vue (une face cylindrique, une arête droite ou circulaire, deux nœuds, un point sur une face) ou tirez les poignées. Les éléments trop grands pour le cylindre sont d'abord divisés.</translation>
+      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.</source>
+      <translation>Ouvre le maillage FEM le long d'un cylindre. Donnez l'axe et le rayon en nombres, choisissez-les dans la vue (une face cylindrique, une arête droite ou circulaire, deux nœuds, un point sur une face) ou tirez les poignées. La fissure peut aussi n'aller qu'entre deux hauteurs et deux angles. Les éléments grands pour le cylindre sont d'abord divisés.</translation>
     </message>
     <message>
       <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
@@ -418,8 +418,8 @@
       <translation>Choisissez une face plane, une arête, un plan ou une ligne de référence, une esquisse ou une face du maillage.</translation>
     </message>
     <message>
-      <source>Pick a sketch: its closed line of straight sides is the polygon.</source>
-      <translation>Choisissez une esquisse : sa ligne fermée de côtés droits est le polygone.</translation>
+      <source>Pick a sketch with one closed line of straight sides: that is the polygon.</source>
+      <translation>Choisissez une esquisse avec une seule ligne fermée de côtés droits : c'est le polygone.</translation>
     </message>
     <message>
       <source>Plane</source>

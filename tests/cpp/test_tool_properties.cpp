@@ -377,7 +377,7 @@ TEST_P(ToolProperties, Cones) {
 }
 
 // Tools of the random ones that once gave 0.135, 0.09 and an error, or 0.066 and 0.079.
-TEST(HardTools, quadratic_elbow) {
+TEST(HardTools, InASecondOrderMesh_quadratic_elbow) {
     const Scalpel session(std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/quadratic_elbow.inp")));
     const Cylinder cylinder({9.9037660860745707, -2.3080284512263174, 0.40376788794297624}, {-0.71130512027933934, -0.65799532260725968, -0.24715821105385724},
                             1.9304847191064833);

@@ -203,3 +203,8 @@ def test_flat_walls_of_a_coarse_hole_are_told():
     assert float(re.search(r"leave about (\d+) %", warning)[1]) / 100 == pytest.approx(left(coarse), abs=0.03)
     fine = fs.drill(mesh, hole)
     assert left(fine) < 0.05 and not fine.report.warnings
+
+
+def test_too_small_a_size_of_an_operator_is_its_own_error():
+    with pytest.raises(fs.ToolError, match="refine: size 0.01 would make more than"):
+        fs.drill(box_with_groups(), HOLE, refine=0.01)

@@ -9,6 +9,7 @@
 
 #include "operators/refine_first.h"
 #include "operators/removal.h"
+#include "tools/cylinder.h"
 
 namespace femscalpel {
 namespace {
@@ -79,13 +80,13 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
     }
 }
 
-/// Warns where the flat faces of a curved wall, whose nodes lie on it, leave much of what was to be removed standing.
+/// Warns where the flat faces of a cylinder's wall, whose nodes lie on it, leave much of the hole standing.
 void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* const> tool_of_tag) {
     for (std::size_t tag = 0; tag < tool_of_tag.size(); ++tag) {
         const Tool& tool = *tool_of_tag[tag];
+        if (!dynamic_cast<const Cylinder*>(&tool)) continue;
         const double radius = tool.feature_size();
-        if (!std::isfinite(radius)) continue;
-        double measure = 0, left = 0;  // of the wall; what is between it and the tool, where distances grow as squares
+        double measure = 0, left = 0;  // of the wall; what is between it and the cylinder, where distances grow as squares
         const auto add = [&](double size, double sum_of_middles) {
             measure += size;
             left -= size * sum_of_middles;
@@ -101,7 +102,7 @@ void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* c
         if (part <= flat_walls) continue;
         std::ostringstream message;
         message << "the mesh is coarse for the " << tool.kind() << " of radius " << radius << ": the flat faces of the wall leave about " << std::lround(100 * part)
-                << " % of what was to be removed. Refine the mesh there first, to edges of at most " << radius / 2;
+                << " % of the hole standing. Refine the mesh there first, to edges of at most " << radius / 2;
         f.warnings.push_back(message.str());
     }
 }

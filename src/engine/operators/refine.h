@@ -51,7 +51,8 @@ struct RefineOptions {
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
 
 /// The same, but nothing when no edge is longer than wanted. `on_shortcuts` gets the numbers, ascending, of new nodes inside the
-/// material that are in node groups: those of edges from member to member that are on no boundary of the group.
+/// material that are in node groups: those of edges from member to member that are on no boundary of the group. (Who goes on with the
+/// result alone does not know them: to an operation on it they are members like any other, whose place is kept.)
 std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options, std::vector<Index>& on_shortcuts);
 
 }  // namespace femscalpel

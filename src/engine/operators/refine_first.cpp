@@ -79,6 +79,7 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
         out.mesh = std::move(result->mesh);
         out.report = std::move(result->report);
     } catch (const Error& e) {
+        if (asked && dynamic_cast<const ToolError*>(&e)) throw ToolError(std::string("refine: ") + e.what());
         if (asked || !(dynamic_cast<const ToolError*>(&e) || dynamic_cast<const UnsupportedElementError*>(&e))) throw;
         out.tried_in_vain = true;
         out.report.warnings.push_back(std::string("the mesh is coarser than the tool, but was not refined first: ") + e.what());

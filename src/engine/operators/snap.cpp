@@ -31,10 +31,11 @@ constexpr double dip = 0.15;
 
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
-/// Elements below this mean ratio are refined before another try, of which there are so many.
+/// Elements below this mean ratio are refined before another try.
 constexpr double poor_quality = 0.1;
 /// The same in second-order meshes, where mending curved elements costs their corners' shape.
 constexpr double second_order_quality = 0.27;
+/// Tries whose elements are sound, but poor, end with this one.
 constexpr int polishings = 3;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;

@@ -254,6 +254,36 @@ class Patches(CylinderTest):
         self.assertEqual(widget("patch").currentData(), "Disk")
         press_cancel()
 
+    def test_sketch_without_an_outline(self):
+        self.sketch(Part.LineSegment(FreeCAD.Vector(-1, 0, 0), FreeCAD.Vector(1, 0, 0)), Part.LineSegment(FreeCAD.Vector(1, 0, 0), FreeCAD.Vector(1, 1, 0)))
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        self.pick_sketch()
+        self.assertEqual(widget("patch").currentData(), "Whole")
+        np.testing.assert_allclose([value("originX"), value("normalX")], (6.1, 1), atol=0.006)
+        choose("patch", "Polygon")
+        self.assertIn("one closed line", self.wait_for_message("geometryError"))
+        press_cancel()
+
+    def test_part_is_carried_along_when_its_plane_tilts(self):
+        self.run_command("FemScalpel_Crack")
+        spin(0.2)
+        enter_plane((6.1, 2.5, 2.0), (0.0, 0.001, -1.0))
+        choose("patch", "HalfPlane")
+        type_into("patchTurn", "20 deg")
+        self.wait_for_preview()
+        press_ok()
+        crack = self.doc.Crack
+        before = crack.PlanePlacement.Rotation.multVec(FreeCAD.Vector(1, 0, 0))
+        for y in ("0", "-0.001"):  # through the direction against which turns are measured
+            crack.ViewObject.doubleClicked()
+            self.wait_for_preview()
+            type_into("normalY", y)
+            self.wait_for_preview()
+            press_ok()
+            after = crack.PlanePlacement.Rotation.multVec(FreeCAD.Vector(1, 0, 0))
+            self.assertLess(before.getAngle(after), 0.01)
+
     def test_refined_at_the_front_first(self):
         source, plane = femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((6.1, 2.5, 2), (1, 0, 0))
         self.run_command("FemScalpel_Crack")
@@ -360,10 +390,26 @@ class Incision(CylinderTest):
         expected = fs.cut(source, fs.Plane((6.1, 2.5, 1.7), (1, 0, 0)), width=0.8, bottom=fs.Plane((6.1, 2.5, 1.7), (0, 0, -1)))
         wait_until(lambda: f" {expected.report.elements_removed} removed" in widget("status").text(), "the preview")
         screenshot("incision_down_to_the_point")
+        click("flip")  # the sides change places, the slot stays
+        self.wait_for_preview()
+        self.assertIn(f" {expected.report.elements_removed} removed", widget("status").text())
         press_ok()
-        self.assertFalse(self.doc.Cut.Through)
-        np.testing.assert_allclose(self.doc.Cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), (0, 0, -1), atol=1e-12)
-        self.assertEqual(self.doc.Cut.FemMesh.NodeCount, expected.mesh.node_count)
+        cut = self.doc.Cut
+        self.assertFalse(cut.Through)
+        np.testing.assert_allclose(cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), (0, 0, -1), atol=1e-12)
+        self.assertEqual(cut.FemMesh.NodeCount, expected.mesh.node_count)
+        made = content_of(cut)
+        cut.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertEqual(widget("slotEnd").currentData(), "Point")
+        press_ok()
+        self.assertEqual(content_of(cut), made)
+        cut.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        type_into("originZ", "2.1")  # the bottom follows the point
+        self.wait_for_preview()
+        press_ok()
+        self.assertAlmostEqual(cut.BottomPlacement.Base.z, 2.1)
 
     def test_bottom_of_the_object_is_kept(self):
         import ObjectsFemScalpel
