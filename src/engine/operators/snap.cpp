@@ -35,8 +35,8 @@ constexpr double largest_misfit = 5e-4;
 constexpr double poor_quality = 0.1;
 /// The same in second-order meshes, where mending curved elements costs their corners' shape.
 constexpr double second_order_quality = 0.27;
-/// Tries whose elements are sound, but poor, end with this one.
-constexpr int polishings = 3;
+/// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
+constexpr int polishings = 3, hard_polishings = 6;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -472,7 +472,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
                 best = f;
             }
             polish = true;
-            if (++polished >= polishings && best) break;
+            if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
         }
         if (attempt == attempts) {
             if (!best) fail_at(f, bad);
