@@ -74,7 +74,7 @@ void relax_band(Interface& interface);
 
 /// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out: where new nodes could not be brought onto the skin
 /// or line they were born on and their tools, or second-order elements came out folded, it starts again with other
-/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times in all. Poor elements are a reason,
+/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times at most. Poor elements are a reason,
 /// too, but for a whole plane through flat surfaces: there geometry alone limits the quality.
 ///
 /// Throws QualityError naming the place when nothing helps.

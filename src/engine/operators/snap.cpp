@@ -37,6 +37,8 @@ constexpr double poor_quality = 0.1;
 constexpr double second_order_quality = 0.27;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
+/// A band whose nodes have become so many times as many is not refined again.
+constexpr double largest_growth = 3;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -456,6 +458,7 @@ void relax_band(Interface& f) {
 void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_plane) {
     const bool plain = whole_plane && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
+    const double most_nodes = largest_growth * start.d.band.size();
     std::optional<Interface> best;
     double best_quality = degenerate_quality;
     for (int attempt = 1, polished = 0;; ++attempt) {
@@ -474,7 +477,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
             polish = true;
             if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
         }
-        if (attempt == attempts) {
+        if (attempt == attempts || start.d.band.size() > most_nodes) {
             if (!best) fail_at(f, bad);
             break;
         }
