@@ -80,7 +80,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Meshes, PlaneProperties,
                          testing::Values(Subject{"two_boxes", true}, Subject{"flanged_cylinder", false}, Subject{"l_shape", true},
-                                         Subject{"quadratic_elbow", false, 2}, Subject{"caisson_shell", true}),
+                                         Subject{"quadratic_elbow", false, 4}, Subject{"caisson_shell", true}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(PlaneProperties, SnapIsValidAndGood) {

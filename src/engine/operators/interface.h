@@ -78,7 +78,7 @@ void relax_band(Interface& interface);
 /// too, but for a whole plane through flat surfaces: there geometry alone limits the quality.
 ///
 /// Throws QualityError naming the place when nothing helps.
-void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12, bool whole_plane = false);
+void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12, bool whole_tool = false);
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.

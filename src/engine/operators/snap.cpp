@@ -37,8 +37,9 @@ constexpr double poor_quality = 0.1;
 constexpr double second_order_quality = 0.27;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
-/// A band whose nodes have become so many times as many is not refined again.
-constexpr double largest_growth = 3;
+/// Where a tool ends or material goes, a band that has grown to so many times its nodes is not refined again: it would grow for ever
+/// along a wall too thin for elements. (Whole planes through coarse curved meshes need as much.)
+constexpr double largest_growth = 7;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -455,10 +456,10 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_plane) {
-    const bool plain = whole_plane && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_tool) {
+    const bool plain = whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
-    const double most_nodes = largest_growth * start.d.band.size();
+    const double most_nodes = whole_tool ? std::numeric_limits<double>::infinity() : largest_growth * start.d.band.size();
     std::optional<Interface> best;
     double best_quality = degenerate_quality;
     for (int attempt = 1, polished = 0;; ++attempt) {
