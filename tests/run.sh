@@ -6,4 +6,5 @@ cd "$(dirname "$0")/.."
 sh resources/setup.sh
 cmake --preset release
 cmake --build --preset release
-ctest --preset release -j "$(nproc)" -LE long "$@"
+# One more than cores: the window tests wait much.
+ctest --preset release -j "$(($(nproc) + 1))" -LE long "$@"
