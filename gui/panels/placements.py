@@ -50,7 +50,8 @@ class Turn:
         """Enters an angle without telling anyone."""
         if self._field is not None:
             self._field.set(degrees)
-        self._value = degrees
+        else:
+            self._value = degrees
 
     def _follow(self):
         axis = self._geometry.direction()

@@ -205,6 +205,25 @@ TEST(SkinFromShape, FeatureLinesAreTheShapesEdges) {
     EXPECT_EQ(on_rims, 16) << "four circles, crossed twice, both lips";
 }
 
+TEST(SkinFromShape, WhereACoarseSkinCostsVolumeAWarningSaysSo) {
+    const Mesh mesh = read_inp(FEMSCALPEL_TEST_MESHES "/flanged_cylinder_coarse.inp");
+    CrackOptions options;
+    const auto outcome = [&] {
+        const Report report = crack(mesh, Plane(Vec3(0, 0, 9), Vec3(0.3, 0.2, 1)), options).report;
+        const auto stem = std::ranges::find_if(report.groups, [](const GroupRecord& g) { return g.name == "STEM" && g.kind == GroupKind::element; });
+        const bool warned = std::ranges::any_of(report.warnings, [](const std::string& w) { return w.find("changed the size of") != std::string::npos && w.find("'STEM' by -") != std::string::npos; });
+        return std::pair(1 - stem->measure_after / stem->measure_before, warned);
+    };
+    options.feature_angle = 89;  // keeps no edge between facets
+    const auto [lost, warned] = outcome();
+    EXPECT_GT(lost, 0.005);
+    EXPECT_TRUE(warned);
+    options.feature_angle = 10;
+    const auto [lost_then, warned_then] = outcome();
+    EXPECT_LT(std::abs(lost_then), 1e-3);
+    EXPECT_FALSE(warned_then);
+}
+
 TEST(SkinFromShape, AnotherShapeIsRefused) {
     const Mesh mesh = read_inp(FEMSCALPEL_TEST_MESHES "/flanged_cylinder.inp");
     const CadShape box = CadShape::from_brep(brep(BRepPrimAPI_MakeBox(30, 30, 30).Shape()));

@@ -87,9 +87,9 @@ void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* c
         if (!dynamic_cast<const Cylinder*>(&tool)) continue;
         const double radius = tool.feature_size();
         double measure = 0, left = 0;  // of the wall; what is between it and the cylinder, where distances grow as squares
-        const auto add = [&](double size, double sum_of_middles) {
+        const auto add = [&](double size, double mean_distance) {
             measure += size;
-            left -= size * sum_of_middles;
+            left -= size * mean_distance;
         };
         const auto at = [&](int v) { return f.d.band.nodes[v].at; };
         const auto middle = [&](int v, int w) { return tool.distance((at(v) + at(w)) / 2); };

@@ -75,7 +75,8 @@ void relax_band(Interface& interface);
 /// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out: where new nodes could not be brought onto the skin
 /// or line they were born on and their tools, or second-order elements came out folded, it starts again with other
 /// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times at most. Poor elements are a reason,
-/// too, but for a whole plane through flat surfaces: there geometry alone limits the quality.
+/// too, but for a whole plane through flat surfaces: there geometry alone limits the quality. `whole_tool`: it cuts all of the mesh it
+/// meets and takes nothing away; otherwise refining ends where the band has grown fourfold.
 ///
 /// Throws QualityError naming the place when nothing helps.
 void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12, bool whole_tool = false);

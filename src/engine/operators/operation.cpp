@@ -17,6 +17,9 @@ namespace {
 /// Code_Aster's limit for group names.
 constexpr std::size_t longest_name = 24;
 
+/// Part of the mesh or of a group that cutting the corners of a coarse skin may cost without a warning.
+constexpr double size_noticed = 0.005;
+
 void check_name(const Mesh& mesh, const std::string& name, const std::vector<std::string>& suffixes) {
     if (name.empty()) throw ToolError("name is empty; the new groups need one");
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
@@ -188,6 +191,29 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
     std::size_t record = 0;
     for (std::size_t g = 0; g < before.groups.size(); ++g)
         if (!before.groups[g].hidden) visit(g, report.groups[record++]);
+}
+
+/// Where nothing is taken away and borders stay, only the corners between the facets of a curved skin can get lost, when their nodes
+/// move: warns where that is much of the mesh or of a group.
+void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, Report& report) {
+    const int dimension = before.dimension();
+    const auto all = [&](const FamilyTotals& t) {
+        double sum = 0;
+        for (const FamilyTotals::Entry& e : t.by_family) sum += e.measure[dimension];
+        return sum;
+    };
+    std::ostringstream message;
+    message.precision(2);
+    const auto look = [&](const std::string& name, double was, double is) {
+        if (was > 0 && std::abs(is - was) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * (is - was) / was << " %";
+    };
+    look("the mesh", all(totals), all(after));
+    for_each_record(before, report, [&](std::size_t, const GroupRecord& r) {
+        if (r.kind == GroupKind::element && r.dimension == dimension) look("'" + r.name + "'", r.measure_before, r.measure_after);
+    });
+    if (message.tellp() > 0)
+        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " + message.str() +
+                                  ": give its shape (skin), a smaller feature_angle, which keeps the edges between its facets, or refine the mesh there first");
 }
 
 void count_group_constraints(const Interface& f, const Mesh& before, Report& report) {
@@ -482,6 +508,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         recount_nodes_and_facets(after, rebuilt.mesh);
     }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
+    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, report_);
     for (const GroupRecord& g : report_.groups)
         if (g.status == "became empty")
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");

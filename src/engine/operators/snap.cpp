@@ -38,7 +38,7 @@ constexpr double second_order_quality = 0.27;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
 /// Where a tool ends or material goes, a band that has grown to so many times its nodes is not refined again: it would grow for ever
-/// along a wall too thin for elements. (Whole planes through coarse curved meshes need as much.)
+/// along a wall too thin for elements. (Whole planes through coarse curved meshes have needed more.)
 constexpr double largest_growth = 4;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;

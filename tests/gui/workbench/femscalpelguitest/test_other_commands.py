@@ -133,14 +133,22 @@ class Patches(CylinderTest):
         wait_until(lambda: f" {expected.report.elements_added} " in widget("status").text(), "the preview")
         self.assertGreater(lines_drawn("FemScalpelFront"), 5)
 
-    def test_parts_of_a_plane(self):
-        source, plane = femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((6.1, 2.5, 2), (1, 0, 0))
+    def open_crack(self, *plane):
+        """The crack's panel, with origin and normal of a plane entered."""
         self.run_command("FemScalpel_Crack")
         spin(0.2)
-        enter_plane((6.1, 2.5, 2.0), (1.0, 0.0, 0.0))
-        self.assertFalse(is_shown("patchRadius"))
+        if plane:
+            enter_plane(*plane)
+
+    def choose_disk(self, radius):
         choose("patch", "Disk")
-        type_into("patchRadius", "1.3 mm")
+        type_into("patchRadius", f"{radius} mm")
+
+    def test_parts_of_a_plane(self):
+        source, plane = femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((6.1, 2.5, 2), (1, 0, 0))
+        self.open_crack((6.1, 2.5, 2.0), (1.0, 0.0, 0.0))
+        self.assertFalse(is_shown("patchRadius"))
+        self.choose_disk(1.3)
         self.shown(fs.crack(source, plane, within=fs.Disk((6.1, 2.5, 2), 1.3)))
         self.assertFalse(is_shown("patchTurn"))
         screenshot("crack_disk")
@@ -173,11 +181,8 @@ class Patches(CylinderTest):
         self.assertEqual(content_of(crack), made)
 
     def test_handles_of_a_disk(self):
-        self.run_command("FemScalpel_Crack")
-        spin(0.2)
-        enter_plane((7.0, 2.5, 2.0), (0.0, 0.0, 1.0))
-        choose("patch", "Disk")
-        type_into("patchRadius", "1.2 mm")
+        self.open_crack((7.0, 2.5, 2.0), (0.0, 0.0, 1.0))
+        self.choose_disk(1.2)
         self.wait_for_preview()
         screenshot("crack_disk_handles")
         size = self.mesh.FemMesh.BoundBox.DiagonalLength
@@ -215,8 +220,7 @@ class Patches(CylinderTest):
         self.sketch(*(Part.LineSegment(a, b) for a, b in zip(corners, corners[1:] + corners[:1])))
         source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
         polygon = fs.Polygon([(6.1, 2 + c.x, 2 + c.y) for c in corners])
-        self.run_command("FemScalpel_Crack")
-        spin(0.2)
+        self.open_crack()
         choose("patch", "Polygon")
         self.assertIn("Pick a sketch", self.wait_for_message("geometryError"))
         self.pick_sketch()
@@ -240,8 +244,7 @@ class Patches(CylinderTest):
     def test_ellipse_and_disk_of_a_sketch(self):
         self.sketch(Part.Ellipse(FreeCAD.Vector(0.3, 1.6, 0), FreeCAD.Vector(1, 0.1, 0), FreeCAD.Vector(0.3, 0.1, 0)))
         source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
-        self.run_command("FemScalpel_Crack")
-        spin(0.2)
+        self.open_crack()
         self.pick_sketch()
         self.assertEqual(widget("patch").currentData(), "Ellipse")
         np.testing.assert_allclose([value("originY"), value("originZ"), value("patchRadius"), value("patchSecondRadius")], (2.3, 2.1, 1.5, 0.7), atol=0.006)
@@ -256,8 +259,7 @@ class Patches(CylinderTest):
 
     def test_sketch_without_an_outline(self):
         self.sketch(Part.LineSegment(FreeCAD.Vector(-1, 0, 0), FreeCAD.Vector(1, 0, 0)), Part.LineSegment(FreeCAD.Vector(1, 0, 0), FreeCAD.Vector(1, 1, 0)))
-        self.run_command("FemScalpel_Crack")
-        spin(0.2)
+        self.open_crack()
         self.pick_sketch()
         self.assertEqual(widget("patch").currentData(), "Whole")
         np.testing.assert_allclose([value("originX"), value("normalX")], (6.1, 1), atol=0.006)
@@ -266,9 +268,7 @@ class Patches(CylinderTest):
         press_cancel()
 
     def test_part_is_carried_along_when_its_plane_tilts(self):
-        self.run_command("FemScalpel_Crack")
-        spin(0.2)
-        enter_plane((6.1, 2.5, 2.0), (0.0, 0.001, -1.0))
+        self.open_crack((6.1, 2.5, 2.0), (0.0, 0.001, -1.0))
         choose("patch", "HalfPlane")
         type_into("patchTurn", "20 deg")
         self.wait_for_preview()
@@ -286,11 +286,8 @@ class Patches(CylinderTest):
 
     def test_refined_at_the_front_first(self):
         source, plane = femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((6.1, 2.5, 2), (1, 0, 0))
-        self.run_command("FemScalpel_Crack")
-        spin(0.2)
-        enter_plane((6.1, 2.5, 2.0), (1.0, 0.0, 0.0))
-        choose("patch", "Disk")
-        type_into("patchRadius", "1.3 mm")
+        self.open_crack((6.1, 2.5, 2.0), (1.0, 0.0, 0.0))
+        self.choose_disk(1.3)
         self.assertFalse(is_shown("refineSize"))
         choose("refine", "Never")
         self.shown(fs.crack(source, plane, within=fs.Disk((6.1, 2.5, 2), 1.3), refine=False))
