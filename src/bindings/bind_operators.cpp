@@ -61,6 +61,25 @@ py::dict to_dict(const Report& report) {
     py::list groups;
     for (const GroupRecord& record : report.groups) groups.append(to_dict(record));
     out["groups"] = groups;
+    py::dict held;
+    held["count"] = report.held.count;
+    held["largest"] = report.held.largest;
+    held["groups"] = report.held.groups;
+    held["features"] = report.held.features;
+    out["held"] = held;
+    py::list poor;
+    for (const PoorPlace& p : report.poor) {
+        py::dict place;
+        place["elements"] = p.elements;
+        place["mean_ratio"] = p.mean_ratio;
+        place["place"] = py::make_tuple(p.place[0], p.place[1], p.place[2]);
+        place["groups"] = p.groups;
+        place["features"] = p.features;
+        place["gap"] = p.gap;
+        place["room"] = p.room;
+        poor.append(place);
+    }
+    out["poor"] = poor;
     out["refinement"] = py::none();
     if (const auto& r = report.refinement) out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);
     out["nodes_added"] = report.nodes_added;

@@ -13,6 +13,7 @@ struct EdgeShape {
     NodeConstraint constraint;
     Contact tools;
     Vec3 bulge;
+    double held;  ///< how far it may be off the tools, as its ends are: Deformable::held_off
 };
 
 MidSide fit(const Deformable& d, const Vec3& a, const Vec3& b, const EdgeShape& shape) {
@@ -22,10 +23,13 @@ MidSide fit(const Deformable& d, const Vec3& a, const Vec3& b, const EdgeShape& 
     if (shape.bulge.isZero(0) && !curved_tool && d.constraints.is_straight(shape.constraint)) return mid;
     const double reach = 0.2 * (b - a).norm();
     Vec3 x = mid.at;
-    if (d.constraints.project(shape.constraint, shape.tools, x) && (x - chord).norm() < reach) {
+    if (d.constraints.project(shape.constraint, shape.tools, x, shape.held) && (x - chord).norm() < reach) {
         mid.at = x;
         return mid;
     }
+    const double close = 1e-9 * (b - a).norm();
+    if (shape.held > 0 && Deformable::off_tools(shape.tools, mid.at, shape.held) <= close && d.constraints.distance(shape.constraint, mid.at) <= std::max(close, d.rounding))
+        return mid;
     // On its tools at least, for the lips; whoever made the edge has to look for another.
     mid.fits = false;
     x = chord;
@@ -48,7 +52,7 @@ bool is_between_sides(const Deformable& d, int a, int b) {
 }
 
 EdgeShape shape_of(const Deformable& d, int a, int b) {
-    return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b)};
+    return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b), d.held_between(a, b)};
 }
 
 bool is_second_order(const Deformable& d, int tetra) { return d.band.tetra_cells[d.band.tetras.origin(tetra)].type == CellType::tetra10; }
@@ -174,6 +178,7 @@ double curved_children(const Deformable& d, int a, int b, const Vec3& at, const 
     const BandMesh& band = d.band;
     const double t = fraction(band.nodes[a].at, band.nodes[b].at, at);
     const NodeConstraint along = d.constraints.on_edge(band, a, b);
+    const double held = d.held_between(a, b);
     double worst = 1;
     for (const int s : band.tetras.around(a)) {
         const auto& v = band.tetras[s];
@@ -185,9 +190,9 @@ double curved_children(const Deformable& d, int a, int b, const Vec3& at, const 
                 if (v[i] != replaced && v[j] != replaced) return mid_side(d, v[i], v[j]);
                 const int other = v[i] == replaced ? v[j] : v[i];
                 const Contact both = tools.common(d.contact[other]);
-                if (other == a) return fit(d, corner[i], corner[j], {along, both, t * t * d.mids.bulge(a, b)});
-                if (other == b) return fit(d, corner[i], corner[j], {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b)});
-                return fit(d, corner[i], corner[j], {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t)});
+                if (other == a) return fit(d, corner[i], corner[j], {along, both, t * t * d.mids.bulge(a, b), held});
+                if (other == b) return fit(d, corner[i], corner[j], {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b), held});
+                return fit(d, corner[i], corner[j], {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t), std::max(held, d.held_off[other])});
             })));
         }
     }
@@ -206,7 +211,7 @@ double curved_merged(const Deformable& d, int p, int t) {
         worst = std::min(worst, ratio(corner, by_ends([&](int i, int j) {
             if (v[i] != p && v[j] != p) return mid_side(d, v[i], v[j]);
             const int other = v[i] == p ? v[j] : v[i];
-            return fit(d, corner[i], corner[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero()});
+            return fit(d, corner[i], corner[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero(), d.held_between(t, other)});
         })));
     }
     return worst;

@@ -6,12 +6,12 @@
 
 namespace femscalpel {
 
-MidSides::MidSides(const BandMesh& band, const Mesh& mesh) : any_(!band.mid_nodes.empty()) {
+MidSides::MidSides(const BandMesh& band, const Mesh& mesh, double rounding) : any_(!band.mid_nodes.empty()) {
     for (const auto& [key, mid] : band.mid_nodes) {
         const Vec3 &a = band.nodes[static_cast<int>(key >> 32)].at, &b = band.nodes[static_cast<int>(key & 0xffffffffu)].at;
         const Vec3 bulge = mesh.points[mid] - (a + b) / 2;
         // Text files round: what is straight to nine digits is straight.
-        if (bulge.norm() > 1e-8 * (a - b).norm()) bulges_.emplace(key, bulge);
+        if (bulge.norm() > std::max(1e-8 * (a - b).norm(), rounding)) bulges_.emplace(key, bulge);
     }
 }
 

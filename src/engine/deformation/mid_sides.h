@@ -15,7 +15,8 @@ namespace femscalpel {
 /// say: subdivision of a quadratic element is exact, so a split alone changes neither geometry nor volume.
 class MidSides {
 public:
-    MidSides(const BandMesh& band, const Mesh& mesh);
+    /// A mid-side node within `rounding` of the middle of its chord makes a straight edge.
+    MidSides(const BandMesh& band, const Mesh& mesh, double rounding = 0);
 
     /// Whether the band has second-order elements at all.
     bool any() const { return any_; }

@@ -29,6 +29,9 @@ constexpr double closed_fold = 0.9999;
 /// Sine of the angle up to which the segments of a crack front are in line.
 constexpr double straight_front = 1e-6;
 
+/// Square of the sine of the angle up to which a tool runs along a surface (line): 0.06 degrees.
+constexpr double parallel = 1e-6;
+
 /// A mesh lies on the shape it was made from to this, in sizes of the shape.
 constexpr double shape_tolerance = 1e-5;
 
@@ -69,6 +72,9 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     }
     // Rounding grows with the coordinates themselves, so a model far from the origin counts as larger.
     if (node_count > 0) size_ = std::max({(high - low).norm(), 0.1 * low.cwiseAbs().maxCoeff(), 0.1 * high.cwiseAbs().maxCoeff()});
+    // The plane and line go through nodes that are off by as much themselves.
+    flat_ = std::max(flat_tolerance * size_, options.rounding);
+    close_ = std::max({1e-10 * size_, options.tolerance, options.rounding});
 
     const auto movable = [&](auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
     const auto shared = [](const auto& list, int a, int b) {
@@ -228,7 +234,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             const auto mid = mid_of(facet.node[k], facet.node[(k + 1) % 3]);
             const Vec3 chord = (facet.corner[k] + facet.corner[(k + 1) % 3]) / 2;
             facet.mid[k] = mid.value_or(chord);
-            facet.curved = facet.curved || (facet.mid[k] - chord).norm() > flat_tolerance * size_;
+            facet.curved = facet.curved || (facet.mid[k] - chord).norm() > flat_;
         }
         // The hull of its Bezier points holds a second-order facet.
         facet.centre = (facet.corner[0] + facet.corner[1] + facet.corner[2]) / 3;
@@ -257,12 +263,27 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             surfaces_[f.surface].origin = f.corner[0];
         }
     }
+    // Where coordinates are rounded, all facets together define it better.
+    if (options.rounding > 0) {
+        std::vector<Vec3> sum(surfaces_.size(), Vec3::Zero()), middle(surfaces_.size(), Vec3::Zero());
+        std::vector<int> count(surfaces_.size(), 0);
+        for (const Facet& f : facets_) {
+            const Vec3 n = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]);
+            sum[f.surface] += n.dot(surfaces_[f.surface].normal) < 0 ? Vec3(-n) : n;
+            middle[f.surface] += f.centre;
+            ++count[f.surface];
+        }
+        for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+            surfaces_[k].normal = sum[k].normalized();
+            surfaces_[k].origin = middle[k] / count[k];
+        }
+    }
     for (const Facet& f : facets_) {
         Surface& s = surfaces_[f.surface];
         if (f.cad >= 0 && !shape_->is_plane(f.cad)) s.flat = false;
         for (int k = 0; k < 3; ++k)
             for (const Vec3& p : {f.corner[k], f.mid[k]})
-                if (std::abs(s.normal.dot(p - s.origin)) > flat_tolerance * size_) s.flat = false;
+                if (std::abs(s.normal.dot(p - s.origin)) > flat_) s.flat = false;
     }
 
     // 4. Curves: creases joined at nodes where exactly two of one kind meet without a kink.
@@ -300,7 +321,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         }
         const Vec3 chord = (segment.end[0] + segment.end[1]) / 2;
         segment.mid = mid_of(segment.node[0], segment.node[1]).value_or(chord);
-        segment.curved = (segment.mid - chord).norm() > flat_tolerance * size_;
+        segment.curved = (segment.mid - chord).norm() > flat_;
         segment.centre = chord;
         segment.radius = std::max((segment.end[0] - chord).norm(), 2 * (segment.mid - chord).norm());
         if (curve_of[root] < 0) {
@@ -327,7 +348,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         Curve& c = curves_[s.curve];
         if ((s.cad >= 0 && !shape_->is_line(s.cad)) || s.cad_face >= 0) c.straight = false;
         for (const Vec3& p : {s.end[0], s.end[1], s.mid})
-            if (c.direction.cross(p - c.origin).norm() > flat_tolerance * size_) c.straight = false;
+            if (c.direction.cross(p - c.origin).norm() > flat_) c.straight = false;
     }
 
     // 5. Freedom of each node. Isolated members of groups (IE) do not move.
@@ -364,7 +385,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                 }
                 const double bend = away[0].cross(away[1]).norm();
                 const bool front = creases[creases_at[v][0]].fold && creases[creases_at[v][1]].fold;
-                if (front && bend > straight_front) c.freedom = NodeFreedom::fixed;
+                if (front && bend > std::max(straight_front, options.rounding / length)) c.freedom = NodeFreedom::fixed;
                 else if (bend > 0 && segments_[creases_at[v][0]].cad < 0) leash_[v] = deepest_dent / bend * length;
             }
         } else if (!around.empty()) {
@@ -641,14 +662,14 @@ NodeConstraints::Foot NodeConstraints::curve_foot(const NodeConstraint& c, const
     return best;
 }
 
-bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec3& x) const {
+bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec3& x, double held) const {
     const double tight = 1e-14 * size_;
-    const auto off_tools = [&](const Vec3& at) {
+    const auto off_tools = [&](const Vec3& at, const Contact& some) {
         double off = 0;
-        for (const Tool* t : tools.tools()) off = std::max(off, std::abs(t->distance(at)));
+        for (const Tool* t : some.tools()) off = std::max(off, std::abs(t->distance(at)));
         return off;
     };
-    if (c.freedom == NodeFreedom::fixed) return off_tools(x) <= 1e-10 * size_;
+    if (c.freedom == NodeFreedom::fixed) return off_tools(x, tools) <= close_;
     const bool free = c.freedom == NodeFreedom::free, surface = c.freedom == NodeFreedom::surface;
     if (free && !tools) return true;
     NodeConstraint at = c;
@@ -664,36 +685,48 @@ bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec
         x = foot_of(x).at;
         return true;
     }
+    // The tools that do not merely run along the shape where the node is.
+    Contact across = tools;
+    const double near = std::max(close_, 1.001 * held);
+    const auto done = [&] {
+        if (across.count() == tools.count() || off_tools(x, tools) <= 1.001 * held) return true;
+        return project(NodeConstraint{}, tools, x) && distance(at, x) <= 2 * close_;
+    };
     for (int i = 0; i < 60; ++i) {
         const Foot foot = foot_of(x);
         at.hint = foot.facet;
-        if (std::sqrt(foot.distance2) <= (exact ? tight : accept) && off_tools(x) <= tight) return true;
         // From the foot, along the shape, onto the tangent planes of the tools.
         const auto along_shape = [&](const Vec3& n) {
             if (free) return n;
-            const Vec3 across = n.dot(foot.normal) * foot.normal;
-            return surface ? Vec3(n - across) : across;
+            const Vec3 off_shape = n.dot(foot.normal) * foot.normal;
+            return surface ? Vec3(n - off_shape) : off_shape;
         };
-        if (tools.count() == 1) {
-            const Vec3 along = along_shape(tools.tools()[0]->normal(foot.at));
+        if (i == 0)
+            for (const Tool* t : tools.tools())
+                if (along_shape(t->normal(foot.at)).squaredNorm() < parallel && std::abs(t->distance(foot.at)) <= near) across = across.without(t);
+        if (std::sqrt(foot.distance2) <= (exact ? tight : accept) && off_tools(x, across) <= tight) return done();
+        if (!across) {
+            x = foot.at;
+        } else if (across.count() == 1) {
+            const Vec3 along = along_shape(across.tools()[0]->normal(foot.at));
             const double slope = along.squaredNorm();
-            if (slope < 1e-6) return false;  // parallel within 0.06 degrees
-            x = foot.at - (tools.tools()[0]->distance(foot.at) / slope) * along;
+            if (slope < parallel) return false;
+            x = foot.at - (across.tools()[0]->distance(foot.at) / slope) * along;
         } else {
             // The shortest such step: along = A^T m with A A^T m = -distances.
-            const int count = tools.count();
+            const int count = across.count();
             Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> a(count, 3);
             Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> d(count);
             for (int k = 0; k < count; ++k) {
-                a.row(k) = along_shape(tools.tools()[k]->normal(foot.at)).transpose();
-                d[k] = tools.tools()[k]->distance(foot.at);
+                a.row(k) = along_shape(across.tools()[k]->normal(foot.at)).transpose();
+                d[k] = across.tools()[k]->distance(foot.at);
             }
             const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
             if (svd.singularValues()[count - 1] < 1e-3) {
                 // More tools than directions: only right where they happen to meet.
-                if (off_tools(foot.at) > 1e-12 * size_) return false;
+                if (off_tools(foot.at, across) > 1e-12 * size_) return false;
                 x = foot.at;
-                return true;
+                return done();
             }
             x = foot.at - Vec3(svd.solve(d));
         }
@@ -701,7 +734,7 @@ bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec
     // At a kink of a faceted surface the steps may alternate between two facets: close enough counts.
     const Foot foot = foot_of(x);
     if (std::sqrt(foot.distance2) > (exact ? accept : 1e-6 * size_)) return false;
-    return off_tools(x) <= 1e-12 * size_;
+    return off_tools(x, across) <= 1e-12 * size_ && done();
 }
 
 int NodeConstraints::tangents(int node, const Contact& tools, const Vec3& x, Eigen::Matrix3d& basis) const {
@@ -723,7 +756,10 @@ int NodeConstraints::tangents(int node, const Contact& tools, const Vec3& x, Eig
         Vec3 n = t->normal(x);
         for (int k = 0; k < count; ++k) n -= held.col(k).dot(n) * held.col(k);
         const double length = n.norm();
-        if (length < 1e-3) return 0;
+        if (length < 1e-3) {
+            if (c.freedom == NodeFreedom::surface && count == 1 && surfaces_[c.shape].flat && std::isinf(t->feature_size())) continue;  // a plane on a plane
+            return 0;
+        }
         held.col(count++) = n / length;
     }
     switch (count) {
@@ -743,20 +779,29 @@ double NodeConstraints::distance(const NodeConstraint& c, const Vec3& x) const {
     return 0;
 }
 
+std::vector<int> NodeConstraints::kinds_at(const BandMesh& band, int node) const {
+    std::vector<int> kinds;
+    for (const int s : band.skin.around(node)) kinds.push_back(surfaces_[band.skin.tag(s)].kind);
+    for (const int s : band.creases.around(node)) kinds.push_back(curves_[band.creases.tag(s)].kind);
+    const auto alone = std::ranges::lower_bound(isolated_, node, {}, [](const auto& n) { return n.first; });
+    if (alone != isolated_.end() && alone->first == node) kinds.push_back(alone->second);
+    std::ranges::sort(kinds);
+    kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+    return kinds;
+}
+
+std::vector<GroupIndex> NodeConstraints::groups_at(const BandMesh& band, int node) const {
+    std::set<GroupIndex> groups;
+    for (const int kind : kinds_at(band, node)) groups.insert(kinds_.groups(kind).begin(), kinds_.groups(kind).end());
+    return {groups.begin(), groups.end()};
+}
+
 std::vector<NodeConstraints::GroupCount> NodeConstraints::count_by_group(const BandMesh& band, std::span<const int> nodes,
                                                                          std::size_t group_count) const {
     // Many nodes lie on few combinations of kinds: these are counted, and spread over their groups at the end.
     std::map<std::vector<int>, GroupCount> by_kinds;
-    std::vector<int> kinds;
     for (const int v : nodes) {
-        kinds.clear();
-        for (const int s : band.skin.around(v)) kinds.push_back(surfaces_[band.skin.tag(s)].kind);
-        for (const int s : band.creases.around(v)) kinds.push_back(curves_[band.creases.tag(s)].kind);
-        const auto alone = std::ranges::lower_bound(isolated_, v, {}, [](const auto& n) { return n.first; });
-        if (alone != isolated_.end() && alone->first == v) kinds.push_back(alone->second);
-        std::ranges::sort(kinds);
-        kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
-        GroupCount& count = by_kinds[kinds];
+        GroupCount& count = by_kinds[kinds_at(band, v)];
         switch (nodes_[v].freedom) {
             case NodeFreedom::free: break;
             case NodeFreedom::surface: ++count.surface; break;

@@ -36,6 +36,8 @@ struct ConstraintOptions {
     std::vector<Index> pinned;           ///< nodes (indices in the mesh, ascending) that must not move
     std::vector<Index> on_shortcuts;     ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
     const CadShape* shape = nullptr;     ///< what the mesh was made from: its skin is taken to be this, where it lies on it
+    double tolerance = 0;                ///< what is nearer than this to something lies on it
+    double rounding = 0;                 ///< what is flat or straight but for so much is so: a few times coordinate_rounding(), or 0
 };
 
 /// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of
@@ -59,7 +61,7 @@ public:
     bool has_fixed_middles() const { return !fixed_middles_.empty(); }
     bool has_fixed_middle(int a, int b) const { return fixed_middles_.contains(edge_key(a, b)); }
 
-    /// To be called after add_node() for a node that was such a mid-side node.
+    /// To be called after add_node() for a node that was such a mid-side node, and for nodes that are held beside a tool.
     void fix_node(int node) { nodes_[node].freedom = NodeFreedom::fixed; }
 
     /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
@@ -69,9 +71,11 @@ public:
     NodeConstraint on_face(const BandMesh& band, int a, int b, int c) const;
 
     /// Moves `x` to a near point that satisfies the node's constraints and lies on all of `tools`.
-    /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined.
+    /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined. A tool that runs along the
+    /// node's surface or line, and on it but for the rounding of coordinates, adds nothing to it: there the tool is what counts.
+    /// With `held` (Deformable::held_off) the tool may be so far off what it runs along, and then stays so.
     bool project(int node, const Contact& tools, Vec3& x) const { return project(nodes_[node], tools, x); }
-    bool project(const NodeConstraint& constraint, const Contact& tools, Vec3& x) const;
+    bool project(const NodeConstraint& constraint, const Contact& tools, Vec3& x, double held = 0) const;
 
     /// Orthonormal columns spanning the directions the node may move in at `x`; 0 to 3 columns.
     int tangents(int node, const Contact& tools, const Vec3& x, Eigen::Matrix3d& basis) const;
@@ -134,6 +138,9 @@ public:
     };
     /// For each of `group_count` groups of the mesh, how many of `nodes` lie on its boundary (BE, LE and IE).
     std::vector<GroupCount> count_by_group(const BandMesh& band, std::span<const int> nodes, std::size_t group_count) const;
+
+    /// The groups of the mesh that have their boundary (BE, LE, IE) at a node, ascending.
+    std::vector<GroupIndex> groups_at(const BandMesh& band, int node) const;
 
     /// Whether the triangle element in this slot is no face of a tetrahedron (a shell of its own).
     bool is_shell(int triangle_origin) const { return shell_[triangle_origin] != 0; }
@@ -198,6 +205,8 @@ private:
     Foot surface_foot(const NodeConstraint& c, const Vec3& x) const;
     Foot curve_foot(const NodeConstraint& c, const Vec3& x) const;
 
+    std::vector<int> kinds_at(const BandMesh& band, int node) const;
+
     std::vector<NodeConstraint> nodes_;
     std::vector<Facet> facets_;
     std::vector<Surface> surfaces_;
@@ -213,6 +222,8 @@ private:
     std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds
     std::unordered_set<std::uint64_t> fixed_middles_;
     double size_ = 1;  // of the band, for tolerances
+    double flat_ = 0;  // what is no farther off a plane or line is on it
+    double close_ = 0;  // a tool that is no farther off what it runs along is on it
     const CadShape* shape_ = nullptr;
     ShapeMatch match_;
 };

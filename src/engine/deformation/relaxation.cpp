@@ -134,9 +134,9 @@ private:
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh), membership(band, mesh),
+    : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh, options.rounding), membership(band, mesh),
       contact(static_cast<std::size_t>(band.size())), side(static_cast<std::size_t>(band.size()), 0),
-      off_tool(static_cast<std::size_t>(band.size()), 0) {
+      off_tool(static_cast<std::size_t>(band.size()), 0), tolerance(options.tolerance), rounding(options.rounding), held_off(static_cast<std::size_t>(band.size()), 0) {
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -153,10 +153,23 @@ int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
     const double distance = barrier && !tools.has(barrier) ? barrier->distance(at) : 0;
     side.push_back(static_cast<signed char>((distance > 0) - (distance < 0)));
     off_tool.push_back(0);
+    held_off.push_back(tools ? held_between(a, b) : 0);
     constraints.add_node(band, node);
     if (fixed) constraints.fix_node(node);
     membership.add_node(band, node);
     return node;
+}
+
+void Deformable::hold_beside(int node, const Contact& tools) {
+    contact[node] = tools;
+    constraints.fix_node(node);
+    held_off[node] = std::max(held_off[node], off_tools(tools, band.nodes[node].at, 0));
+}
+
+double Deformable::off_tools(const Contact& tools, const Vec3& x, double held_off) {
+    double off = 0;
+    for (const Tool* t : tools.tools()) off = std::max(off, std::abs(t->distance(x)) - held_off);
+    return off;
 }
 
 Vec3 Deformable::along_edge(int a, int b, double t) const {
@@ -192,15 +205,14 @@ Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, co
     const NodeConstraint constraint = constraints.on_edge(band, a, b);
     if (constraint.freedom == NodeFreedom::free && !tools) return {at, true, worst_child(at)};
     Vec3 fitted = at;
-    const bool found = constraints.project(constraint, tools, fitted) && (fitted - at).norm() < (band.nodes[a].at - band.nodes[b].at).norm();
+    const bool found = constraints.project(constraint, tools, fitted, held_between(a, b)) && (fitted - at).norm() < (band.nodes[a].at - band.nodes[b].at).norm();
     const double worst = worst_child(at);
     if (found) {
         const double worst_fitted = fitted == at ? worst : worst_child(fitted);
         if (worst_fitted > 0.2 * worst) return {fitted, true, worst_fitted};
     }
-    const double close = 1e-9 * (band.nodes[a].at - band.nodes[b].at).norm();
-    const bool on_tools = std::ranges::all_of(tools.tools(), [&](const Tool* t) { return std::abs(t->distance(at)) <= close; });
-    return {at, on_tools && constraints.distance(constraint, at) <= 1e3 * close, worst};
+    const double close = std::max(1e-9 * (band.nodes[a].at - band.nodes[b].at).norm(), tolerance);
+    return {at, off_tools(tools, at, held_between(a, b)) <= close && constraints.distance(constraint, at) <= std::max(1e3 * close, rounding), worst};
 }
 
 Contact Deformable::edge_contact(int a, int b) const {
@@ -209,7 +221,7 @@ Contact Deformable::edge_contact(int a, int b) const {
     for (const Tool* t : both.tools()) {
         const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
         const double length = (band.nodes[a].at - band.nodes[b].at).norm();
-        if (std::abs(t->distance(middle)) <= 1e-9 * length) out = out.with(t);
+        if (std::abs(t->distance(middle)) <= std::max(1e-9 * length, tolerance) + held_between(a, b)) out = out.with(t);
     }
     if (out.count() == both.count() || !band.is_cut_edge(a, b)) return out;
     // A chord on a surface of cut faces: if it is the surface's border it lies on all tools of its ends, else on one.

@@ -22,11 +22,21 @@ struct Deformable {
     const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0
     std::vector<signed char> side;     ///< by node: sign of its distance to `barrier`
     std::vector<char> off_tool;        ///< by node: it may slide, but is not to be put on a tool
+    double tolerance = 0;              ///< ConstraintOptions::tolerance
+    double rounding = 0;               ///< ConstraintOptions::rounding
+    std::vector<double> held_off;      ///< by node: how far off its tools it may be, as it is held beside them; see hold_beside()
 
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
 
     /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
     int split_edge(int a, int b, const Vec3& at, const Contact& tools);
+
+    /// Makes a node count as lying on `tools` where it is, though something else holds it a little beside them: it stays there.
+    void hold_beside(int node, const Contact& tools);
+
+    /// How far a node is off the tools it is in contact with, beyond what it is held off.
+    double off_tools(int node) const { return off_tools(contact[node], band.nodes[node].at, held_off[node]); }
+    static double off_tools(const Contact& tools, const Vec3& x, double held_off);
 
     /// The point at the fraction t of the edge a-b, which is bent if it is one of a second-order element or lies on
     /// a curved surface or curve.
@@ -46,6 +56,9 @@ struct Deformable {
     /// The tools the edge a-b lies on: both its ends do, and it is not the chord of a curved tool, unless it is an edge
     /// of the faces that stand for that tool.
     Contact edge_contact(int a, int b) const;
+
+    /// How far what lies between two nodes may be off the tools that both are on.
+    double held_between(int a, int b) const { return std::max(held_off[a], held_off[b]); }
 
     /// Whether a node must not be at `x`: behind the barrier, or so far along a bent line that the line would lose its shape.
     bool is_barred(int node, const Vec3& x) const {

@@ -43,7 +43,7 @@ private:
     bool on_interface(int v) const { return !band_.cut_faces.around(v).empty() || !band_.cut_edges.around(v).empty(); }
     const Tool& side_at(const Vec3& x) const { return *patch_.sides[patch_.side(x)]; }
 
-    /// Signed distance to the border; a node that lies on it is put in contact.
+    /// Signed distance to the border; a node that lies on it, but for rounding, is put in contact.
     void measure(int v) {
         if (!on_interface(v)) return;
         for (const Tool* t : d_.contact[v].tools())
@@ -52,8 +52,8 @@ private:
                 return;
             }
         value_[v] = patch_.distance(band_.nodes[v].at);
-        if (std::abs(value_[v]) > f_.tolerance || d_.contact[v].full()) return;
-        d_.contact[v] = d_.contact[v].with(&side_at(band_.nodes[v].at));
+        if (std::abs(value_[v]) > std::max(f_.tolerance, d_.rounding) || d_.contact[v].full()) return;
+        put_on_tool(f_, v, side_at(band_.nodes[v].at));
         value_[v] = 0;
     }
 
@@ -140,6 +140,14 @@ private:
         return std::ranges::any_of(interface_neighbours(v), [&](int w) { return value_[v] * value_[w] < 0; });
     }
 
+    /// How far the interface around a node reaches beyond the border.
+    double reach_beyond(int v) const {
+        double farthest = 0;
+        for (const int w : interface_neighbours(v))
+            if (value_[v] * value_[w] < 0) farthest = std::max(farthest, std::abs(value_[w]));
+        return farthest;
+    }
+
     void snap_nodes() {
         struct Candidate {
             double ratio;
@@ -155,13 +163,19 @@ private:
         std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) { return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node); });
         for (const Candidate& c : candidates) {
             if (!crosses(c.node)) continue;
-            Vec3 target = band_.nodes[c.node].at;
-            const Contact tools = d_.contact[c.node].with(&side_at(target));
-            if (!d_.constraints.project(c.node, tools, target)) continue;
-            // Beyond the end of a polygon's side there is no border.
-            if (std::abs(patch_.distance(target)) > f_.tolerance) continue;
-            move(c.node, target, tools, snap_slide * c.length, 0.1);
+            const Contact tools = d_.contact[c.node].with(&side_at(band_.nodes[c.node].at));
+            if (snap(c.node, c.length, tools) || !is_beside(f_, value_[c.node], reach_beyond(c.node))) continue;
+            d_.hold_beside(c.node, tools);
+            value_[c.node] = 0;
         }
+    }
+
+    bool snap(int v, double length, const Contact& tools) {
+        Vec3 target = band_.nodes[v].at;
+        if (!d_.constraints.project(v, tools, target)) return false;
+        // Beyond the end of a polygon's side there is no border.
+        if (std::abs(patch_.distance(target)) > f_.tolerance) return false;
+        return move(v, target, tools, snap_slide * length, 0.1);
     }
 
     bool move(int v, const Vec3& target, const Contact& tools, double reach, double enough) {

@@ -65,7 +65,7 @@ std::vector<int> inner_border(const Interface& f, const Lips& lips) {
 void check_lips(const Interface& f, const Lips& lips, const Patch* patch) {
     for (const int v : lips.interface_nodes) {
         const Vec3& x = f.d.band.nodes[v].at;
-        const double off = std::abs(f.tool->distance(x)), beyond = patch ? patch->distance(x) : 0;
+        const double held = f.d.held_off[v], off = std::abs(f.tool->distance(x)) - held, beyond = patch ? patch->distance(x) - held : 0;
         if (off <= 10 * f.tolerance && beyond <= 100 * f.tolerance) continue;
         std::ostringstream message;
         message << "a node of the crack near (" << x.transpose() << ") cannot be brought ";
@@ -124,7 +124,7 @@ void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
         for (std::size_t k = 1; k < chain.size(); ++k) {
             front.insert({std::min(chain[k - 1], chain[k]), std::max(chain[k - 1], chain[k])});
             for (const int v : {chain[k - 1], chain[k]})
-                if (std::abs(patch.distance(band.nodes[v].at)) > 100 * f.tolerance) fail(v);
+                if (std::abs(patch.distance(band.nodes[v].at)) > 100 * f.tolerance + f.d.held_off[v]) fail(v);
         }
     if (border != front) fail(lips.front_nodes.empty() ? lips.interface_nodes.front() : lips.front_nodes.front());
 }

@@ -115,17 +115,11 @@ constexpr double flat = 1e-6;
 
 }  // namespace
 
-double Interface::off_tools(int node) const {
-    double off = 0;
-    for (const Tool* t : d.contact[node].tools()) off = std::max(off, std::abs(t->distance(d.band.nodes[node].at)));
-    return off;
-}
-
 void check_contacts(const Interface& f) {
     int count = 0;
     double worst = 0;
     for (const int v : f.nodes) {
-        const double off = f.off_tools(v);
+        const double off = f.d.off_tools(v);
         count += off > 10 * f.tolerance;
         worst = std::max(worst, off);
     }

@@ -41,7 +41,7 @@ struct Interface {
     Deformable d;
     const Tool* tool = nullptr;              ///< the first, to which `distance` belongs
     std::vector<double> distance = {};       ///< signed, by band node; exactly 0 for nodes on the tool
-    double tolerance = 0;                    ///< nodes nearer than this lie on the tool
+    double tolerance = 0;                    ///< what is nearer than this lies on the tool
     std::vector<int> nodes = {};             ///< nodes on the tool (ICN and ECN), ascending
     std::vector<int> transition = {};        ///< nodes within `bandwidth` edges of them (ITN and ETN), ascending
     int bandwidth = 2;                       ///< i of the paper's i-th neighbourhood
@@ -51,6 +51,7 @@ struct Interface {
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side = {};
     std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
+    bool holds_wide = false;                 ///< nodes count as on the tool from farther beside it than they do at once: see is_beside()
     bool patched = false;                    ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
@@ -59,14 +60,19 @@ struct Interface {
         if (d.contact[node].has(&t)) return 0;
         return &t == tool ? distance[node] : t.distance(d.band.nodes[node].at);
     }
-
-    /// How far a node is off the tools it is in contact with.
-    double off_tools(int node) const;
 };
 
 /// Makes element faces (edges of shells) lie on a blade, where it is wanted: nodes near it are moved onto it along their
 /// constraints, nearest first; edges that still cross are bisected on it, longest first. Elements are not relaxed.
 void cut_along(Interface& interface, const Blade& blade);
+
+/// Puts a node in contact with a tool that it lies on but for the rounding of coordinates. Where something holds it (a border, a
+/// corner, a card of the deck) it leaves that by as much as rounding allows.
+void put_on_tool(Interface& interface, int node, const Tool& tool);
+
+/// Whether a node is so near a tool, `distance` away, that no element should come to lie between them: then it is on the tool, held beside it where
+/// it cannot be moved there (Deformable::hold_beside()). `reach`: how far the elements around it reach to the tool's other side.
+bool is_beside(const Interface& interface, double distance, double reach);
 
 /// Collects the node sets, then improves the shape of the band's elements: deform(), improve(), and new nodes brought onto
 /// their curved surfaces.

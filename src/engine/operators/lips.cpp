@@ -48,9 +48,11 @@ private:
 
     template <std::size_t N>
     int side(const std::array<int, N>& nodes) const {
-        // A node off the interface can still lie in its plane, beyond the front.
+        // A node off the interface can still lie in its plane, beyond the front, or beside that by rounding: the farthest tells.
+        double farthest = 0;
         for (const int v : nodes)
-            if (!on_tool(v) && f_.distance[v] != 0) return f_.distance[v] > 0 ? 1 : -1;
+            if (!on_tool(v) && std::abs(f_.distance[v]) > std::abs(farthest)) farthest = f_.distance[v];
+        if (std::abs(farthest) > f_.d.rounding) return farthest > 0 ? 1 : -1;
         if constexpr (N < 3) return 0;
         // All corners lie on a curved tool: the element fills a bulge of it, and its middle tells on which side. A
         // triangle may also lie along the tool.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "mesh/rounding.h"
+
 namespace femscalpel {
 namespace {
 
@@ -42,7 +44,7 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
         if (std::abs(d) < std::abs(nearest)) nearest = d;
     std::vector<std::uint8_t> side(distance.size());
     for (std::size_t n = 0; n < side.size(); ++n)
-        side[n] = distance[n] < -out.tolerance ? behind : distance[n] > out.tolerance ? before : on;
+        side[n] = distance[n] < -out.rounding ? behind : distance[n] > out.rounding ? before : on;
     bool touched = false, beyond = false;
     for_each_element(mesh, [&](const Index* n, int corners) {
         std::uint8_t sides = 0;
@@ -85,6 +87,8 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
         high = high.cwiseMax(x);
     }
     out.tolerance = 1e-10 * (high - low).norm();
+    // In the direction of a tool's normal, the roundings of three coordinates add up.
+    out.rounding = std::max(out.tolerance, 2 * coordinate_rounding(mesh.points));
     for (const Blade& blade : blades) {
         std::vector<double> distance(mesh.points.size());
         for (std::size_t n = 0; n < mesh.points.size(); ++n) distance[n] = blade.tool->distance(mesh.points[n]);

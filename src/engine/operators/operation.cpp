@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
+#include "operators/poor.h"
 #include "operators/refine_first.h"
 
 namespace femscalpel {
@@ -395,7 +396,7 @@ void Operation::crop_to_band(std::vector<CellRef>& removed) {
     }
     part_ = crop(whole(), cells);
     prepared_.adjacency = nullptr;
-    Location part{{}, {}, location_.tolerance, location_.crossed};
+    Location part{{}, {}, location_.tolerance, location_.rounding, location_.crossed};
     for (const Index n : part_->nodes) {
         part.distance.push_back(location_.distance[n]);
         part.level.push_back(location_.level[n]);
@@ -435,15 +436,17 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     constraint_options.pinned = pinned();
     if (prepared_.refined) constraint_options.on_shortcuts = prepared_.refined->on_shortcuts;
     constraint_options.shape = options_.skin;
+    constraint_options.tolerance = location_.tolerance;
+    constraint_options.rounding = location_.rounding > location_.tolerance ? location_.rounding : 0;
     const Tool& first = *blades.front().tool;
     Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), .tool = &first, .tolerance = location_.tolerance, .bandwidth = width};
     f.deep_inside = std::move(removed);
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];
-        if (std::abs(f.distance[v]) > location_.tolerance) continue;
+        if (std::abs(f.distance[v]) > location_.rounding) continue;
+        if (!blades.front().bound) put_on_tool(f, v, first);
         f.distance[v] = 0;
-        if (!blades.front().bound) f.d.contact[v] = &first;
     }
     check_input_shape(f, mesh());
     check_skin(f);
@@ -468,6 +471,11 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     add_moved_nodes(f);
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
     warn_of_parted_lips(f);
+    report_.held = find_held_nodes(f, mesh());
+    BandQuality quality = band_quality(f, mesh());
+    report_.quality_before = summarise(std::move(quality.before));
+    report_.quality_after = summarise(std::move(quality.after));
+    report_.poor = find_poor_places(f, mesh(), report_.quality_before.minimum);
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());
@@ -489,9 +497,6 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     report_.node_sets[naming.sets[2]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, interior);
     report_.node_sets[naming.sets[3]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, exterior);
     count_constraints(f, blades_, report_);
-    BandQuality quality = band_quality(f, mesh());
-    report_.quality_before = summarise(std::move(quality.before));
-    report_.quality_after = summarise(std::move(quality.after));
     report_.nodes_split = rebuilt.nodes_split;
     report_.nodes_doubled = rebuilt.nodes_doubled;
     report_.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;

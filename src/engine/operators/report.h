@@ -41,6 +41,25 @@ struct Refinement {
     Index elements_after = 0;   ///< by refining alone
 };
 
+/// Nodes of the interface that something holds a little beside the tool: it goes through them where they are.
+struct HeldNodes {
+    Index count = 0;
+    double largest = 0;                 ///< how far they are off the tool, in the mesh's unit
+    std::vector<std::string> groups;    ///< whose boundary holds them
+    std::vector<std::string> features;  ///< what else does: "the skin", "a corner", ...
+};
+
+/// A place where elements came out poor (find_poor_places()), as what is kept there and the tool leave no room for better ones.
+struct PoorPlace {
+    std::vector<Index> elements;        ///< numbers of the input's elements that they are parts of, worst first
+    double mean_ratio = 0;              ///< of the worst
+    Vec3 place = Vec3::Zero();          ///< its middle
+    std::vector<std::string> groups;    ///< whose boundary is kept there
+    std::vector<std::string> features;  ///< what else is: "the skin", "a feature line", ...
+    double gap = 0;                     ///< between the tool and what is kept, at the worst: the tool moved by so much goes through it
+    double room = 0;                    ///< how large that would have to be for good elements
+};
+
 /// What an operator did; the same for all operators.
 struct Report {
     std::string operation;  ///< "crack", "drill", ...
@@ -56,6 +75,8 @@ struct Report {
     QualitySummary quality_before;  ///< of the band's elements before
     QualitySummary quality_after;   ///< of the same elements and their children after
     std::vector<GroupRecord> groups;
+    HeldNodes held;
+    std::vector<PoorPlace> poor;  ///< empty when all is well
     std::optional<Refinement> refinement;  ///< part of what the counts below say
     Index nodes_added = 0;       ///< by splitting and by doubling
     Index nodes_split = 0;       ///< of them, born on split edges

@@ -23,9 +23,11 @@ constexpr double snap_reach = 0.45;
 constexpr double snap_slide = 1.0;
 /// Elements worse than this after relaxation are worked on further.
 constexpr double improvement_goal = 0.45;
-/// A node on a corner or a crease may be off the tool by this many edge lengths and still be put on it:
-/// far below what a measure of a group would notice.
-constexpr double forced_reach = 1e-7;
+/// A node that cannot be moved counts as on the tool up to this part of how far elements reach beyond it: an element between the
+/// two would be as flat. Up to the first at once; up to the second where elements came out poor, as they would be between it and the tool.
+constexpr double close_beside = 1e-5, wide_beside = 0.025;
+/// Going onto the tool, a node may slide so many times its distance along what holds it before it is rather put there straight.
+constexpr double steep = 4;
 /// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
 constexpr double dip = 0.15;
 
@@ -37,9 +39,8 @@ constexpr double poor_quality = 0.1;
 constexpr double second_order_quality = 0.27;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
-/// Where a tool ends or material goes, a band that has grown to so many times its nodes is not refined again: it would grow for ever
-/// along a wall too thin for elements. (Whole planes through coarse curved meshes have needed more.)
-constexpr double largest_growth = 4;
+/// A band that has grown to so many times its nodes is not refined again: it would grow for ever along a wall too thin for elements.
+constexpr double largest_growth = 3;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -54,8 +55,8 @@ public:
     /// Nodes that already lie on the tool, where it is wanted.
     void touch_nodes() {
         for (int v = 0; v < band_.size(); ++v) {
-            if (std::abs(value_[v]) > f_.tolerance || d_.contact[v].has(&tool_) || d_.contact[v].full() || !in_region(v)) continue;
-            d_.contact[v] = d_.contact[v].with(&tool_);
+            if (std::abs(value_[v]) > std::max(f_.tolerance, d_.rounding) || d_.contact[v].has(&tool_) || d_.contact[v].full() || !in_region(v)) continue;
+            put_on_tool(f_, v, tool_);
             value_[v] = 0;
         }
     }
@@ -94,7 +95,10 @@ public:
             return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node);
         });
         for (const Candidate& c : candidates)
-            if (crosses(c.node)) snap(c.node, c.length, c.ratio);
+            if (crosses(c.node) && !snap(c.node, c.length) && is_beside(f_, value_[c.node], reach_beyond(c.node))) {
+                d_.hold_beside(c.node, d_.contact[c.node].with(&tool_));
+                value_[c.node] = 0;
+            }
     }
 
     void split_edges() {
@@ -200,6 +204,17 @@ private:
         });
     }
 
+    /// How far the elements around a node reach to the other side of the tool.
+    double reach_beyond(int v) const {
+        double farthest = 0;
+        any_around(v, [&](const auto& nodes) {
+            for (const int w : nodes)
+                if (value_[w] * value_[v] < 0) farthest = std::max(farthest, std::abs(value_[w]));
+            return false;
+        });
+        return farthest;
+    }
+
     /// The edges of triangles and tetrahedra of the region that `wanted` takes, longest first.
     std::vector<Edge> region_edges(auto wanted) {
         std::vector<Edge> edges;
@@ -248,23 +263,22 @@ private:
                std::ranges::any_of(band_.triangles.around(v), [&](int t) { return d_.constraints.is_shell(band_.triangles.origin(t)) && fills(band_.triangles[t]); });
     }
 
-    void snap(int v, double length, double ratio) {
-        if (d_.off_tool[v] || would_lie_flat(v) || would_fill_bulge(v)) return;
+    /// Moves a node onto the tool; false where that cannot be, or would spoil elements.
+    bool snap(int v, double length) {
+        if (d_.off_tool[v] || would_lie_flat(v) || would_fill_bulge(v)) return false;
         BandNode& node = band_.nodes[v];
         Vec3 target = node.at;
         const Contact tools = d_.contact[v].with(&tool_);
-        if (!d_.constraints.project(v, tools, target)) {
-            if (ratio > forced_reach || d_.contact[v]) return;
-            target = tool_.project(node.at);
-        }
-        if ((target - node.at).norm() > snap_slide * length) return;
-        if ((target - node.start).norm() > d_.constraints.leash(v)) return;
+        if (!d_.constraints.project(v, tools, target)) return false;
+        if ((target - node.at).norm() > snap_slide * length) return false;
+        if ((target - node.start).norm() > d_.constraints.leash(v)) return false;
         const double before = quality_around(d_, v, node.at);
         const double after = quality_around(d_, v, target);
-        if (!(after >= std::min(0.1, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return;
+        if (!(after >= std::min(0.1, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return false;
         node.at = target;
         d_.contact[v] = tools;
         value_[v] = 0;
+        return true;
     }
 
     /// The point of the edge a-b on the tool, and on the surface or curve the edge is on.
@@ -301,7 +315,7 @@ bool fit_to_shapes(const Interface& f, Deformable& d) {
     for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
         if (!d.band.in_use(v) || (d.constraints[v].freedom == NodeFreedom::free && !d.contact[v])) continue;
         Vec3 x = d.band.nodes[v].at;
-        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && f.off_tools(v) <= f.tolerance) continue;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && f.d.off_tools(v) <= f.tolerance) continue;
         if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
@@ -341,9 +355,9 @@ Slots misfits(const Interface& f) {
     for (int v = band.original_nodes(); v < band.size(); ++v) {
         if (!band.in_use(v)) continue;
         const NodeConstraint& c = f.d.constraints[v];
-        const double allowed = f.d.constraints.is_straight(c) ? 10 * f.tolerance : largest_misfit * band.mean_edge_length(v);
+        const double allowed = f.d.constraints.is_straight(c) ? std::max(10 * f.tolerance, f.d.rounding) : largest_misfit * band.mean_edge_length(v);
         const bool on_shape = f.d.constraints.distance(c, band.nodes[v].at) <= allowed;
-        if (on_shape && f.off_tools(v) <= 10 * f.tolerance) continue;
+        if (on_shape && f.d.off_tools(v) <= 10 * f.tolerance) continue;
         found.places.push_back(band.nodes[v].at);
         for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
         for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
@@ -384,8 +398,8 @@ void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
 }
 
 /// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves bulge a quarter as far, so that a tool finds room between a
-/// curved skin and its chords where it found none.
-void refine(Interface& f, const Slots& slots) {
+/// curved skin and its chords where it found none. The band grows to `most_nodes` at most.
+void refine(Interface& f, const Slots& slots, double most_nodes) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
     for_parts(band, slots, [&](const auto& nodes) {
@@ -402,6 +416,7 @@ void refine(Interface& f, const Slots& slots) {
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (const auto& [length, a, b] : edges) {
+        if (band.size() >= most_nodes) break;
         // With both ends on the tool the halves would have to be, too.
         if (f.d.contact[a].common(f.d.contact[b]) || f.d.constraints.has_fixed_middle(a, b)) continue;
         const Deformable::SplitPoint point = f.d.fitted_split(a, b, f.d.along_edge(a, b, 0.5), {});
@@ -423,6 +438,24 @@ void refine(Interface& f, const Slots& slots) {
 }
 
 }  // namespace
+
+void put_on_tool(Interface& f, int v, const Tool& tool) {
+    Deformable& d = f.d;
+    const Contact tools = d.contact[v].with(&tool);
+    BandNode& node = d.band.nodes[v];
+    const double off = Deformable::off_tools(tools, node.at, 0);
+    d.contact[v] = tools;
+    if (off <= f.tolerance) return;
+    Vec3 target = node.at;
+    if (node.movable() && (!d.constraints.project(v, tools, target) || (target - node.at).norm() > steep * off)) {
+        target = tool.project(node.at);
+        d.constraints.fix_node(v);
+    }
+    if (quality_around(d, v, target) > 0.5 * quality_around(d, v, node.at)) node.at = target;
+    if (Deformable::off_tools(tools, node.at, 0) > f.tolerance) d.hold_beside(v, tools);
+}
+
+bool is_beside(const Interface& f, double distance, double reach) { return std::abs(distance) <= (f.holds_wide ? wide_beside : close_beside) * reach; }
 
 void cut_along(Interface& f, const Blade& blade) {
     Stopwatch watch(f.seconds);
@@ -459,38 +492,44 @@ void relax_band(Interface& f) {
 void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_tool) {
     const bool plain = whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
-    const double most_nodes = whole_tool ? std::numeric_limits<double>::infinity() : largest_growth * start.d.band.size();
+    const double most_nodes = largest_growth * start.d.band.size();
     std::optional<Interface> best;
-    double best_quality = degenerate_quality;
+    double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
+    bool tried_wide = false;
     for (int attempt = 1, polished = 0;; ++attempt) {
         cut(f);
         Slots bad = misfits(f);
         bool polish = false;
         if (bad.empty()) {
-            if (plain) return;
             const double enough = f.d.mids.any() ? second_order_quality : poor_quality;
             const double quality = poorest(f, std::max(1.5 * poor_quality, enough), bad);
             if (quality >= enough) return;
+            polish = true;
             if (quality > best_quality) {
                 best_quality = quality;
                 best = f;
+            } else {
+                start.holds_wide = false;
             }
-            polish = true;
+            // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
+            if (plain && (tried_wide || quality >= poor_quality)) break;
             if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
         }
-        if (attempt == attempts || start.d.band.size() > most_nodes) {
+        if (attempt == attempts || start.d.band.size() >= most_nodes) {
             if (!best) fail_at(f, bad);
             break;
         }
         // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would get
         // farther into elements whose nodes are not put on it.
         std::vector<char>& off_tool = start.d.off_tool;
-        if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
+        if (polish && !tried_wide && best_quality < poor_quality) {
+            start.holds_wide = tried_wide = true;
+        } else if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
             for_parts(start.d.band, bad, [&](const auto& nodes) {
                 for (const int v : nodes) off_tool[v] = 1;
             });
         } else {
-            refine(start, bad);
+            refine(start, bad, most_nodes);
             std::ranges::fill(off_tool, 0);
         }
         const auto seconds = f.seconds;
@@ -498,7 +537,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
         f.seconds = seconds;
     }
     f = std::move(*best);
-    if (best_quality >= poor_quality) return;
+    if (best_quality >= poor_quality || plain) return;
     std::ostringstream text;
     text.precision(2);
     text << "the " << f.tool->kind() << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality

@@ -19,7 +19,7 @@ from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import read, write
 from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
-from .report import ElementQuality, GroupRecord, Quality, QualitySummary, Refinement, Report
+from .report import ElementQuality, GroupRecord, HeldNodes, PoorPlace, Quality, QualitySummary, Refinement, Report
 from .skin import Shape
 from .tools import Cone, Cylinder, Face, Plane, Sphere, Tool, Torus
 from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within

@@ -5,7 +5,7 @@ import csv
 import dataclasses
 import os
 from dataclasses import dataclass
-from typing import Dict, List, NamedTuple, Optional
+from typing import Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -72,6 +72,30 @@ class GroupRecord:
     status: str  #: "untouched", "kept", "changed", "reduced" (lost members to a tool), "became empty" or "new"
 
 
+@dataclass(frozen=True)
+class HeldNodes:
+    """Nodes of the interface that something holds a little beside the tool: it goes through them where they are."""
+
+    count: int
+    largest: float  #: how far they are off the tool, in the mesh's unit
+    groups: List[str]  #: whose boundary holds them
+    features: List[str]  #: what else does: "the skin", "a corner", ...
+
+
+@dataclass(frozen=True)
+class PoorPlace:
+    """A place where elements came out with a mean ratio below 0.02 (and below a tenth of the worst there was), as what is kept there and the
+    tool leave no room for better ones."""
+
+    elements: List[int]  #: numbers of the input's elements that they are parts of, worst first
+    mean_ratio: float  #: of the worst
+    place: Tuple[float, float, float]  #: its middle
+    groups: List[str]  #: whose boundary is kept there: without them in `preserve`, there is room
+    features: List[str]  #: what else is kept: "the skin", "a feature line", ...
+    gap: float  #: between the tool and what is kept, at the worst: the tool moved by so much goes through it
+    room: float  #: how large that would have to be for good elements
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Report:
     """What an operator did; the same for all operators. Lengths are in the mesh's unit."""
@@ -86,6 +110,8 @@ class Report:
     constraints: Dict[str, int]
     quality: Quality  #: near the tool, before and after
     groups: List[GroupRecord]
+    held: HeldNodes
+    poor: List[PoorPlace]  #: empty when all is well
     refinement: Optional[Refinement]  #: part of what the counts below say
     nodes_added: int  #: by splitting and by doubling
     nodes_split: int  #: of them, born on split edges
@@ -103,6 +129,8 @@ class Report:
         fields = dict(fields)
         before, after = (QualitySummary._from_engine(fields.pop(key)) for key in ("quality_before", "quality_after"))
         groups = [GroupRecord(**g) for g in fields.pop("groups")]
+        fields["held"] = HeldNodes(**fields["held"])
+        fields["poor"] = [PoorPlace(**p) for p in fields["poor"]]
         if fields["refinement"] is not None:
             fields["refinement"] = Refinement(*fields["refinement"])
         return cls(quality=Quality(before, after), groups=groups, **fields)

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mesh/rounding.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+namespace femscalpel {
+namespace {
+
+/// Coordinates that are looked at, at most.
+constexpr std::size_t sample = 6000;
+
+/// A coordinate with fewer significant digits is simple: it says nothing about how the others were rounded.
+constexpr int fewest_digits = 5;
+/// One with more was not rounded to decimals.
+constexpr int most_digits = 11;
+/// A number of single precision that has as few decimal digits may as well be just that.
+constexpr int digits_of_single = 8;
+
+/// Parts of the coordinates that are not simple: from so many on they were rounded so; a last digit that so many of these have is the
+/// file's (one in ten ends in a zero).
+constexpr double noticed = 0.05, typical = 0.15;
+
+/// The files meant have six digits or more.
+constexpr double coarsest = 1e-5;
+
+struct Decimal {
+    int digits;  ///< significant
+    int last;    ///< power of ten of the last
+};
+
+/// The shortest decimal number that is read as `x`, which is not 0.
+Decimal shortest(double x) {
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.begin(), text.end(), std::abs(x), std::chars_format::scientific).ptr;
+    const std::string_view all(text.data(), static_cast<std::size_t>(end - text.data()));
+    const std::size_t e = all.find('e');
+    std::string_view mantissa = all.substr(0, e);
+    int exponent = 0;
+    const char* from = all.data() + e + 1;
+    std::from_chars(*from == '+' ? from + 1 : from, all.data() + all.size(), exponent);
+    while (mantissa.back() == '0') mantissa.remove_suffix(1);
+    const int digits = static_cast<int>(std::ranges::count_if(mantissa, [](char c) { return c != '.'; }));
+    return {digits, exponent - digits + 1};
+}
+
+}  // namespace
+
+double coordinate_rounding(std::span<const Vec3> points) {
+    double largest = 0;
+    for (const Vec3& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    const std::size_t stride = std::max<std::size_t>(1, points.size() * 3 / sample);
+    int telling = 0, singles = 0, decimals = 0;
+    std::map<int, int> last_digits;
+    for (std::size_t k = 0; k < points.size(); k += stride)
+        for (int a = 0; a < 3; ++a) {
+            const double x = points[k][a];
+            // Small ones have digits that the large ones lack.
+            if (!(std::abs(x) >= 0.1 * largest) || x == 0) continue;
+            const Decimal d = shortest(x);
+            if (d.digits < fewest_digits) continue;
+            ++telling;
+            if (d.digits >= digits_of_single && static_cast<double>(static_cast<float>(x)) == x) ++singles;
+            if (d.digits > most_digits) continue;
+            ++decimals;
+            ++last_digits[d.last];
+        }
+    double rounding = 0;
+    if (singles > noticed * telling) rounding = std::ldexp(largest, -24);
+    if (decimals > noticed * telling)
+        for (const auto& [last, count] : last_digits)
+            if (count > typical * decimals) rounding = std::max(rounding, 0.5 * std::pow(10.0, last));
+    return std::min(rounding, coarsest * largest);
+}
+
+}  // namespace femscalpel

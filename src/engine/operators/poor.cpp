@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/poor.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace femscalpel {
+namespace {
+
+/// Mean ratio below which no element may be without a word, and the part of the input's worst that is as bad.
+constexpr double poor_limit = 0.02, part_of_worst = 0.1;
+
+/// Elements between the tool and what is so many edge lengths away have no reason to be poor.
+constexpr double roomy = 0.15;
+
+/// So many elements and groups are named.
+constexpr std::size_t named = 5;
+
+/// What keeps nodes from moving freely.
+struct Holders {
+    std::set<std::string> groups;
+    std::set<std::string> features;
+
+    bool any() const { return !groups.empty() || !features.empty(); }
+    auto operator<=>(const Holders&) const = default;
+};
+
+void add_holders(const Interface& f, const Mesh& mesh, int node, Holders& out) {
+    const NodeConstraints& constraints = f.d.constraints;
+    if (f.d.contact[node].count() > 1) out.features.insert("an edge of the tool");
+    const NodeFreedom freedom = constraints[node].freedom;
+    if (freedom == NodeFreedom::free) return;
+    const std::size_t before = out.groups.size() + out.features.size();
+    for (const GroupIndex g : constraints.groups_at(f.d.band, node)) {
+        if (mesh.groups[g].hidden) out.features.insert("a card of the solver's input");
+        else out.groups.insert(mesh.groups[g].name);
+    }
+    const std::size_t lines = f.d.band.creases.around(node).size();
+    if (constraints.is_on_skin(f.d.band, node)) out.features.insert(lines == 0 ? "the skin" : lines == 2 ? "a feature line" : "a corner");
+    if (out.groups.size() + out.features.size() == before) out.features.insert("the elements around them");
+}
+
+std::string join(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t k = 0; k < words.size() && k < named; ++k) text += (k ? ", " : "") + words[k];
+    if (words.size() > named) text += ", ... (" + std::to_string(words.size()) + " in all)";
+    return text;
+}
+
+/// "the skin, a corner, and the borders of A, B"
+std::string describe(const Holders& holders) {
+    std::vector<std::string> groups;
+    for (const std::string& g : holders.groups) groups.push_back("'" + g + "'");
+    std::string text = join({holders.features.begin(), holders.features.end()});
+    if (!groups.empty()) text += (text.empty() ? "the border of " : " and the border of ") + join(groups);
+    return text;
+}
+
+std::vector<std::string> listed(const std::set<std::string>& words) { return {words.begin(), words.end()}; }
+
+struct PoorElement {
+    double quality;
+    Index id;
+    std::array<int, 4> nodes;  ///< the last is -1 for a triangle
+};
+
+std::vector<PoorElement> elements_below(double limit, const Interface& f, const Mesh& mesh) {
+    const BandMesh& band = f.d.band;
+    std::vector<PoorElement> out;
+    for (int t = 0; t < band.tetras.size(); ++t)
+        if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t)) {
+            const CellRef& c = band.tetra_cells[band.tetras.origin(t)];
+            out.push_back({tetra_quality(f.d, t), mesh.block(c.type).ids[c.cell], band.tetras[t]});
+        }
+    for (int t = 0; t < band.triangles.size(); ++t) {
+        if (!band.triangles.alive(t) || !f.d.constraints.is_shell(band.triangles.origin(t))) continue;
+        const double quality = shell_quality(f.d, t);
+        if (!(quality < limit)) continue;
+        const CellRef& c = band.triangle_cells[band.triangles.origin(t)];
+        const auto& n = band.triangles[t];
+        out.push_back({quality, mesh.block(c.type).ids[c.cell], {n[0], n[1], n[2], -1}});
+    }
+    std::ranges::sort(out, {}, [](const PoorElement& e) { return std::pair(e.quality, e.id); });
+    return out;
+}
+
+}  // namespace
+
+HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
+    HeldNodes out;
+    Holders holders;
+    for (const int v : f.nodes) {
+        if (f.d.band.is_new(v) || f.d.held_off[v] == 0) continue;
+        ++out.count;
+        out.largest = std::max(out.largest, Deformable::off_tools(f.d.contact[v], f.d.band.nodes[v].at, 0));
+        add_holders(f, mesh, v, holders);
+    }
+    out.groups = listed(holders.groups);
+    out.features = listed(holders.features);
+    if (out.largest <= std::max(f.tolerance, f.d.rounding)) return out;
+    std::ostringstream text;
+    text << "the " << f.tool->kind() << " passes " << out.count << " node(s), held by " << describe(holders) << ", at up to " << out.largest
+         << ": it goes through them where they are, as elements in between would be too flat";
+    f.warnings.push_back(text.str());
+    return out;
+}
+
+std::vector<PoorPlace> find_poor_places(Interface& f, const Mesh& mesh, double worst_before) {
+    const std::vector<PoorElement> poor = elements_below(std::min(poor_limit, part_of_worst * worst_before), f, mesh);
+    std::map<Holders, PoorPlace> places;
+    for (const PoorElement& e : poor) {
+        Holders holders;
+        Vec3 middle = Vec3::Zero();
+        double gap = 0, edge = 0;
+        int count = 0;
+        for (const int v : e.nodes) {
+            if (v < 0) continue;
+            add_holders(f, mesh, v, holders);
+            middle += f.d.band.nodes[v].at;
+            edge += f.d.band.mean_edge_length(v);
+            gap = std::max(gap, std::abs(f.tool->distance(f.d.band.nodes[v].at)));
+            ++count;
+        }
+        middle /= count;
+        if (!holders.any()) {
+            std::ostringstream text;
+            text << "an element near (" << middle.transpose() << "), part of element " << e.id << ", would have a mean ratio of " << e.quality
+                 << " though nothing there holds its nodes. Move the " << f.tool->kind() << " a little, or refine the mesh there";
+            throw QualityError(text.str());
+        }
+        PoorPlace& place = places[holders];
+        if (place.elements.empty()) {  // the worst comes first
+            place.mean_ratio = e.quality;
+            place.place = middle;
+            place.gap = gap;
+            place.room = roomy * edge / count;
+            place.groups = listed(holders.groups);
+            place.features = listed(holders.features);
+        }
+        if (std::ranges::find(place.elements, e.id) == place.elements.end()) place.elements.push_back(e.id);
+    }
+    std::vector<std::pair<PoorPlace, Holders>> found;
+    for (auto& [holders, place] : places) found.push_back({std::move(place), holders});
+    std::ranges::sort(found, {}, [](const auto& p) { return p.first.mean_ratio; });
+    std::vector<PoorPlace> out;
+    for (auto& [place, holders] : found) {
+        std::ostringstream text;
+        text.precision(3);
+        text << "poor elements, with a mean ratio down to " << place.mean_ratio << ", near (" << place.place.transpose() << "), between the " << f.tool->kind() << " and "
+             << describe(holders) << ", which leave no room for better ones. ";
+        if (!place.groups.empty()) text << "Leave " << join(place.groups) << " out of preserve, or move";
+        else text << "Move";
+        text << " the " << f.tool->kind() << " there by " << place.gap << " towards it";
+        if (place.gap < place.room) text << " or by " << place.room - place.gap << " away from it";
+        f.warnings.push_back(text.str());
+        out.push_back(std::move(place));
+    }
+    return out;
+}
+
+}  // namespace femscalpel
