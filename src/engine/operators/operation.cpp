@@ -195,7 +195,7 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
 
 /// Where nothing is taken away and borders stay, only the corners between the facets of a curved skin can get lost, when their nodes
 /// move: warns where that is much of the mesh or of a group.
-void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, Report& report) {
+void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, const std::vector<bool>& meaningless, Report& report) {
     const int dimension = before.dimension();
     const auto all = [&](const FamilyTotals& t) {
         double sum = 0;
@@ -208,7 +208,8 @@ void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const 
         if (was > 0 && std::abs(is - was) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * (is - was) / was << " %";
     };
     look("the mesh", all(totals), all(after));
-    for_each_record(before, report, [&](std::size_t, const GroupRecord& r) {
+    for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
+        if (!meaningless.empty() && meaningless[g]) return;
         if (r.kind == GroupKind::element && r.dimension == dimension) look("'" + r.name + "'", r.measure_before, r.measure_after);
     });
     if (message.tellp() > 0)
@@ -352,6 +353,7 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     if (!prepared.marks) own_marks_ = mark_deck(input);
     marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
+    meaningless_ = groups_of(marks_->surface_sets, mesh());
     numbering_ = next_numbers(whole());
     if (prepared.refined) {
         report_.warnings = prepared.refined->report.warnings;
@@ -403,11 +405,12 @@ void Operation::crop_to_band(std::vector<CellRef>& removed) {
     location_ = std::move(part);
 }
 
-std::vector<Index> Operation::pinned() const {
-    if (!part_) return marks_->pinned;
+/// Indices of nodes of the whole mesh (ascending) in mesh().
+std::vector<Index> Operation::in_part(const std::vector<Index>& nodes) const {
+    if (!part_) return nodes;
     std::vector<Index> out;
     for (std::size_t n = 0; n < part_->nodes.size(); ++n)
-        if (std::ranges::binary_search(marks_->pinned, part_->nodes[n])) out.push_back(static_cast<Index>(n));
+        if (std::ranges::binary_search(nodes, part_->nodes[n])) out.push_back(static_cast<Index>(n));
     return out;
 }
 
@@ -431,8 +434,10 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options_.feature_angle;
     constraint_options.drifting_groups = drifting_;
+    constraint_options.meaningless = meaningless_;
     constraint_options.kept_hidden = marks_->kept;
-    constraint_options.pinned = pinned();
+    constraint_options.pinned = in_part(marks_->pinned);
+    constraint_options.related = in_part(marks_->related);
     if (prepared_.refined) constraint_options.on_shortcuts = prepared_.refined->on_shortcuts;
     constraint_options.shape = options_.skin;
     const Tool& first = *blades.front().tool;
@@ -474,6 +479,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
     Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
     if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
+    if (!marks_->surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
     if (input_.solver_input && !part_) {
@@ -508,9 +514,12 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         recount_nodes_and_facets(after, rebuilt.mesh);
     }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
-    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, report_);
+    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, meaningless_, report_);
+    const auto follows_surfaces = [&](const GroupRecord& g) {
+        return std::ranges::any_of(marks_->surface_sets, [&](const SurfaceSet& s) { return mesh().groups[s.group].name == g.name && g.kind == GroupKind::element; });
+    };
     for (const GroupRecord& g : report_.groups)
-        if (g.status == "became empty")
+        if (g.status == "became empty" && !follows_surfaces(g))
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &deck_warnings})
         for (const std::string& w : *warnings)
@@ -520,6 +529,8 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
+    if (!meaningless_.empty())
+        for_each_record(mesh(), report_, [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
     watch_.lap("report");
     remove_marks(rebuilt.mesh);
     return {std::move(rebuilt.mesh), std::move(report_)};
