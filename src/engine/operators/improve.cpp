@@ -38,7 +38,7 @@ public:
                 for (int j = 0; j < i; ++j) {
                     const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).squaredNorm();
                     if (length > longest && (band_.nodes[v[i]].movable() || band_.nodes[v[j]].movable()) &&
-                        !d_.constraints.has_fixed_middle(v[i], v[j])) {
+                        !d_.constraints.has_fixed_middle(v[i], v[j]) && !d_.constraints.is_related_edge(band_, v[i], v[j])) {
                         longest = length;
                         a = v[i];
                         b = v[j];
@@ -94,6 +94,7 @@ private:
         if (!band_.cut_faces.around(p).empty() && !joined(band_.cut_faces, p, t)) return false;
         if (!band_.cut_edges.around(p).empty() && !joined(band_.cut_edges, p, t)) return false;
         const NodeConstraint& c = d_.constraints[p];
+        if (d_.constraints.is_related(p) && !band_.skin.around(p).empty()) return false;
         // On a surface or crease the edge p-t itself must run in it.
         if (!band_.creases.around(p).empty()) {
             if (c.freedom != NodeFreedom::curve || !joined(band_.creases, p, t)) return false;
