@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
+#include "operators/held_nodes.h"
 #include "operators/refine_first.h"
 
 namespace femscalpel {
@@ -226,6 +227,31 @@ void count_group_constraints(const Interface& f, const Mesh& before, Report& rep
         r.nodes_on_line = counts[g].line;
         r.nodes_fixed = counts[g].fixed;
     });
+}
+
+/// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements came out poor.
+void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) {
+    constexpr double poor = 0.2, fallen = 0.6;  // mean ratio; part of what it was before
+    constexpr std::size_t named = 5;
+    const double was = report.quality_before.minimum, is = report.quality_after.minimum;
+    if (is >= poor || is >= fallen * was) return;
+    const HeldNodes held = held_inside(f);
+    if (!held.many()) return;
+    const auto counts = f.d.constraints.count_by_group(f.d.band, held.nodes, before.groups.size());
+    std::vector<std::pair<Index, GroupIndex>> most;
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+        if (const Index n = counts[g].line + counts[g].fixed; n > 0 && !before.groups[g].hidden) most.push_back({-n, static_cast<GroupIndex>(g)});
+    if (most.empty()) return;
+    std::ranges::sort(most);
+    std::ostringstream message;
+    message.precision(2);
+    message << "borders of groups inside the material hold " << held.nodes.size() << " of " << held.inside << " nodes near the tool, where the lowest mean ratio fell from " << was
+            << " to " << is << ": most are on those of ";
+    for (std::size_t k = 0; k < most.size() && k < named; ++k)
+        message << (k > 0 ? ", " : "") << "'" << before.groups[most[k].second].name << "' (" << -most[k].first << ")";
+    if (most.size() > named) message << " and of " << most.size() - named << " more groups";
+    message << ". Give `preserve` without those whose borders need not keep their shape; they keep their elements all the same";
+    report.warnings.push_back(message.str());
 }
 
 /// Of groups whose boundary was not kept: how far it went.
@@ -528,6 +554,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     if (refined) join_refinement(rebuilt);
     describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
+    warn_of_held_nodes(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
     if (!meaningless_.empty())
         for_each_record(mesh(), report_, [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
