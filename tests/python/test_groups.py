@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import csv
+import re
 
 import numpy as np
 import pytest
@@ -144,3 +145,36 @@ def test_constraints_by_group_in_every_form(tmp_path):
         row = rows_of[g.name, g.kind]
         assert [int(row[k]) for k in ("nodes_on_surface", "nodes_on_line", "nodes_fixed")] == [g.nodes_on_surface, g.nodes_on_line, g.nodes_fixed]
         assert row["boundary_kept"] == "True" and float(row["measure_after"]) == g.measure_after and row["status"] == g.status
+
+
+def test_scattered_groups_that_hold_nodes_everywhere_are_warned_of():
+    mesh = grid_box((12, 10, 8))
+    ids = mesh.cell_ids["tetra"]
+    plane = fs.Plane((3.1, 2.5, 2.0), (1.0, 0.2, 0.3))
+    assert not any("hold" in w for w in fs.crack(mesh, plane, name="CRACK").report.warnings)
+    rng = np.random.default_rng(3)
+    for k in range(100):
+        mesh.add_group(f"R{k:02}", "element", rng.choice(ids, 60, replace=False))
+    report = fs.crack(mesh, plane, name="CRACK").report
+    (warning,) = [w for w in report.warnings if "hold" in w]
+    assert report.quality.after.minimum < 0.2 and "preserve" in warning
+    # Those named first hold most nodes.
+    named = re.findall(r"'(\w+)' \((\d+)\)", warning)
+    assert len(named) == 5 and [int(n) for _, n in named] == sorted((int(n) for _, n in named), reverse=True)
+    held = {g.name: g.nodes_fixed + g.nodes_on_line for g in report.groups if g.name.startswith("R")}
+    assert all(held[name] >= int(n) >= 10 for name, n in named)
+    # Without them it is as it was, and nothing is said.
+    free = fs.crack(mesh, plane, name="CRACK", preserve=()).report
+    assert free.quality.after.minimum > 0.4 and not any("hold" in w for w in free.warnings)
+
+
+def test_a_group_that_alternates_keeps_its_members_and_the_elements_their_shape():
+    mesh = grid_box((12, 10, 8))
+    inner = ((mesh.points > 0) & (mesh.points < (6, 5, 4))).all(axis=1)
+    points = mesh.points + np.random.default_rng(1).uniform(-0.07, 0.07, mesh.points.shape) * inner[:, None]
+    mesh = fs.Mesh(points, mesh.cells)
+    mesh.add_group("ALT", "element", mesh.cell_ids["tetra"][::2])
+    result = fs.crack(mesh, fs.Plane((3.1, 2.5, 2.0), (1.0, 0.2, 0.3)), name="CRACK")
+    (alternating,) = [g for g in result.report.groups if g.name == "ALT"]
+    assert abs(alternating.measure_after - alternating.measure_before) < 2e-3 * alternating.measure_before
+    assert result.report.quality.after.minimum > 0.2

@@ -9,22 +9,32 @@ std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vect
     using Field = std::vector<Vec3>;
     Field out(unknown.size(), Vec3::Zero());
     if (unknown.empty() || known.empty()) return out;
-    std::vector<int> place_of(static_cast<std::size_t>(band.size()), -1);
-    for (std::size_t k = 0; k < unknown.size(); ++k) place_of[unknown[k]] = static_cast<int>(k);
+    // Nodes that cannot move stay at zero, and cost nothing.
+    std::vector<int> place_of(static_cast<std::size_t>(band.size()), -1), moving;
+    std::vector<Eigen::Matrix3d> basis_of;
+    std::vector<int> freedom;
+    for (std::size_t k = 0; k < unknown.size(); ++k) {
+        Eigen::Matrix3d basis;
+        const int count = d.constraints.tangents(unknown[k], d.contact[unknown[k]], band.nodes[unknown[k]].at, basis);
+        if (count == 0) continue;
+        place_of[unknown[k]] = static_cast<int>(moving.size());
+        moving.push_back(static_cast<int>(k));
+        basis_of.push_back(basis);
+        freedom.push_back(count);
+    }
     std::vector<int> given_of(static_cast<std::size_t>(band.size()), -1);
     for (std::size_t k = 0; k < known.size(); ++k) given_of[known[k]] = static_cast<int>(k);
 
     // One scalar stiffness matrix, in compressed rows, serves the three directions; constraints enter as projectors.
     std::vector<int> row{0}, column;
-    std::vector<double> bars, diagonal(unknown.size());
-    Field residual(unknown.size(), Vec3::Zero());
+    std::vector<double> bars, diagonal(moving.size());
+    Field residual(moving.size(), Vec3::Zero());
     std::vector<std::pair<std::size_t, Eigen::Matrix3d>> projectors;  // of the unknowns that are not free
     std::vector<int> neighbours;
-    for (std::size_t k = 0; k < unknown.size(); ++k) {
-        const int v = unknown[k];
-        Eigen::Matrix3d basis;
-        const int count = d.constraints.tangents(v, d.contact[v], band.nodes[v].at, basis);
-        if (count < 3) projectors.emplace_back(k, basis.leftCols(count) * basis.leftCols(count).transpose());
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+        const int v = unknown[moving[k]];
+        const auto tangent = basis_of[k].leftCols(freedom[k]);
+        if (freedom[k] < 3) projectors.emplace_back(k, tangent * tangent.transpose());
         band.neighbours(v, neighbours);
         for (const int w : neighbours) {
             const double bar = 1 / (band.nodes[w].at - band.nodes[v].at).norm();
@@ -64,7 +74,7 @@ std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vect
         project(image);
         const double step = energy / product(direction, image);
         for (std::size_t k = 0; k < image.size(); ++k) {
-            out[k] += step * direction[k];
+            out[moving[k]] += step * direction[k];
             residual[k] -= step * image[k];
             scaled[k] = residual[k] / diagonal[k];
         }

@@ -84,9 +84,10 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     // 1. Faces to be kept; which triangles are shells of their own, which segments hang loose.
     std::vector<bool> drifting(mesh.groups.size());
     for (std::size_t g = 0; g < mesh.groups.size(); ++g)
-        drifting[g] = mesh.groups[g].hidden ? options.kept_hidden.empty() || !options.kept_hidden[g]
-                                            : !options.drifting_groups.empty() && options.drifting_groups[g];
-    const BandBoundaries boundaries(band, mesh, drifting, options.on_shortcuts);
+        drifting[g] = (!options.meaningless.empty() && options.meaningless[g]) ||
+                      (mesh.groups[g].hidden ? options.kept_hidden.empty() || !options.kept_hidden[g]
+                                             : !options.drifting_groups.empty() && options.drifting_groups[g]);
+    const BandBoundaries boundaries(band, mesh, drifting, options.on_shortcuts, options.meaningless);
     struct Face {
         std::array<int, 3> nodes;
         int kind;
@@ -353,6 +354,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
 
     // 5. Freedom of each node. Isolated members of groups (IE) do not move.
     kinds_ = boundaries.kinds();
+    if (!options.related.empty())
+        for (int v = 0; v < node_count; ++v) related_.push_back(std::ranges::binary_search(options.related, band.nodes[v].global));
     for (const BandBoundaries::Node& n : boundaries.isolated()) {
         nodes_[n.node].freedom = NodeFreedom::fixed;
         isolated_.push_back({n.node, n.kind});
@@ -433,7 +436,13 @@ void NodeConstraints::add_node(const BandMesh& band, int node) {
     nodes_.resize(static_cast<std::size_t>(band.size()));
     exterior_.resize(static_cast<std::size_t>(band.size()), 0);
     leash_.resize(static_cast<std::size_t>(band.size()), std::numeric_limits<double>::infinity());
-    nodes_[node] = on_edge(band, band.births[node - band.original_nodes()].a, node);
+    const auto& [a, b] = band.births[node - band.original_nodes()];
+    nodes_[node] = on_edge(band, a, node);
+    if (!related_.empty()) {
+        related_.resize(static_cast<std::size_t>(band.size()));
+        related_[node] = related_[a] && related_[b];
+        if (related_[node] && nodes_[node].freedom != NodeFreedom::free) nodes_[node].freedom = NodeFreedom::fixed;
+    }
     for (const int s : band.skin.around(node)) {
         const Surface& surface = surfaces_[band.skin.tag(s)];
         if (!surface.internal && !surface.shell) exterior_[node] = 1;

@@ -32,8 +32,10 @@ struct NodeConstraint {
 struct ConstraintOptions {
     double feature_angle = 30;           ///< degrees
     std::vector<bool> drifting_groups;   ///< by group index: boundary may drift; empty = all are kept
+    std::vector<bool> meaningless;       ///< by group index: as if the group were not there; empty = none
     std::vector<bool> kept_hidden;       ///< by group index: hidden, but its boundary is kept; empty = none
     std::vector<Index> pinned;           ///< nodes (indices in the mesh, ascending) that must not move
+    std::vector<Index> related;          ///< nodes (as pinned): one born on the skin between two of them must not move, so that matching sides keep matching
     std::vector<Index> on_shortcuts;     ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
     const CadShape* shape = nullptr;     ///< what the mesh was made from: its skin is taken to be this, where it lies on it
     double tolerance = 0;                ///< what is nearer than this to something lies on it
@@ -56,6 +58,11 @@ public:
 
     /// Must be called after BandMesh::split_edge() made `node`: it keeps to what its edge was on.
     void add_node(const BandMesh& band, int node);
+
+    /// Whether equations relate the node to others, or both ends of the edge it was born on; and whether an edge of the skin runs
+    /// between such nodes. What is made or taken away there on one side of a pair would be missed on the other.
+    bool is_related(int node) const { return !related_.empty() && related_[node]; }
+    bool is_related_edge(const BandMesh& band, int a, int b) const { return is_related(a) && is_related(b) && is_skin_edge(band, a, b); }
 
     /// Whether the mid-side node of the edge a-b must not move: an isolated member of a group (IE), or pinned.
     bool has_fixed_middles() const { return !fixed_middles_.empty(); }
@@ -214,6 +221,7 @@ private:
     std::vector<Curve> curves_;
     std::vector<std::vector<int>> facets_around_;    // by input node
     std::vector<std::vector<int>> segments_around_;  // by input node
+    std::vector<char> related_;   // nodes related by equations, and those born between them; empty if none
     std::vector<double> leash_;
     std::vector<char> exterior_;
     std::vector<char> shell_;

@@ -136,7 +136,8 @@ private:
 
 }  // namespace
 
-BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting, std::span<const Index> on_shortcuts) {
+BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting, std::span<const Index> on_shortcuts,
+                               const std::vector<bool>& meaningless) {
     Sets sets(sets_);
     std::vector<int> kept(static_cast<std::size_t>(mesh.families.size()), -1);
     const auto kept_groups = [&](FamilyIndex f) {
@@ -152,8 +153,9 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     const auto of_cell = [&](const CellRef& c) { return kept_groups(family_of(c)); };
     // Whether an element or facet inside the material or on the skin is kept where it is: it is in no group, or in
     // one that is kept.
+    const auto counts_for_nothing = [&](GroupIndex g) { return mesh.groups[g].hidden || (!meaningless.empty() && meaningless[g]); };
     const auto is_kept = [&](FamilyIndex f) {
-        return kept_groups(f) != 0 || std::ranges::all_of(mesh.families.groups(f), [&](GroupIndex g) { return mesh.groups[g].hidden; });
+        return kept_groups(f) != 0 || std::ranges::all_of(mesh.families.groups(f), counts_for_nothing);
     };
 
     // Node groups of each node; one born here is in those of both ends.

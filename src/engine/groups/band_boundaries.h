@@ -51,8 +51,10 @@ public:
     };
 
     /// Analyses `band`. Groups with drifting[g] count for nothing; if `drifting` is empty, hidden groups do. `on_shortcuts`: numbers,
-    /// ascending, of nodes that were born on shortcuts: they count as nodes on kept faces of their groups.
-    BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {}, std::span<const Index> on_shortcuts = {});
+    /// ascending, of nodes that were born on shortcuts: they count as nodes on kept faces of their groups. `meaningless`: by group index, groups that
+    /// drift as hidden ones do: an element in no other group is in none.
+    BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {}, std::span<const Index> on_shortcuts = {},
+                   const std::vector<bool>& meaningless = {});
 
     /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once.
     std::span<const Face> faces() const { return faces_; }

@@ -408,7 +408,7 @@ private:
     }
 
     /// Leaves a set to its cards where these still give its members. Sets that name other sets depend on
-    /// them, so this is repeated until nothing changes.
+    /// them, so this is repeated until nothing changes; surfaces come when the sets they name are settled.
     void choose_roles() {
         roles_.resize(input_->sets().size());
         for (std::size_t s = 0; s < roles_.size(); ++s)
@@ -416,14 +416,18 @@ private:
         for (bool changed = true; changed;) {
             changed = false;
             const auto now = evaluate_sets(mesh_, numbers_, *input_, contributed_, roles_, nullptr);
-            for (std::size_t s = 0; s < roles_.size(); ++s) {
-                if (roles_[s].state != SetRole::by_cards) continue;
-                const DeckSet& set = input_->sets()[s];
-                if (now[s].members == members_[s] && now[s].unheld == set.unheld && now[s].absent == set.absent)
-                    continue;
-                roles_[s].state = SetRole::replaced;
-                roles_[s].members = members_[s];
-                changed = true;
+            for (const bool surfaces : {false, true}) {
+                if (changed) break;
+                for (std::size_t s = 0; s < roles_.size(); ++s) {
+                    const DeckSet& set = input_->sets()[s];
+                    const bool is_surface = set.type == DeckSetType::node_surface || set.type == DeckSetType::element_surface;
+                    if (roles_[s].state != SetRole::by_cards || is_surface != surfaces) continue;
+                    if (now[s].members == members_[s] && now[s].unheld == set.unheld && now[s].absent == set.absent)
+                        continue;
+                    roles_[s].state = SetRole::replaced;
+                    roles_[s].members = members_[s];
+                    changed = true;
+                }
             }
         }
         has_own_card_.assign(roles_.size(), 0);
@@ -680,14 +684,44 @@ private:
             for (const OtherElement& e : input_->other_elements())
                 if (e.card == c) std::erase(unheld, std::array<Index, 2>{e.number, 0});
         }
+        const std::vector<std::string_view> lines = lines_still_true(s, given, unheld);
         std::ranges::sort(given);
         std::ranges::set_difference(members_[s], given, std::back_inserter(rest));
         if (defined && rest.empty() && unheld.empty()) return;
-        write_set(set.type, set.name, rest, unheld, "");
+        write_set(set.type, set.name, rest, unheld, "", lines);
+    }
+
+    /// Lines "set, label" of an element surface all of whose faces are still on it, and, added, what they give.
+    std::vector<std::string_view> lines_still_true(std::size_t s, std::vector<Index>& given, std::vector<std::array<Index, 2>>& unheld) const {
+        std::vector<std::string_view> out;
+        if (input_->sets()[s].type != DeckSetType::element_surface) return out;
+        for (const Card& card : input_->cards()) {
+            if (card.keyword != "SURFACE" || set_index(card) != s) continue;
+            CardReader line(card);
+            while (line.next_data_line()) {
+                Index number = 0;
+                if (line.integer(number)) continue;
+                const auto named = index_.find(DeckSetType::elset, line.field());
+                const int label = label_from_name(line.field());
+                if (!named || label == 0 || roles_[*named].state == SetRole::dropped) continue;
+                std::vector<Index> faces;
+                std::vector<std::array<Index, 2>> loose;
+                for (const Index id : members_[*named])
+                    if (traits(numbers_.cell(id)->type).dimension < 2) loose.push_back({id, label});
+                    else faces.push_back(8 * id + label);
+                for (const auto& [id, unused] : input_->sets()[*named].unheld) loose.push_back({id, label});
+                const auto is_unheld = [&](const auto& face) { return std::ranges::find(unheld, face) != unheld.end(); };
+                if (!std::ranges::includes(members_[s], faces) || !std::ranges::all_of(loose, is_unheld)) continue;
+                out.push_back(line.raw());
+                given.insert(given.end(), faces.begin(), faces.end());
+                std::erase_if(unheld, [&](const auto& face) { return std::ranges::find(loose, face) != loose.end(); });
+            }
+        }
+        return out;
     }
 
     void write_set(DeckSetType type, const std::string& name, std::span<const Index> members,
-                   std::span<const std::array<Index, 2>> unheld, const std::string& remark) {
+                   std::span<const std::array<Index, 2>> unheld, const std::string& remark, std::span<const std::string_view> lines = {}) {
         if (!remark.empty()) put_line(remark);
         const bool empty = members.empty() && unheld.empty();
         switch (type) {
@@ -701,7 +735,9 @@ private:
             case DeckSetType::node_surface: put_line("*SURFACE, NAME=" + name + ", TYPE=NODE"); break;
             case DeckSetType::element_surface: put_line("*SURFACE, NAME=" + name + ", TYPE=ELEMENT"); break;
         }
+        for (const std::string_view line : lines) put(line);
         if (type == DeckSetType::element_surface) {
+            start_line();
             for (Index key : members) {
                 const CellRef ref = *numbers_.cell(key / 8);
                 append_integer(out_, key / 8);

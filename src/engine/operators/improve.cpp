@@ -2,9 +2,11 @@
 #include "operators/improve.h"
 
 #include <cmath>
+#include <utility>
 
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
+#include "operators/held_nodes.h"
 
 namespace femscalpel {
 namespace {
@@ -20,8 +22,18 @@ public:
     /// Merges new nodes of bad elements away; true if any was.
     bool merge_nodes(double goal) {
         bool any = false;
+        // A node is in many elements; what it could not do once it cannot again, unless something was merged nearby.
+        std::vector<char> in_vain(static_cast<std::size_t>(band_.size()), 0);
         for (const auto& [quality, nodes] : bad_elements(goal))
-            for (const int p : nodes) any = (p >= 0 && band_.is_new(p) && band_.nodes[p].global < 0 && try_merge(p)) || any;
+            for (const int p : nodes) {
+                if (p < 0 || in_vain[p] || !band_.is_new(p) || band_.nodes[p].global >= 0) continue;
+                const int target = try_merge(p);
+                in_vain[p] = 1;
+                if (target < 0) continue;
+                any = true;
+                touched_.push_back(target);
+                for (const int v : nodes_near({target}, 3)) in_vain[v] = 0;
+            }
         return any;
     }
 
@@ -38,7 +50,7 @@ public:
                 for (int j = 0; j < i; ++j) {
                     const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).squaredNorm();
                     if (length > longest && (band_.nodes[v[i]].movable() || band_.nodes[v[j]].movable()) &&
-                        !d_.constraints.has_fixed_middle(v[i], v[j])) {
+                        !d_.constraints.has_fixed_middle(v[i], v[j]) && !d_.constraints.is_related_edge(band_, v[i], v[j])) {
                         longest = length;
                         a = v[i];
                         b = v[j];
@@ -51,11 +63,19 @@ public:
             const bool bent = !d_.constraints.is_straight(d_.constraints.on_edge(band_, a, b));
             // Off its tool a node would be off it for good.
             if (((bent || tools) && !fits) || curved_children(d_, a, b, at, tools) < curved_limit) continue;
-            d_.split_edge(a, b, at, tools);
+            touched_.push_back(d_.split_edge(a, b, at, tools));
             f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
             any = true;
         }
         return any;
+    }
+
+    /// Of some nodes, those within a few edges of what was merged and born since the last call.
+    std::vector<int> near_changes(const std::vector<int>& nodes) {
+        const std::vector<int> near = nodes_near(std::exchange(touched_, {}), 2);
+        std::vector<int> out;
+        std::ranges::copy_if(nodes, std::back_inserter(out), [&](int v) { return std::ranges::binary_search(near, v); });
+        return out;
     }
 
     /// How much the elements worse than `limit` lack, squared so that the worst weigh most.
@@ -94,6 +114,7 @@ private:
         if (!band_.cut_faces.around(p).empty() && !joined(band_.cut_faces, p, t)) return false;
         if (!band_.cut_edges.around(p).empty() && !joined(band_.cut_edges, p, t)) return false;
         const NodeConstraint& c = d_.constraints[p];
+        if (d_.constraints.is_related(p) && !band_.skin.around(p).empty()) return false;
         // On a surface or crease the edge p-t itself must run in it.
         if (!band_.creases.around(p).empty()) {
             if (c.freedom != NodeFreedom::curve || !joined(band_.creases, p, t)) return false;
@@ -166,8 +187,28 @@ private:
         return worst;
     }
 
-    bool try_merge(int p) {
-        if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return false;
+    /// The nodes within so many edges of some, ascending.
+    std::vector<int> nodes_near(std::vector<int> near, int rings) const {
+        const auto tidy = [](std::vector<int>& nodes) {
+            std::ranges::sort(nodes);
+            nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        };
+        std::vector<int> around, all;
+        for (tidy(near); rings > 0; --rings) {
+            all = near;
+            for (const int v : near) {
+                band_.neighbours(v, around);
+                all.insert(all.end(), around.begin(), around.end());
+            }
+            tidy(all);
+            near.swap(all);
+        }
+        return near;
+    }
+
+    /// Merges p into the neighbour that makes the elements around it best; that neighbour, or -1 if none makes them better.
+    int try_merge(int p) {
+        if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return -1;
         band_.neighbours(p, candidates_);
         double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;
         int target = -1;
@@ -179,10 +220,10 @@ private:
                 target = t;
             }
         }
-        if (target < 0) return false;
+        if (target < 0) return -1;
         band_.merge_node(p, target);
         d_.contact[p] = {};
-        return true;
+        return target;
     }
 
     Interface& f_;
@@ -190,15 +231,19 @@ private:
     BandMesh& band_;
     const Tool& tool_;
     std::vector<int> near_p_, near_t_, common_, candidates_;
+    std::vector<int> touched_;  // nodes born, and nodes others were merged into
 };
 
 }  // namespace
 
 void improve(Interface& f, const Tool& tool, double goal) {
     Improver improver(f, tool);
+    // Where borders are everywhere, most elements are too poor ever to be left alone: only what changed can gain.
+    const bool locally = held_inside(f).nearly_all_on_borders();
     const auto relax_again = [&] {
         find_node_sets(f);
-        relax(f.d, movable_nodes(f));
+        const std::vector<int> nodes = movable_nodes(f);
+        relax(f.d, locally ? improver.near_changes(nodes) : nodes);
     };
     for (int round = 0; round < 4 && improver.merge_nodes(goal); ++round) relax_again();
     // Splitting must pay: two rounds without gain end it.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
+#include "operators/held_nodes.h"
 #include "operators/poor.h"
 #include "operators/refine_first.h"
 
@@ -196,7 +197,7 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
 
 /// Where nothing is taken away and borders stay, only the corners between the facets of a curved skin can get lost, when their nodes
 /// move: warns where that is much of the mesh or of a group.
-void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, Report& report) {
+void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, const std::vector<bool>& meaningless, Report& report) {
     const int dimension = before.dimension();
     const auto all = [&](const FamilyTotals& t) {
         double sum = 0;
@@ -209,7 +210,8 @@ void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const 
         if (was > 0 && std::abs(is - was) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * (is - was) / was << " %";
     };
     look("the mesh", all(totals), all(after));
-    for_each_record(before, report, [&](std::size_t, const GroupRecord& r) {
+    for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
+        if (!meaningless.empty() && meaningless[g]) return;
         if (r.kind == GroupKind::element && r.dimension == dimension) look("'" + r.name + "'", r.measure_before, r.measure_after);
     });
     if (message.tellp() > 0)
@@ -226,6 +228,31 @@ void count_group_constraints(const Interface& f, const Mesh& before, Report& rep
         r.nodes_on_line = counts[g].line;
         r.nodes_fixed = counts[g].fixed;
     });
+}
+
+/// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements came out poor.
+void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) {
+    constexpr double poor = 0.2, fallen = 0.6;  // mean ratio; part of what it was before
+    constexpr std::size_t named = 5;
+    const double was = report.quality_before.minimum, is = report.quality_after.minimum;
+    if (is >= poor || is >= fallen * was) return;
+    const HeldNodes held = held_inside(f);
+    if (!held.many()) return;
+    const auto counts = f.d.constraints.count_by_group(f.d.band, held.nodes, before.groups.size());
+    std::vector<std::pair<Index, GroupIndex>> most;
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+        if (const Index n = counts[g].line + counts[g].fixed; n > 0 && !before.groups[g].hidden) most.push_back({-n, static_cast<GroupIndex>(g)});
+    if (most.empty()) return;
+    std::ranges::sort(most);
+    std::ostringstream message;
+    message.precision(2);
+    message << "borders of groups inside the material hold " << held.nodes.size() << " of " << held.inside << " nodes near the tool, where the lowest mean ratio fell from " << was
+            << " to " << is << ": most are on those of ";
+    for (std::size_t k = 0; k < most.size() && k < named; ++k)
+        message << (k > 0 ? ", " : "") << "'" << before.groups[most[k].second].name << "' (" << -most[k].first << ")";
+    if (most.size() > named) message << " and of " << most.size() - named << " more groups";
+    message << ". Give `preserve` without those whose borders need not keep their shape; they keep their elements all the same";
+    report.warnings.push_back(message.str());
 }
 
 /// Of groups whose boundary was not kept: how far it went.
@@ -353,6 +380,7 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     if (!prepared.marks) own_marks_ = mark_deck(input);
     marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
+    meaningless_ = groups_of(marks_->surface_sets, mesh());
     numbering_ = next_numbers(whole());
     if (prepared.refined) {
         report_.warnings = prepared.refined->report.warnings;
@@ -404,11 +432,12 @@ void Operation::crop_to_band(std::vector<CellRef>& removed) {
     location_ = std::move(part);
 }
 
-std::vector<Index> Operation::pinned() const {
-    if (!part_) return marks_->pinned;
+/// Indices of nodes of the whole mesh (ascending) in mesh().
+std::vector<Index> Operation::in_part(const std::vector<Index>& nodes) const {
+    if (!part_) return nodes;
     std::vector<Index> out;
     for (std::size_t n = 0; n < part_->nodes.size(); ++n)
-        if (std::ranges::binary_search(marks_->pinned, part_->nodes[n])) out.push_back(static_cast<Index>(n));
+        if (std::ranges::binary_search(nodes, part_->nodes[n])) out.push_back(static_cast<Index>(n));
     return out;
 }
 
@@ -432,8 +461,10 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options_.feature_angle;
     constraint_options.drifting_groups = drifting_;
+    constraint_options.meaningless = meaningless_;
     constraint_options.kept_hidden = marks_->kept;
-    constraint_options.pinned = pinned();
+    constraint_options.pinned = in_part(marks_->pinned);
+    constraint_options.related = in_part(marks_->related);
     if (prepared_.refined) constraint_options.on_shortcuts = prepared_.refined->on_shortcuts;
     constraint_options.shape = options_.skin;
     constraint_options.tolerance = location_.tolerance;
@@ -482,6 +513,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
     Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
     if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
+    if (!marks_->surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
     if (input_.solver_input && !part_) {
@@ -513,9 +545,12 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         recount_nodes_and_facets(after, rebuilt.mesh);
     }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
-    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, report_);
+    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, meaningless_, report_);
+    const auto follows_surfaces = [&](const GroupRecord& g) {
+        return std::ranges::any_of(marks_->surface_sets, [&](const SurfaceSet& s) { return mesh().groups[s.group].name == g.name && g.kind == GroupKind::element; });
+    };
     for (const GroupRecord& g : report_.groups)
-        if (g.status == "became empty")
+        if (g.status == "became empty" && !follows_surfaces(g))
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &deck_warnings})
         for (const std::string& w : *warnings)
@@ -524,7 +559,10 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     if (refined) join_refinement(rebuilt);
     describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
+    warn_of_held_nodes(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
+    if (!meaningless_.empty())
+        for_each_record(mesh(), report_, [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
     watch_.lap("report");
     remove_marks(rebuilt.mesh);
     return {std::move(rebuilt.mesh), std::move(report_)};

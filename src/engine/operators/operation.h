@@ -103,7 +103,7 @@ public:
 private:
     void join_refinement(const Rebuilt& rebuilt);
     void crop_to_band(std::vector<CellRef>& removed);
-    std::vector<Index> pinned() const;
+    std::vector<Index> in_part(const std::vector<Index>& nodes) const;
 
     const Mesh& input_;
     const OperatorOptions& options_;
@@ -116,6 +116,7 @@ private:
     std::optional<Crop> part_;
     std::vector<Blade> blades_;
     Location location_;
+    std::vector<bool> meaningless_;    // groups of DeckMarks::surface_sets, by index; empty if none
     std::vector<bool> drifting_;       // groups, by index; empty if none
     std::optional<DriftGauge> gauge_;  // of them
     std::future<std::pair<std::unique_ptr<Mesh>, FamilyTotals>> copy_;

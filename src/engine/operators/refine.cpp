@@ -472,7 +472,9 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options.feature_angle;
     constraint_options.kept_hidden = marks.kept;
+    constraint_options.meaningless = groups_of(marks.surface_sets, mesh);
     constraint_options.pinned = marks.pinned;
+    constraint_options.related = marks.related;
     constraint_options.shape = options.skin;
     // The propagation of longest edges leaves the elements to be refined by a few elements, seldom more.
     constexpr int first_band = 2, last_band = 64;
@@ -496,6 +498,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
     auto [output, totals] = copy.get();
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
+    if (!marks.surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
     watch.lap("rebuild");
     for (int v = f->d.band.original_nodes(); v < f->d.band.size(); ++v)
         if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free && !rebuilt.mesh.families.groups(rebuilt.mesh.node_families[n]).empty())

@@ -13,6 +13,7 @@
 #include "semantics/card_edits.h"
 #include "semantics/deck_view.h"
 #include "semantics/node_origins.h"
+#include "semantics/related_nodes.h"
 
 namespace femscalpel {
 namespace {
@@ -35,7 +36,7 @@ public:
     CarryOver(const Mesh& before, Mesh& after, const Changes& changes)
         : before_(before), after_(after), old_(before), new_numbers_(after),
           origins_(before, old_.numbers(), after, new_numbers_, changes), input_(*before.solver_input),
-          edits_(input_.cards().size()) {
+          edits_(input_.cards().size()), changes_(changes) {
         Vec3 low = Vec3::Constant(INFINITY), high = -low;
         for (const Vec3& x : before.points) {
             low = low.cwiseMin(x);
@@ -55,6 +56,7 @@ public:
     std::shared_ptr<const SolverInput> run() {
         strip_closed_sets();
         find_emptied();
+        relate_nodes();
         for (std::size_t c = 0; c < input_.cards().size(); ++c) carry_card(c);
         for (const auto& [key, cards] : pools_) carry_pool(cards);
         check_other_elements();
@@ -531,6 +533,78 @@ private:
         }
     }
 
+    /// An equation of nodes given by number.
+    struct Equation {
+        std::size_t card;
+        CardReader last;  // on its last line
+    };
+
+    /// All equations of numbered nodes, up to the first in a card that cannot be read. Sets are told of on their own.
+    std::vector<NodeEquation> read_equations() {
+        std::vector<NodeEquation> all;
+        for (std::size_t c = 0; c < input_.cards().size(); ++c) {
+            const Card& card = input_.cards()[c];
+            if (card.keyword != "EQUATION" || card.parameter("REMOVE")) continue;
+            CardReader line(card);
+            Index terms = 0;
+            while (line.next_data_line() && line.integer(terms) && terms > 0) {
+                const char* start = nullptr;
+                NodeEquation equation;
+                bool numbered = true, complete = true;
+                for (Index k = 0; k < terms && complete; ++k) {
+                    while (line.at_end() && (complete = line.next_data_line()))
+                        if (!start) start = line.raw().data();
+                    const auto node = read_number_or_set(line);
+                    const std::string dof = line.field(), factor = line.field();
+                    NodeEquation::Term term{node ? node->number : 0, 0, 0, dof + ", " + factor};
+                    numbered = numbered && node && node->is_number() && read_term(term);
+                    equation.terms.push_back(term);
+                }
+                if (!complete) break;
+                if (!numbered || !start) continue;
+                equation_at_.emplace(start, all.size());
+                equations_.push_back({c, line});
+                all.push_back(std::move(equation));
+            }
+        }
+        return all;
+    }
+
+    /// Finds the equations of new nodes.
+    void relate_nodes() {
+        const std::vector<NodeEquation> all = read_equations();
+        related_ = relate_new_nodes(all, before_, old_.numbers(), origins_, changes_);
+        for (const RelatedNodes::Made& made : related_.made) {
+            if (!std::ranges::all_of(made.nodes, [&](Index n) { return new_numbers_.node(n).has_value(); })) continue;
+            const NodeEquation& like = all[made.like];
+            std::string text = std::to_string(made.nodes.size());
+            for (std::size_t k = 0; k < made.nodes.size(); ++k)  // CalculiX reads four terms per line
+                text += (k % 4 == 0 ? "\n" : ", ") + std::to_string(made.nodes[k]) + ", " + like.terms[k].written;
+            edits_[equations_[made.like].card].add_after(equations_[made.like].last, text);
+        }
+        tell_unrelated(related_.missed, "lie between nodes that this card relates, but have no counterpart between the partners of these, or the equations of these are "
+                                        "of different form: they are not related. Give them equations, or move the tool so that both sides are divided alike");
+        tell_unrelated(related_.one_sided, "on the crack lie between nodes that this card relates, and their partners are not doubled: only those on the negative side are "
+                                           "related. Check the equations there");
+    }
+
+    static bool read_term(NodeEquation::Term& term) {
+        Card card;
+        card.set_text("*EQUATION\n" + term.written + "\n");
+        CardReader line(card);
+        return line.next_data_line() && line.integer(term.dof) && line.number(term.factor);
+    }
+
+    /// One message per card.
+    void tell_unrelated(const std::vector<RelatedNodes::Missed>& missed, const std::string& what) {
+        std::map<std::size_t, std::pair<CardReader, std::set<Index>>> by_card;
+        for (const RelatedNodes::Missed& m : missed)
+            by_card.try_emplace(equations_[m.like].card, equations_[m.like].last, std::set<Index>{}).first->second.second.insert(m.node);
+        for (const auto& [c, found] : by_card)
+            problems_.push_back(found.first.where() + "*" + input_.cards()[c].keyword + ": " + std::to_string(found.second.size()) + " new node(s), the first is " +
+                                std::to_string(*found.second.begin()) + ", " + what);
+    }
+
     void carry_equations(std::size_t c, const Card& card) {
         CardReader line(card);
         if (card.parameter("REMOVE")) {
@@ -546,6 +620,8 @@ private:
                 return;
             }
             lines.push_back(line);
+            const auto known = equation_at_.find(line.raw().data());
+            const bool copies_follow = known != equation_at_.end() && related_.copies_follow[known->second];
             std::vector<std::pair<CardReader, std::string>> changed;
             bool gone = false;
             std::string now;
@@ -564,7 +640,7 @@ private:
                     const auto what = read_number_or_set(line);
                     if (what && what->is_number()) {
                         gone = gone || node_gone(what->number);
-                        check_term(c, line, *what);
+                        check_term(c, line, *what, copies_follow);
                         field = std::to_string(what->number);
                     } else if (what) {
                         field = name_of_old_members(what->set);
@@ -590,11 +666,11 @@ private:
         }
     }
 
-    void check_term(std::size_t c, const CardReader& line, const NumberOrSet& what) {
+    void check_term(std::size_t c, const CardReader& line, const NumberOrSet& what, bool copies_follow = false) {
         if (!what.is_number()) return;
         if (node_gone(what.number))
             remark(c, true, line.where(), node_text(what.number), "was removed; its equation is left out");
-        else if (origins_.is_doubled(what.number))
+        else if (origins_.is_doubled(what.number) && !copies_follow)
             remark(c, true, line.where(), node_text(what.number), "the crack doubled; the equation stays with the original, on the negative side");
     }
 
@@ -648,8 +724,11 @@ private:
                 if (!more || !probe.integer(zero) || zero != 0) break;
                 line = probe;
             } while (true);
-            if (!lists_nodes) continue;
             std::ranges::sort(nodes);
+            if (!lists_nodes) {
+                tell_not_joining(last, type, nodes);
+                continue;
+            }
             std::string added;
             int count = 0;
             for (const NodeOrigins::Node& n : origins_.nodes()) {
@@ -661,6 +740,15 @@ private:
             }
             if (!added.empty()) edits_[c].add_after(last, "0" + added);
         }
+    }
+
+    void tell_not_joining(const CardReader& line, const std::string& type, const std::vector<Index>& nodes) {
+        std::set<Index> between;
+        for (const NodeOrigins::Node& n : origins_.nodes())
+            if (n.is_new && n.ancestors.size() > 1 && std::ranges::all_of(n.ancestors, [&](Index a) { return std::ranges::binary_search(nodes, a); })) between.insert(n.number);
+        if (!between.empty())
+            problems_.push_back(line.where() + "*MPC: " + std::to_string(between.size()) + " new node(s), the first is " + std::to_string(*between.begin()) +
+                                ", lie between nodes of this " + type + " MPC and do not join it");
     }
 
     void check_other_elements() {
@@ -836,6 +924,10 @@ private:
     NodeOrigins origins_;
     SolverInput input_;
     std::vector<CardEdits> edits_;  // by card
+    const Changes& changes_;
+    std::vector<Equation> equations_;                        // of nodes by number
+    std::unordered_map<const char*, std::size_t> equation_at_;  // the same by start of their first line of terms
+    RelatedNodes related_;
     double size_ = 0;
     std::vector<Index> new_nodes_;
     std::unordered_map<Index, std::vector<Index>> parts_;    // parent -> further parts

@@ -7,6 +7,7 @@
 
 #include "mesh/mesh.h"
 #include "semantics/changes.h"
+#include "semantics/surface_sets.h"
 
 namespace femscalpel {
 
@@ -16,6 +17,8 @@ struct DeckMarks {
     /// The operator works on this copy in place of its input.
     std::optional<Mesh> mesh;
     std::vector<bool> kept;      ///< by group index of `mesh`: a hidden group whose boundary must keep its shape
+    std::vector<SurfaceSet> surface_sets;  ///< element groups whose boundary means nothing, see renew_surface_sets()
+    std::vector<Index> related;  ///< of them, those related by equations: nodes born between two of them on the skin must not move either
     std::vector<Index> pinned;   ///< nodes (indices, ascending) that must not move: a force, a term of an equation
 };
 
@@ -24,6 +27,7 @@ struct DeckMarks {
 /// - Nodes of supports, and elements and element faces under distributed loads, that cards name by number (faces
 ///   also by set and label): those with one value on one card form a hidden group, to be kept like one of the
 ///   user's. So the loaded area, and with it the load, stays the same, and shows where the load is afterwards.
+/// - Element sets that exist only for surfaces are found: they constrain nothing, and follow the surfaces.
 /// - Nodes with concentrated loads and terms of equations by number, reference nodes, and nodes of elements
 ///   outside the mesh are pinned.
 DeckMarks mark_deck(const Mesh& mesh);
@@ -40,9 +44,11 @@ DeckMarks mark_deck(const Mesh& mesh);
 /// - *BOUNDARY, *TEMPERATURE, *INITIAL CONDITIONS, *NODAL THICKNESS, *SUBMODEL: copies of a node have what the node
 ///   has; a node born on an edge has it if both ends have. Values that differ from node to node are
 ///   interpolated in the old elements at the new node's place, also for nodes that moved.
-/// - *EQUATION, *NETWORK MPC: terms stay on the originals; sets with new members are replaced as for *CLOAD. An equation
+/// - *EQUATION: nodes born between nodes that have equations are related to those born between their partners, copies to copies
+///   (related_nodes.h); where there is none, terms stay on the originals, and that is told. *NETWORK MPC: terms stay on the originals. Sets with new members are replaced as for *CLOAD. An equation
 ///   with a removed node is left out: there is nothing any more that it would hold.
-/// - *MPC: PLANE and STRAIGHT get new nodes between their nodes, and lose removed ones; other types stay on the originals.
+/// - *MPC: PLANE and STRAIGHT get new nodes between their nodes, and lose removed ones; other types stay on the originals, and
+///   it is told where nodes are born between these.
 /// - *NORMAL, *DISTRIBUTION, *MODEL CHANGE, initial stresses, plastic strains and solution: parts of an element get
 ///   what the element has.
 /// - Reference nodes, nodes of elements outside the mesh stay the originals.

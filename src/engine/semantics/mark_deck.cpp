@@ -33,7 +33,9 @@ public:
             for (const Index node : e.nodes) pin(node);
         pin_ends_of_mid_nodes();
         DeckMarks out;
+        out.surface_sets = surface_sets(deck_.mesh());
         out.pinned.assign(pinned_.begin(), pinned_.end());
+        out.related.assign(related_.begin(), related_.end());
         if (!nodes_.empty() || !cells_.empty() || !faces_.empty()) out.mesh = marked(out.kept);
         return out;
     }
@@ -107,8 +109,10 @@ private:
                 }
                 const auto what = read_number_or_set(line);
                 if (k++ % 3 != 0 || !what) continue;
-                if (what->is_number()) pin(what->number);
-                else if (const auto group = deck_.group(DeckSetType::nset, what->set))
+                if (what->is_number()) {
+                    pin(what->number);
+                    if (const auto node = deck_.numbers().node(what->number)) related_.insert(*node);
+                } else if (const auto group = deck_.group(DeckSetType::nset, what->set))
                     for (const Index node : deck_.members(*group)) pin(node);
             }
         }
@@ -179,7 +183,7 @@ private:
     }
 
     DeckView deck_;
-    std::set<Index> pinned_;
+    std::set<Index> pinned_, related_;
     // By name of the group to be.
     std::map<std::string, std::vector<Index>> nodes_;
     std::map<std::string, std::vector<CellRef>> cells_;
