@@ -6,7 +6,7 @@
 
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
-#include "operators/held_nodes.h"
+#include "operators/held_inside.h"
 
 namespace femscalpel {
 namespace {

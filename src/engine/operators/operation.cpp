@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
-#include "operators/held_nodes.h"
+#include "operators/held_inside.h"
 #include "operators/poor.h"
 #include "operators/refine_first.h"
 

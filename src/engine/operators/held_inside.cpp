@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "operators/held_nodes.h"
+#include "operators/held_inside.h"
 
 namespace femscalpel {
 
-HeldNodes held_inside(const Interface& f) {
-    HeldNodes out;
+HeldInside held_inside(const Interface& f) {
+    HeldInside out;
     for (const auto* set : {&f.nodes, &f.transition})
         for (const int v : *set) {
             if (f.d.constraints.is_exterior(v)) continue;

@@ -8,7 +8,7 @@
 namespace femscalpel {
 
 /// Nodes near the tool that borders of groups inside the material hold.
-struct HeldNodes {
+struct HeldInside {
     std::vector<int> nodes;  ///< band nodes inside the material that stay on a line or where they are
     std::size_t on_borders = 0;  ///< they, and those that stay on a border
     std::size_t inside = 0;      ///< all band nodes inside the material
@@ -21,6 +21,6 @@ struct HeldNodes {
 };
 
 /// Of the interface and transition nodes of `f`.
-HeldNodes held_inside(const Interface& f);
+HeldInside held_inside(const Interface& f);
 
 }  // namespace femscalpel
