@@ -208,6 +208,13 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         int& kind = side_groups[slot];
         kind = sets.either(kind, kept_groups(mesh.facets[facet].family));
     }
+    // Shells on the same nodes (layers, a skin for a load) are one face: two would part the sheet along every edge.
+    std::vector<int> face_of_shell(static_cast<std::size_t>(band.triangles.size()), -1);
+    const auto face_on = [&](const std::array<int, 3>& v) {
+        for (const int other : band.triangles.around(v[0]))
+            if (face_of_shell[other] >= 0 && holds(band.triangles[other], v[1]) && holds(band.triangles[other], v[2])) return face_of_shell[other];
+        return -1;
+    };
     for (int t = 0; t < band.triangles.size(); ++t) {
         if (!band.triangles.alive(t) || !movable(band.triangles[t])) continue;
         const auto& v = band.triangles[t];
@@ -218,7 +225,10 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (const int at = index.find(v); at >= 0) {
             faces[at].element = faces[at].element || kind != 0 || is_kept(family_of(cell));
             faces[at].kind = sets.either(faces[at].kind, kind);
+        } else if (const int same = face_on(v); same >= 0) {
+            faces_[same].kind = sets.either(faces_[same].kind, kind);
         } else {
+            face_of_shell[t] = static_cast<int>(faces_.size());
             faces_.push_back({v, sets.either(kind, in_all(v)), {-1, -1}, true});
         }
     }

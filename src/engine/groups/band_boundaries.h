@@ -54,7 +54,8 @@ public:
     /// ascending, of nodes that were born on shortcuts: they count as nodes on kept faces of their groups.
     BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {}, std::span<const Index> on_shortcuts = {});
 
-    /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once.
+    /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once, also where several
+    /// shells have the same nodes: its groups are those of all.
     std::span<const Face> faces() const { return faces_; }
     std::span<const Line> lines() const { return lines_; }
     /// Ascending. A mid-side node of IE is represented by both ends of its edge.
