@@ -80,6 +80,9 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     skin like any other, and where cracks cross, every piece of the material has nodes of its own. The lips of the older crack keep
     their plane and area, but need not match node for node there any more; the report warns of that.
 
+    Shells that lie in the tool's surface come apart from those that stand on them: a plate stays with the negative side, or, where
+    others are joined to it on the negative side only, with the positive.
+
     Parameters
     ----------
     mesh : Mesh
@@ -133,7 +136,8 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     Raises
     ------
     ToolError
-        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool misses the mesh.
+        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool cuts nothing: the message says
+        where it passes instead.
     UnsupportedElementError
         The band around the tool reaches quadrangles, prisms, pyramids or hexahedra.
     QualityError
