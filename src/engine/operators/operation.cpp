@@ -86,47 +86,75 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
     return out;
 }
 
-/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool.
-void warn_of_grazing(Interface& f, const Tool& tool) {
+/// An element whose mean ratio fell below this part of what it was has become clearly worse.
+constexpr double clearly_worse = 0.75;
+
+/// Whether an element at a node is clearly worse than in the input.
+bool became_worse(const Interface& f, const Mesh& mesh, int v) {
     const BandMesh& band = f.d.band;
-    double smallest = 90;
+    const auto fell = [&](double now, const CellRef& cell) { return now < clearly_worse * mean_ratio(mesh, cell.type, cell.cell); };
+    return std::ranges::any_of(band.tetras.around(v), [&](int t) { return fell(tetra_quality(f.d, t), band.tetra_cells[band.tetras.origin(t)]); }) ||
+           std::ranges::any_of(band.triangles.around(v), [&](int t) {
+               return f.d.constraints.is_shell(band.triangles.origin(t)) && fell(shell_quality(f.d, t), band.triangle_cells[band.triangles.origin(t)]);
+           });
+}
+
+/// Whether all of the surface or curve that a node keeps to lies on the tool around it: then there is no wedge between them.
+bool lies_on(const Interface& f, const Tool& tool, int v) {
+    const BandMesh& band = f.d.band;
+    const NodeConstraint& c = f.d.constraints[v];
+    const auto on_tool = [&](const auto& list) {
+        return std::ranges::all_of(list.around(v), [&](int s) {
+            return list.tag(s) != c.shape || std::ranges::all_of(list[s], [&](int w) { return std::abs(tool.distance(band.nodes[w].at)) <= 10 * f.tolerance; });
+        });
+    };
+    return c.freedom == NodeFreedom::curve ? on_tool(band.creases) : c.freedom == NodeFreedom::surface && on_tool(band.skin);
+}
+
+std::string degrees(double angle) {
+    if (angle < 0.1) return "less than 0.1 degrees";
+    std::ostringstream text;
+    text.precision(2);
+    text << angle << " degrees";
+    return text.str();
+}
+
+/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool. Only where elements have become worse.
+void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
+    const BandMesh& band = f.d.band;
+    const auto angle = [](double sine) { return std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi; };
+    const auto counts = [&](int v) { return !lies_on(f, tool, v) && became_worse(f, mesh, v); };
+    constexpr double narrow = 5;
+    double smallest = narrow;
     for (const int v : f.nodes) {
         if (!f.d.contact[v].has(&tool)) continue;
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
         if (!normal) continue;
-        const double sine = normal->cross(tool.normal(band.nodes[v].at)).norm();
-        smallest = std::min(smallest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+        const double here = angle(normal->cross(tool.normal(band.nodes[v].at)).norm());
+        if (here < smallest && counts(v)) smallest = here;
     }
-    if (smallest < 5) {
-        std::ostringstream message;
-        message.precision(2);
-        message << "the " << tool.kind() << " meets a surface or group border at " << smallest
-                << " degrees: elements in the wedge between them cannot be better than the wedge";
-        f.warnings.push_back(message.str());
-    }
-    double flattest = 90;
+    if (smallest < narrow)
+        f.warnings.push_back("the " + tool.kind() + " meets a surface or group border at " + degrees(smallest) +
+                             ": elements in the wedge between them cannot be better than the wedge");
+    double flattest = narrow;
     for (const auto* set : {&f.nodes, &f.transition})
         for (const int v : *set) {
             if (f.d.constraints[v].freedom != NodeFreedom::curve) continue;
             if (std::abs(tool.distance(band.nodes[v].at)) > 0.15 * band.mean_edge_length(v)) continue;
             Eigen::Matrix3d along;
             f.d.constraints.tangents(v, nullptr, band.nodes[v].at, along);
-            const double sine = std::abs(along.col(0).dot(tool.normal(band.nodes[v].at)));
-            flattest = std::min(flattest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+            const double here = angle(std::abs(along.col(0).dot(tool.normal(band.nodes[v].at))));
+            if (here < flattest && counts(v)) flattest = here;
         }
-    if (flattest < 5) {
-        std::ostringstream message;
-        message.precision(2);
-        message << "the " << tool.kind() << " runs along a feature line or border line at " << flattest
-                << " degrees: elements between them cannot be better than that wedge";
-        f.warnings.push_back(message.str());
-    }
+    if (flattest < narrow)
+        f.warnings.push_back("the " + tool.kind() + " runs along a feature line or border line at " + degrees(flattest) +
+                             ": elements between them cannot be better than that wedge");
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
         if (!normal || normal->cross(tool.normal(band.nodes[v].at)).norm() >= 0.15) continue;
-        if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v)) ++near;
+        if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v) && counts(v)) ++near;
     }
     if (near > 0)
         f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
@@ -161,7 +189,7 @@ void warn_of_parted_lips(Interface& f) {
         alone += !near(k - 1) && !near(k + 1);
     }
     if (alone > 0)
-        f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (the lips of an earlier crack) keep their shape, but no longer match node for node (" +
+        f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (a contact, the lips of an earlier crack) keep their shape, but no longer match node for node (" +
                              std::to_string(alone) + " nodes): what joins coincident nodes there has to be made anew");
 }
 
@@ -466,7 +494,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         if (!opened[v]) f.d.contact[v] = {};
     find_node_sets(f);
     add_moved_nodes(f);
-    for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
+    for (const Blade& b : blades_) warn_of_grazing(f, *b.tool, mesh());
     warn_of_parted_lips(f);
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
