@@ -427,6 +427,20 @@ bool NodeConstraints::is_skin_edge(const BandMesh& band, int a, int b) const {
     });
 }
 
+bool NodeConstraints::is_exterior_edge(const BandMesh& band, int a, int b) const {
+    if (const int crease = band.creases.find({a, b}); crease >= 0 && curves_[band.creases.tag(crease)].border) return true;
+    return std::ranges::any_of(band.skin.around(a), [&](int s) {
+        const Surface& surface = surfaces_[band.skin.tag(s)];
+        return !surface.internal && !surface.shell && std::ranges::find(band.skin[s], b) != band.skin[s].end();
+    });
+}
+
+bool NodeConstraints::is_internal_edge(const BandMesh& band, int a, int b) const {
+    return std::ranges::any_of(band.skin.around(a), [&](int s) {
+        return surfaces_[band.skin.tag(s)].internal && std::ranges::find(band.skin[s], b) != band.skin[s].end();
+    });
+}
+
 bool NodeConstraints::is_on_skin(const BandMesh& band, int node) const {
     return std::ranges::any_of(band.skin.around(node), [&](int s) { return !surfaces_[band.skin.tag(s)].internal; });
 }

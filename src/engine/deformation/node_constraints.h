@@ -117,11 +117,17 @@ public:
     /// or, where there are only shells, on an edge of only one triangle.
     bool is_exterior(int node) const { return exterior_[node] != 0; }
 
+    /// The same of an edge, of which a mid-side node would be.
+    bool is_exterior_edge(const BandMesh& band, int a, int b) const;
+
     /// Whether the edge a-b lies on the skin of a solid or on a shell.
     bool is_skin_edge(const BandMesh& band, int a, int b) const;
 
     /// Whether a node lies on the skin of a solid or on a shell.
     bool is_on_skin(const BandMesh& band, int node) const;
+
+    /// Whether an edge lies on a surface inside the material.
+    bool is_internal_edge(const BandMesh& band, int a, int b) const;
 
     /// Whether a node lies on a surface inside the material: a border between groups.
     bool is_on_internal(const BandMesh& band, int node) const;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <unordered_set>
 
 #include "mesh/quality.h"
 #include "operators/refine_first.h"
@@ -191,6 +192,44 @@ void warn_of_parted_lips(Interface& f) {
     if (alone > 0)
         f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (a contact, the lips of an earlier crack) keep their shape, but no longer match node for node (" +
                              std::to_string(alone) + " nodes): what joins coincident nodes there has to be made anew");
+}
+
+/// A mid-side node of the input that moved with its edge a-b.
+struct MovedMiddle {
+    Index node;  // of the input
+    int a, b;
+};
+
+/// In ascending order. Those that became corners are band nodes themselves.
+std::vector<MovedMiddle> moved_middles(const BandMesh& band, const Mesh& before, const Rebuilt& rebuilt) {
+    std::unordered_set<Index> corners;
+    for (const BandNode& n : band.nodes)
+        if (n.global >= 0) corners.insert(n.global);
+    std::vector<MovedMiddle> out;
+    for (const auto& [key, middle] : band.mid_nodes) {
+        const Index now = rebuilt.kept_node(middle);
+        if (now < 0 || rebuilt.mesh.points[now] == before.points[middle] || corners.contains(middle)) continue;
+        out.push_back({middle, static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)});
+    }
+    std::ranges::sort(out, {}, &MovedMiddle::node);
+    return out;
+}
+
+/// Adds them to the set of their edge: interface if it lies on a tool, else transition; and to the constraints.
+void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before, const std::array<const char*, 4>& sets, Report& report) {
+    const NodeConstraints& constraints = f.d.constraints;
+    for (const MovedMiddle& m : middles) {
+        const Contact tools = f.d.edge_contact(m.a, m.b);
+        const NodeFreedom freedom = constraints.on_edge(f.d.band, m.a, m.b).freedom;
+        report.node_sets[sets[(tools ? 0 : 2) + constraints.is_exterior_edge(f.d.band, m.a, m.b)]].push_back(before.node_ids[m.node]);
+        std::set<std::string> kinds;
+        for (const Tool* t : tools.tools()) kinds.insert(t->kind());
+        for (const std::string& kind : kinds) ++report.constraints[kind];
+        report.constraints["tangent plane"] += constraints.is_skin_edge(f.d.band, m.a, m.b);
+        report.constraints["group boundary"] += constraints.is_internal_edge(f.d.band, m.a, m.b);
+        report.constraints["line"] += freedom == NodeFreedom::curve;
+        report.constraints["free"] += !tools && freedom == NodeFreedom::free;
+    }
 }
 
 void count_constraints(const Interface& f, const std::vector<Blade>& blades, Report& report) {
@@ -517,6 +556,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     report_.node_sets[naming.sets[2]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, interior);
     report_.node_sets[naming.sets[3]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, exterior);
     count_constraints(f, blades_, report_);
+    add_middles(moved_middles(f.d.band, mesh(), rebuilt), f, mesh(), naming.sets, report_);
     BandQuality quality = band_quality(f, mesh());
     report_.quality_before = summarise(std::move(quality.before));
     report_.quality_after = summarise(std::move(quality.after));
