@@ -1010,7 +1010,8 @@ private:
             const double allowed = is_flat_measure(r) ? rounding : 1e-4;
             if (std::abs(r.measure_before - was.measure) > allowed * was.measure) expect((text + "measure_before").c_str(), r.measure_before, was.measure);
             if (std::abs(r.measure_after - sums_[g].measure) > allowed * std::max(was.measure, sums_[g].measure)) expect((text + "measure_after").c_str(), r.measure_after, sums_[g].measure);
-            if (r.boundary_drift > (model_.flat ? rounding * model_.size : 1e-3 * model_.size)) bad_.add("report", text, "boundary drift ", r.boundary_drift);
+            // Shortcuts of a node group through the material may drift.
+            if (!(r.kind == GroupKind::node && model_.solid) && r.boundary_drift > (model_.flat ? rounding * model_.size : 1e-3 * model_.size)) bad_.add("report", text, "boundary drift ", r.boundary_drift);
         }
         if (record != report_.groups.size()) bad_.add("report", "has ", report_.groups.size(), " group records, there are ", record, " groups");
     }

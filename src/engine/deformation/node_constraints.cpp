@@ -332,6 +332,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
 
     // 5. Freedom of each node. Isolated members of groups (IE) do not move.
     kinds_ = boundaries.kinds();
+    has_shortcuts_ = !boundaries.shortcuts().empty();
     for (const BandBoundaries::Node& n : boundaries.isolated()) {
         nodes_[n.node].freedom = NodeFreedom::fixed;
         isolated_.push_back({n.node, n.kind});

@@ -141,6 +141,9 @@ public:
     /// For each of `group_count` groups of the mesh, how many of `nodes` lie on its boundary (BE, LE and IE).
     std::vector<GroupCount> count_by_group(const BandMesh& band, std::span<const int> nodes, std::size_t group_count) const;
 
+    /// Whether a node group has shortcuts through the material (BandBoundaries), to whose shape nothing keeps.
+    bool has_shortcuts() const { return has_shortcuts_; }
+
     /// Whether the triangle element in this slot is no face of a tetrahedron (a shell of its own).
     bool is_shell(int triangle_origin) const { return shell_[triangle_origin] != 0; }
 
@@ -218,6 +221,7 @@ private:
     FamilyTable kinds_;
     std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds
     std::unordered_set<std::uint64_t> fixed_middles_;
+    bool has_shortcuts_ = false;
     double size_ = 1;  // of the band, for tolerances
     const CadShape* shape_ = nullptr;
     ShapeMatch match_;

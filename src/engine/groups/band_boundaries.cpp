@@ -263,7 +263,11 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
             if (f.is_internal()) {
                 const auto& [a, b, c] = f.nodes;
                 belongs = sets.minus(belongs, sets.both(opposite(f.tetra[0], f.nodes), opposite(f.tetra[1], f.nodes)));
-                if (belongs && !kept_anyway[k]) belongs = sets.minus(belongs, sets.both(sets.both(on_kept[a], on_kept[b]), on_kept[c]));
+                if (belongs && !kept_anyway[k]) {
+                    const int shortcut = sets.both(belongs, sets.both(sets.both(on_kept[a], on_kept[b]), on_kept[c]));
+                    if (shortcut != 0) shortcuts_.push_back({f.nodes, shortcut});
+                    belongs = sets.minus(belongs, shortcut);
+                }
             }
             f.kind = sets.either(f.kind, belongs);
         }
@@ -312,7 +316,11 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
             for (const int v : band.triangles[t])
                 if (v != a && v != b) groups = sets.minus(groups, in[v]);
         }
-        if (through) groups = sets.minus(groups, sets.both(on_kept[a], on_kept[b]));
+        if (through) {
+            const int shortcut = sets.both(groups, sets.both(on_kept[a], on_kept[b]));
+            if (shortcut != 0) shortcuts_.push_back({{a, b, b}, shortcut});
+            groups = sets.minus(groups, shortcut);
+        }
         if (groups != 0) put_line(edge, groups, false);
     };
     const auto link_edges = [&](const auto& list) {

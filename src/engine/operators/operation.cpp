@@ -9,6 +9,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "operators/refine_first.h"
 
@@ -304,6 +305,14 @@ void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& bef
     });
 }
 
+/// Of node groups whose boundary was kept, but for shortcuts: how far those went.
+void describe_shortcuts(const DriftGauge& gauge, const Interface& f, const Mesh& before, Report& report) {
+    const std::vector<double> drift = gauge.drift(f.d.band, before);
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        if (r.kind == GroupKind::node) r.boundary_drift = std::max(r.boundary_drift, drift[g]);
+    });
+}
+
 /// Moved nodes, boundary drift and losses of each group, by group index. Nodes from the number `first_new` on are not the input's
 /// and do not count.
 void describe_motion(const Interface& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes, Report& report) {
@@ -515,6 +524,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     check_input_shape(f, mesh());
     check_skin(f);
     if (options_.preserve) gauge_.emplace(f.d.band, mesh(), drifting_);
+    if (f.d.constraints.has_shortcuts()) shortcuts_.emplace(DriftGauge::of_shortcuts(f.d.band, mesh(), drifting_, constraint_options.on_shortcuts));
     for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
     watch_.lap("constraints");
     return f;
@@ -535,6 +545,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     add_moved_nodes(f);
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool, mesh());
     warn_of_parted_lips(f);
+    for (std::string& warning : warnings_of_opened_areas(f.d.band, mesh())) f.warnings.push_back(std::move(warning));
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());
@@ -588,6 +599,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
+    if (shortcuts_) describe_shortcuts(*shortcuts_, f, mesh(), report_);
     watch_.lap("report");
     remove_marks(rebuilt.mesh);
     return {std::move(rebuilt.mesh), std::move(report_)};

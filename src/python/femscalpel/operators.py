@@ -97,7 +97,9 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         "snap" moves nodes near the tool onto it and splits what still crosses; it always succeeds on a sound
         mesh. "deform" only moves nodes (the paper, 3.1.1) and may end in QualityError.
     transition : int, optional
-        How many rings of elements around the tool may move; computed when not given.
+        How many rings of nodes around those on the tool may move (the paper's bandwidth i, 3.1.2), 1 to 20. When not given: with
+        "deform" as in the paper, the largest distance of an interface node from the tool over the mean edge length, at least 2; with
+        "snap", which moves nodes by less than an edge and splits the rest, 2: more do not make better elements.
     feature_angle : float
         Degrees; a skin edge sharper than this is a feature line that keeps its shape.
     strict : bool
