@@ -4,7 +4,7 @@
 
     PYTHONPATH=build/release/Mod/FemScalpel python3 resources/docs/paper_cases.py [folder]
 
-Needs Gmsh. Its mesher HXT does not repeat itself to the last element, and so neither do the numbers.
+Pictures go to the folder. Without one they are this folder's, and the table in paper.md is made anew, too. Needs Gmsh. Its mesher HXT does not repeat itself to the last element, and so neither do the numbers.
 """
 
 import sys
@@ -82,6 +82,30 @@ class Case:
             text.append("    groups: " + ", ".join(f"{g.name} {g.measure_before:.6g} -> {g.measure_after:.6g}" if g.kind == "element" else
                                                    f"{g.name} {g.count_before} -> {g.count_after} {g.kind}s" for g in changed))
         return text
+
+
+#: Sizes of the elements for the page, shells and tetrahedra.
+PAGE_SIZES = 14, 20
+
+
+def page_table(shell, hole):
+    """The rows of paper.md's table: what the paper counts, its number, ours."""
+    def total(case, *sets):
+        return f"{' + '.join(str(case.count(*names)) for names in sets)} = {case.count(*sum(sets, ()))}"
+    crack = ("ICN", "ECN"), ("ITN", "ETN")
+    return ["| the paper | there | here |", "| --- | --- | --- |",
+            f"| Figure 10, crack in the shell mesh: plane constraints = interface nodes | 84 | {shell.constraint('plane')} |",
+            f"| tangent-plane constraints = interface and transition nodes | 84 + 341 = 425 | {total(shell, *crack)} |",
+            f"| Figure 11, hole in a stiffener of the solid mesh: cylinder constraints = nodes of the hole, IHN and EHN | 19 | {total(hole, ('IHN',), ('EHN',))} |",
+            f"| plane constraints = EHN and ETN | 46 | {total(hole, ('EHN',), ('ETN',))} |",
+            f"| nodes free to move = ITN | 21 | {hole.constraint('free')} |"]
+
+
+def write_table(page, rows):
+    """Puts the rows in the place of the page's table."""
+    lines = page.read_text().splitlines()
+    at = [k for k, line in enumerate(lines) if line.startswith("|")]
+    page.write_text("\n".join(lines[:at[0]] + rows + lines[at[-1] + 1:]) + "\n")
 
 
 def attempt(case, *arguments, **options):
@@ -332,16 +356,22 @@ def draw_cylinder_and_slot(crack, slot, path):
          "As the paper's Figure 7: cylindrical crack and incision, in a stiffener of the solid caisson")
 
 
-def main(folder):
-    shell, deformed = shell_cases(caisson_mesh(False, 14))
-    hole, kept, drifting, cylinder, slot, moved = solid_cases(caisson_mesh(True, 20))
+def main(folder, page=None):
+    shell, deformed = shell_cases(caisson_mesh(False, PAGE_SIZES[0]))
+    hole, kept, drifting, cylinder, slot, moved = solid_cases(caisson_mesh(True, PAGE_SIZES[1]))
     for case in (shell, deformed, hole, moved, kept, drifting, cylinder, slot):
         print(case if isinstance(case, str) else "\n".join(case.lines()))
     draw_crack_in_shell(shell, folder / "figure_10.png")
     draw_hole(hole, folder / "figure_11.png")
     draw_border((kept, drifting), folder / "figure_12_caisson.png")
     draw_cylinder_and_slot(cylinder, slot, folder / "figure_7.png")
+    if page:
+        write_table(page, page_table(shell, hole))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent)
+    here = Path(__file__).parent
+    if len(sys.argv) > 1:
+        main(Path(sys.argv[1]))
+    else:
+        main(here, here / "paper.md")

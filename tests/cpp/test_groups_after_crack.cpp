@@ -580,8 +580,8 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
                     EXPECT_EQ(member, lies_on(mesh, cover, after.points[n])) << "new node " << after.node_ids[n] << " at " << after.points[n].transpose();
                 }
             }
-            EXPECT_LE(record(result, mesh.groups[g].name, mesh.groups[g].kind).boundary_drift, 1e-9);
-            if (!node_group) {
+            if (!node_group) {  // whose shortcuts through the material may drift
+                EXPECT_LE(record(result, mesh.groups[g].name, mesh.groups[g].kind).boundary_drift, 1e-9);
                 EXPECT_NEAR(sums_before[g].measure, sums_after[g].measure, 1e-9);
             }
             const VirtualBoundary boundary = before_finder.find(g);

@@ -199,3 +199,22 @@ def test_everything_public_is_documented():
         if inspect.isfunction(item):
             assert all(p.annotation is not inspect.Parameter.empty for p in inspect.signature(item).parameters.values()) \
                 or name.endswith("meshio"), name
+
+
+def test_moved_mid_side_nodes_are_in_the_node_sets():
+    mesh = quadratic(grid_box())
+    result = fs.crack(mesh, PLANE)
+    sets = {name: set(ids) for name, ids in result.report.node_sets.items()}
+    assert sum(len(ids) for ids in sets.values()) == len(set().union(*sets.values()))
+    place = dict(zip(mesh.node_ids, mesh.points))
+    after = dict(zip(result.mesh.node_ids, result.mesh.points))
+    moved = {n for n, x in place.items() if (after[n] != x).any()}
+    assert moved <= set().union(*sets.values())
+    middles = moved - set(mesh.node_ids[np.unique(mesh.cells["tetra10"][:, :4])])
+    on_skin = {n for n in middles if any(after[n][k] in (0, (6, 5, 4)[k]) for k in range(3))}
+    assert len(middles) > 50 and on_skin == middles & (sets["ECN"] | sets["ETN"])
+    on_plane = {n for n in middles if abs(PLANE.distance(after[n])) < 1e-9}
+    assert on_plane and on_plane == middles & (sets["ICN"] | sets["ECN"])
+    assert result.report.constraints["plane"] == len(sets["ICN"] | sets["ECN"])
+    assert result.report.constraints["tangent plane"] == len(sets["ECN"] | sets["ETN"])
+    assert result.report.constraints["free"] == len(sets["ITN"])

@@ -178,3 +178,80 @@ def test_a_group_that_alternates_keeps_its_members_and_the_elements_their_shape(
     (alternating,) = [g for g in result.report.groups if g.name == "ALT"]
     assert abs(alternating.measure_after - alternating.measure_before) < 2e-3 * alternating.measure_before
     assert result.report.quality.after.minimum > 0.2
+
+
+def covered_points(mesh, name):
+    """Triangles and edges, as coordinates, of what a group covers."""
+    found = fs.virtual_boundary(mesh, name)
+    place = dict(zip(mesh.node_ids, mesh.points))
+    faces = [[place[n] for n in row] for part in (found.bounding, found.linking) for row in part.triangles]
+    edges = [[place[n] for n in row] for part in (found.bounding, found.linking) for row in part.edges]
+    return np.array(faces).reshape(-1, 3, 3), np.array(edges).reshape(-1, 2, 3)
+
+
+def distance_to_triangle(x, a, b, c):
+    from scipy.optimize import nnls
+    # The nearest convex combination: least squares with the sum of weights held to one by a heavy row.
+    heavy = 1e4
+    matrix = np.vstack([np.stack([a, b, c], axis=1), heavy * np.ones(3)])
+    return np.linalg.norm(np.stack([a, b, c], axis=1) @ nnls(matrix, np.append(x, heavy))[0] - x)
+
+
+def test_drift_along_shortcuts_is_reported():
+    """A support on two sides of an edge of a box: faces and edges lead through the corner elements from one to the other."""
+    box = grid_box()
+    x, y = box.points[:, 0], box.points[:, 1]
+    mesh = fs.Mesh(box.points, box.cells, groups={"FIX": ("node", 1 + np.nonzero((x == 0) | (y == 5))[0]), "SIDE": ("node", 1 + np.nonzero(x == 0)[0])})
+    plane = fs.Plane((0.6, 4.5, 2.2), (1, 1, 0.2))
+    result = fs.crack(mesh, plane)
+    drift = {g.name: g.boundary_drift for g in result.report.groups}
+    assert drift["SIDE"] < 1e-12  # has no shortcuts
+    old = covered_points(mesh, "FIX")
+    old = [*old[0], *(np.array([a, b, b]) for a, b in old[1])]
+    farthest = 0
+    for face in covered_points(result.mesh, "FIX")[0]:
+        if np.abs(plane.distance(face)).max() < 1e-9:
+            continue  # a lip, inside what the group encloses
+        near = [piece for piece in old if np.linalg.norm(piece.mean(axis=0) - face.mean(axis=0)) < 2]
+        for point in (*face, face.mean(axis=0)):
+            farthest = max(farthest, min(distance_to_triangle(point, *piece) for piece in near))
+    assert farthest > 0.05 and drift["FIX"] == pytest.approx(farthest, abs=1e-3)
+
+
+def test_an_area_that_edges_no_longer_enclose_is_warned_of():
+    points = np.array([(i, j, 0.0) for j in range(5) for i in range(9)])
+    triangles = np.array([(j * 9 + i + a, j * 9 + i + b, j * 9 + i + c) for j in range(4) for i in range(8) for a, b, c in ((0, 1, 10), (0, 10, 9))])
+    inside, away = 2 * (2 * 8 + 3), 2 * 8 + 14
+    rings = [[t[k], t[(k + 1) % 3]] for t in (triangles[inside], triangles[away]) for k in range(3)]
+    count = len(triangles)
+    groups = {"RING": ("element", range(count + 1, count + 4)), "AWAY": ("element", range(count + 4, count + 7)), "ROW": ("element", range(count + 1, count + 3)),
+              "WHOLE": ("element", [inside + 1, *range(count + 1, count + 4)])}
+    mesh = fs.Mesh(points, {"triangle": triangles, "line": rings}, groups=groups)
+    enclosed = [len(fs.virtual_boundary(mesh, name).enclosed) for name in ("RING", "AWAY", "ROW", "WHOLE")]
+    assert enclosed == [1, 1, 0, 1]
+    result = fs.crack(mesh, fs.Plane(points[triangles[inside]].mean(axis=0), (1, 0.4, 0)))
+    warned = [w for w in result.report.warnings if "covers less than before" in w]
+    assert len(warned) == 1 and f"group 'RING' covers element {inside + 1}, or" in warned[0]
+    assert [len(fs.virtual_boundary(result.mesh, name).enclosed) > 0 for name in ("RING", "AWAY", "WHOLE")] == [False, True, True]
+    refined = fs.refine(mesh, near=fs.Sphere(points[triangles[inside]].mean(axis=0), 0.01), size=0.5)
+    assert any("group 'RING' covers" in w for w in refined.report.warnings)
+
+
+@pytest.mark.parametrize("with_edges", [False, True])
+def test_a_volume_that_faces_or_edges_no_longer_enclose_is_warned_of(with_edges):
+    box = grid_box()
+    centres = box.points[box.cells["tetra"]].mean(axis=1)
+    k = int(np.linalg.norm(centres - (3.3, 2.5, 2), axis=1).argmin())
+    a, b, c, d = box.cells["tetra"][k]
+    count = box.cell_count
+    if with_edges:
+        cells, members = {"line": [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]}, 6
+    else:
+        cells, members = {"triangle": [[a, b, c], [a, b, d], [a, c, d], [b, c, d]]}, 4
+    mesh = fs.Mesh(box.points, {**box.cells, **cells}, groups={"SHELL": ("element", range(count + 1, count + members + 1))})
+    before = fs.virtual_boundary(mesh, "SHELL")
+    assert len(before.enclosed) == 1
+    result = fs.crack(mesh, fs.Plane(centres[k], (0.9, 0.3, 0.2)))
+    after = fs.virtual_boundary(result.mesh, "SHELL")
+    warned = any("group 'SHELL' covers" in w and "covers less than before" in w for w in result.report.warnings)
+    assert len(after.enclosed) == 0 and warned

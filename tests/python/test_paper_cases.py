@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The paper's cases on the demo's caisson (resources/docs/paper_cases.py): their numbers, against definitions and geometry."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
+from meshes import grid_box
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "resources" / "docs"))
 pytest.importorskip("gmsh", reason="python3-gmsh is not installed")
@@ -151,3 +153,57 @@ def test_pictures(shell, solid, tmp_path):
     paper_cases.draw_border(solid[1:3], tmp_path / "12.png")
     paper_cases.draw_cylinder_and_slot(solid[3], solid[4], tmp_path / "7.png")
     assert all((tmp_path / name).stat().st_size > 50_000 for name in ("7.png", "10.png", "11.png", "12.png"))
+
+
+def test_the_page_states_what_the_script_computes():
+    """Text word for word; numbers to what another run of the mesher changes."""
+    shell_size, solid_size = paper_cases.PAGE_SIZES
+    mesh, solid_mesh = paper_cases.caisson_mesh(False, shell_size), paper_cases.caisson_mesh(True, solid_size)
+    shell = paper_cases.Case("10", "", mesh, fs.crack(mesh, paper_cases.SLANTING), paper_cases.SLANTING)
+    hole = paper_cases.Case("11", "", solid_mesh, fs.drill(solid_mesh, paper_cases.HOLE, depth=paper_cases.DEPTH), paper_cases.HOLE)
+    rows = paper_cases.page_table(shell, hole)
+    page = (Path(paper_cases.__file__).parent / "paper.md").read_text()
+    stated = [line for line in page.splitlines() if line.startswith("|")]
+    assert [re.sub(r"\d+", "#", row) for row in stated] == [re.sub(r"\d+", "#", row) for row in rows]
+    for there, here in zip(stated[2:], rows[2:]):
+        now, then = ([int(n) for n in re.findall(r"\d+", row.rsplit("|", 2)[1])] for row in (here, there))
+        assert then == pytest.approx(now, rel=0.15, abs=6), there
+        assert len(then) == 1 or sum(then[:-1]) == then[-1], there
+    assert f"({solid_size} mm against its radius of {paper_cases.HOLE.radius:g})" in " ".join(page.split())
+    assert hole.result.report.refinement.size == paper_cases.HOLE.radius / 2
+
+
+def test_the_page_is_written_by_the_script(shell, solid, tmp_path):
+    page = tmp_path / "paper.md"
+    page.write_text("Before\n\n| old |\n| --- |\n| 1 |\n\nAfter\n")
+    rows = paper_cases.page_table(shell[0], solid[0])
+    paper_cases.write_table(page, rows)
+    assert page.read_text() == "\n".join(["Before", "", *rows, "", "After", ""])
+
+
+@pytest.mark.parametrize("operation", [
+    lambda mesh: fs.cut(mesh, fs.Plane((3, 2.5, 2), (1, 0.1, 0)), width=0.5, method="deform"),
+    lambda mesh: fs.drill(mesh, fs.Cylinder((3, 2.5, 4), (0, 0, -1), 1.5), depth=2, method="deform"),
+    lambda mesh: fs.drill(mesh, [fs.Cylinder((1.5, 2.5, 4), (0, 0, -1), 0.8), fs.Cylinder((4.5, 2.5, 4), (0, 0, -1), 0.8)], method="deform"),
+    lambda mesh: fs.crack(mesh, fs.Plane((3, 2.5, 2), (1, 0.1, 0)), within=fs.Disk((3, 2.5, 2), 1.5), method="deform")])
+def test_deform_refuses_what_the_page_says(operation):
+    page = " ".join((Path(paper_cases.__file__).parent / "paper.md").read_text().split())
+    for words in ("the incision between two planes (3.3) is for `snap` alone", "holes with a bottom, several holes at once, cracks that end inside the material"):
+        assert words in page
+    with pytest.raises(fs.ToolError, match='use (method )?"snap"'):
+        operation(grid_box())
+
+
+def test_deform_does_the_papers_cylindrical_crack():
+    mesh = grid_box((8, 8, 3), (8, 8, 3))
+    result = fs.crack(mesh, fs.Cylinder((4, 4, 0), (0, 0, 1), 2.5), method="deform")
+    assert result.report.nodes_doubled == len(result.report.node_sets["ICN"]) + len(result.report.node_sets["ECN"]) > 0
+    assert result.report.transition >= 2
+
+
+def test_transition_is_the_papers_bandwidth_or_two():
+    mesh = grid_box()
+    plane = fs.Plane((3.3, 2.5, 2), (0.9, 0.3, 0.2))
+    assert fs.crack(mesh, plane).report.transition == 2
+    assert fs.crack(mesh, plane, transition=3).report.transition == 3
+    assert "with\n        \"snap\", which moves nodes by less than an edge and splits the rest, 2" in fs.crack.__doc__

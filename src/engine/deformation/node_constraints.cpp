@@ -356,6 +356,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     kinds_ = boundaries.kinds();
     if (!options.related.empty())
         for (int v = 0; v < node_count; ++v) related_.push_back(std::ranges::binary_search(options.related, band.nodes[v].global));
+    has_shortcuts_ = !boundaries.shortcuts().empty();
     for (const BandBoundaries::Node& n : boundaries.isolated()) {
         nodes_[n.node].freedom = NodeFreedom::fixed;
         isolated_.push_back({n.node, n.kind});
@@ -454,6 +455,20 @@ void NodeConstraints::add_node(const BandMesh& band, int node) {
 bool NodeConstraints::is_skin_edge(const BandMesh& band, int a, int b) const {
     return std::ranges::any_of(band.skin.around(a), [&](int s) {
         return !surfaces_[band.skin.tag(s)].internal && std::ranges::find(band.skin[s], b) != band.skin[s].end();
+    });
+}
+
+bool NodeConstraints::is_exterior_edge(const BandMesh& band, int a, int b) const {
+    if (const int crease = band.creases.find({a, b}); crease >= 0 && curves_[band.creases.tag(crease)].border) return true;
+    return std::ranges::any_of(band.skin.around(a), [&](int s) {
+        const Surface& surface = surfaces_[band.skin.tag(s)];
+        return !surface.internal && !surface.shell && std::ranges::find(band.skin[s], b) != band.skin[s].end();
+    });
+}
+
+bool NodeConstraints::is_internal_edge(const BandMesh& band, int a, int b) const {
+    return std::ranges::any_of(band.skin.around(a), [&](int s) {
+        return surfaces_[band.skin.tag(s)].internal && std::ranges::find(band.skin[s], b) != band.skin[s].end();
     });
 }
 

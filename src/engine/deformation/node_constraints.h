@@ -128,11 +128,17 @@ public:
     /// or, where there are only shells, on an edge of only one triangle.
     bool is_exterior(int node) const { return exterior_[node] != 0; }
 
+    /// The same of an edge, of which a mid-side node would be.
+    bool is_exterior_edge(const BandMesh& band, int a, int b) const;
+
     /// Whether the edge a-b lies on the skin of a solid or on a shell.
     bool is_skin_edge(const BandMesh& band, int a, int b) const;
 
     /// Whether a node lies on the skin of a solid or on a shell.
     bool is_on_skin(const BandMesh& band, int node) const;
+
+    /// Whether an edge lies on a surface inside the material.
+    bool is_internal_edge(const BandMesh& band, int a, int b) const;
 
     /// Whether a node lies on a surface inside the material: a border between groups.
     bool is_on_internal(const BandMesh& band, int node) const;
@@ -148,6 +154,8 @@ public:
 
     /// The groups of the mesh that have their boundary (BE, LE, IE) at a node, ascending.
     std::vector<GroupIndex> groups_at(const BandMesh& band, int node) const;
+    /// Whether a node group has shortcuts through the material (BandBoundaries), to whose shape nothing keeps.
+    bool has_shortcuts() const { return has_shortcuts_; }
 
     /// Whether the triangle element in this slot is no face of a tetrahedron (a shell of its own).
     bool is_shell(int triangle_origin) const { return shell_[triangle_origin] != 0; }
@@ -229,6 +237,7 @@ private:
     FamilyTable kinds_;
     std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds
     std::unordered_set<std::uint64_t> fixed_middles_;
+    bool has_shortcuts_ = false;
     double size_ = 1;  // of the band, for tolerances
     double flat_ = 0;  // what is no farther off a plane or line is on it
     double close_ = 0;  // a tool that is no farther off what it runs along is on it

@@ -210,6 +210,13 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         int& kind = side_groups[slot];
         kind = sets.either(kind, kept_groups(mesh.facets[facet].family));
     }
+    // Shells on the same nodes (layers, a skin for a load) are one face: two would part the sheet along every edge.
+    std::vector<int> face_of_shell(static_cast<std::size_t>(band.triangles.size()), -1);
+    const auto face_on = [&](const std::array<int, 3>& v) {
+        for (const int other : band.triangles.around(v[0]))
+            if (face_of_shell[other] >= 0 && holds(band.triangles[other], v[1]) && holds(band.triangles[other], v[2])) return face_of_shell[other];
+        return -1;
+    };
     for (int t = 0; t < band.triangles.size(); ++t) {
         if (!band.triangles.alive(t) || !movable(band.triangles[t])) continue;
         const auto& v = band.triangles[t];
@@ -220,7 +227,10 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (const int at = index.find(v); at >= 0) {
             faces[at].element = faces[at].element || kind != 0 || is_kept(family_of(cell));
             faces[at].kind = sets.either(faces[at].kind, kind);
+        } else if (const int same = face_on(v); same >= 0) {
+            faces_[same].kind = sets.either(faces_[same].kind, kind);
         } else {
+            face_of_shell[t] = static_cast<int>(faces_.size());
             faces_.push_back({v, sets.either(kind, in_all(v)), {-1, -1}, true});
         }
     }
@@ -255,7 +265,11 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
             if (f.is_internal()) {
                 const auto& [a, b, c] = f.nodes;
                 belongs = sets.minus(belongs, sets.both(opposite(f.tetra[0], f.nodes), opposite(f.tetra[1], f.nodes)));
-                if (belongs && !kept_anyway[k]) belongs = sets.minus(belongs, sets.both(sets.both(on_kept[a], on_kept[b]), on_kept[c]));
+                if (belongs && !kept_anyway[k]) {
+                    const int shortcut = sets.both(belongs, sets.both(sets.both(on_kept[a], on_kept[b]), on_kept[c]));
+                    if (shortcut != 0) shortcuts_.push_back({f.nodes, shortcut});
+                    belongs = sets.minus(belongs, shortcut);
+                }
             }
             f.kind = sets.either(f.kind, belongs);
         }
@@ -304,7 +318,11 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
             for (const int v : band.triangles[t])
                 if (v != a && v != b) groups = sets.minus(groups, in[v]);
         }
-        if (through) groups = sets.minus(groups, sets.both(on_kept[a], on_kept[b]));
+        if (through) {
+            const int shortcut = sets.both(groups, sets.both(on_kept[a], on_kept[b]));
+            if (shortcut != 0) shortcuts_.push_back({{a, b, b}, shortcut});
+            groups = sets.minus(groups, shortcut);
+        }
         if (groups != 0) put_line(edge, groups, false);
     };
     const auto link_edges = [&](const auto& list) {

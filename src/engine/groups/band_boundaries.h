@@ -44,6 +44,11 @@ public:
         int kind = 0;
         bool element = false;
     };
+    /// A face or an edge (its last node is there twice) through the material that is in LE or BE of node groups but is not kept.
+    struct Shortcut {
+        std::array<int, 3> nodes;
+        int kind;
+    };
     /// A node in IE of a group: it must not move.
     struct Node {
         int node;
@@ -56,9 +61,11 @@ public:
     BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {}, std::span<const Index> on_shortcuts = {},
                    const std::vector<bool>& meaningless = {});
 
-    /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once.
+    /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once, also where several
+    /// shells have the same nodes: its groups are those of all.
     std::span<const Face> faces() const { return faces_; }
     std::span<const Line> lines() const { return lines_; }
+    std::span<const Shortcut> shortcuts() const { return shortcuts_; }
     /// Ascending. A mid-side node of IE is represented by both ends of its edge.
     std::span<const Node> isolated() const { return isolated_; }
 
@@ -75,6 +82,7 @@ private:
     FamilyTable sets_;
     std::vector<Face> faces_;
     std::vector<Line> lines_;
+    std::vector<Shortcut> shortcuts_;
     std::vector<Node> isolated_;
     std::vector<std::array<int, 2>> isolated_middles_;
 };

@@ -22,7 +22,7 @@ struct GroupRecord {
     double measure_after = 0;
     Index nodes_moved = 0;        ///< nodes of the group (or of its elements) that changed place
     bool boundary_kept = true;    ///< false: the operator was told that the boundary may drift
-    double boundary_drift = 0;    ///< largest distance of its moved boundary nodes from the boundary's old shape
+    double boundary_drift = 0;    ///< largest distance of its moved boundary nodes, and shortcuts (groups.md), from the boundary's old shape
     /// Nodes near the tool that lie on the group's boundary (BE, LE, IE), by what all their constraints together but
     /// the tool leave them: a surface, a line, nothing.
     Index nodes_on_surface = 0;

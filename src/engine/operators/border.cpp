@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "error.h"
+#include "operators/no_cut.h"
 #include "operators/root.h"
 #include "operators/stopwatch.h"
 
@@ -371,7 +372,7 @@ void keep_patch(Interface& f, const Patch& patch) {
     };
     if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges)) {
         if (meets_material(band, patch)) too_coarse("no element face fits in it");
-        throw ToolError("the crack lies outside the part: there is no material within its front. Move it, or make it larger");
+        throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}}, "the crack lies outside the part: there is no material within its front. Move it, or make it larger"));
     }
     const auto drop = [&](auto& list) {
         for (int s = 0; s < list.size(); ++s)

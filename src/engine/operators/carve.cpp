@@ -185,8 +185,9 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             removed += remove_inside(g, tools, first_tag);
         }
         if (removed == 0)
-            throw ToolError("the " + blades.front().tool->kind() + " removes nothing: what it would take off is thinner than the elements there. Refine the mesh there, or move the " +
-                            blades.front().tool->kind() + " into the material");
+            throw ToolError("the " + blades.front().tool->kind() + " removes nothing: " +
+                            (operation.location().crossed == 0 ? "it touches the mesh from outside, and no element lies inside. Move the " + blades.front().tool->kind() + " into the material"
+                             : "what it would take off is thinner than the elements there. Refine the mesh there, or move the " + blades.front().tool->kind() + " into the material"));
         const bool left = [&] {
             for (int t = 0; t < g.d.band.tetras.size(); ++t)
                 if (g.d.band.tetras.alive(t)) return true;

@@ -11,6 +11,7 @@
 
 #include "deformation/relaxation.h"
 #include "operators/border.h"
+#include "operators/no_cut.h"
 #include "operators/refine_first.h"
 #include "tools/face.h"
 
@@ -142,6 +143,16 @@ void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
     f.warnings.push_back(message.str());
 }
 
+/// Why a crack doubles no node, as a message.
+std::string why_no_lips(const Interface& f, const Lips& lips, const Blade& blade, bool crossed) {
+    const std::string tool = "the " + f.tool->kind();
+    if (!lips.faces.empty() || !lips.edges.empty())
+        return "the crack along " + tool + " cannot open: all its nodes are on its front. Refine the mesh there first";
+    if (!crossed)
+        return why_nothing_parts(f, blade, tool + " touches the mesh in single nodes, but passes through no element and along no face. Move " + tool + " into the material");
+    return tool + " only grazes the mesh: what it would cut off is thinner than the elements there. Move " + tool + " into the material";
+}
+
 }  // namespace
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
@@ -197,9 +208,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     operation.take_laps(f.seconds);
     if (patch || operation.location().crossed > 0) check_shape(f, operation.mesh());
     if (!lips) lips = open_lips(f);
-    if (lips->copy_of.empty())
-        throw ToolError("the " + tool.kind() + " only grazes the mesh: what it would cut off is thinner than the elements there. Move the " + tool.kind() +
-                        " into the material");
+    if (lips->copy_of.empty()) throw ToolError(why_no_lips(f, *lips, blade, operation.location().crossed > 0));
     find_node_sets(f);
     check_contacts(f);
     check_lips(f, *lips, patch ? &*patch : nullptr);

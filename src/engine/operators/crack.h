@@ -30,6 +30,9 @@ struct CrackOptions : OperatorOptions {
 /// in place. Where the new crack crosses one, the material comes apart into as many parts as meet there, each with nodes of its own;
 /// the two lips of the old crack need not match node for node there any more, which makes a warning.
 ///
+/// Shells that lie in the tool's surface are parted from those that stand on them: a sheet of them stays with the negative side, or,
+/// where others are joined to it on the negative side only, with the positive.
+///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
 /// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches

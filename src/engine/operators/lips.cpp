@@ -35,6 +35,7 @@ public:
         out_.vertices.resize(static_cast<std::size_t>(band_.vertices.size()));
         for (int p = 0; p < band_.vertices.size(); ++p) out_.vertices[p] = band_.vertices[p];
         find_open_faces();
+        place_flat_shells();
         find_open_edges();
         for (const int v : out_.interface_nodes) part_node(v);
         place_attached();
@@ -106,6 +107,51 @@ private:
         }
     }
 
+    /// The shells that lie in the tool's surface belong to one side, a sheet of them at a time: the negative, or the positive if
+    /// others hang on it only on the negative, so that a crack parts a plate from what stands on it.
+    void place_flat_shells() {
+        flat_side_.assign(static_cast<std::size_t>(band_.triangles.size()), 0);
+        hangs_between_.assign(flat_side_.size(), 0);
+        const auto is_flat = [&](int t) { return is_shell(t) && side(band_.triangles[t]) == 0; };
+        for (int start = 0; start < band_.triangles.size(); ++start) {
+            if (!band_.triangles.alive(start) || flat_side_[start] != 0 || !is_flat(start)) continue;
+            std::vector<int> sheet{start};
+            flat_side_[start] = -1;
+            bool positive = false, negative = false;
+            for (std::size_t k = 0; k < sheet.size(); ++k) {
+                const auto& n = band_.triangles[sheet[k]];
+                for (int e = 0; e < 3; ++e)
+                    for (const int t : band_.triangles.around(n[e])) {
+                        if (t == sheet[k] || !is_shell(t) || !holds(band_.triangles[t], n[(e + 1) % 3])) continue;
+                        const int s = side(band_.triangles[t]);
+                        positive = positive || s > 0;
+                        negative = negative || s < 0;
+                        if (s != 0 || flat_side_[t] != 0) continue;
+                        flat_side_[t] = -1;
+                        sheet.push_back(t);
+                    }
+            }
+            for (const int t : sheet) {
+                hangs_between_[t] = positive && negative;
+                if (negative && !positive) flat_side_[t] = 1;
+            }
+        }
+    }
+
+    static bool holds(const auto& nodes, int v) { return std::ranges::find(nodes, v) != nodes.end(); }
+
+    /// The side a shell belongs to; 0 for none.
+    int shell_side(int t) const { return flat_side_[t] != 0 ? flat_side_[t] : side(band_.triangles[t]); }
+
+    /// Whether a shell off the tool stands on it, rather than runs into it smoothly.
+    bool stands(int t) const {
+        if (flat_side_[t] != 0) return false;
+        Vec3 middle = Vec3::Zero();
+        for (const int v : band_.triangles[t]) middle += band_.nodes[v].at / 3;
+        const Vec3 &a = band_.nodes[band_.triangles[t][0]].at, &b = band_.nodes[band_.triangles[t][1]].at, &c = band_.nodes[band_.triangles[t][2]].at;
+        return (b - a).cross(c - a).normalized().cross(f_.tool->normal(middle)).norm() >= along_tool;
+    }
+
     void find_open_edges() {
         for (int v = 0; v < band_.size(); ++v) {
             if (!on_tool(v)) continue;
@@ -116,9 +162,11 @@ private:
                         if (w > v && on_tool(w)) edges[w].push_back(t);
             for (const auto& [w, shells] : edges) {
                 bool positive = false, negative = false;
+                const bool junction = std::ranges::any_of(shells, [&](int t) { return stands(t); });
                 for (const int t : shells) {
-                    positive = positive || side(band_.triangles[t]) > 0;
-                    negative = negative || side(band_.triangles[t]) < 0;
+                    if (flat_side_[t] != 0 && !hangs_between_[t] && !junction) continue;
+                    positive = positive || shell_side(t) > 0;
+                    negative = negative || shell_side(t) < 0;
                 }
                 if (!positive || !negative || (f_.patched && band_.cut_edges.find({v, w}) < 0)) continue;
                 open_edges_.insert(edge_key(v, w));
@@ -150,8 +198,8 @@ private:
         };
         std::vector<char> touches(static_cast<std::size_t>(count), 0);
         for (int i = 0; i < count; ++i) {
-            const auto visit = [&](const auto& nodes) {
-                item_side[i] = side(nodes) > 0 ? 1 : -1;
+            const auto visit = [&](const auto& nodes, int where) {
+                item_side[i] = where > 0 ? 1 : -1;
                 for (const int w : nodes) {
                     if (w == v) continue;
                     // Elements that share an edge belong together, unless the edge is open and they
@@ -168,8 +216,8 @@ private:
                     }
                 }
             };
-            if (i < shells_from) visit(band_.tetras[items[i]]);
-            else visit(band_.triangles[items[i]]);
+            if (i < shells_from) visit(band_.tetras[items[i]], side(band_.tetras[items[i]]));
+            else visit(band_.triangles[items[i]], shell_side(items[i]));
         }
         struct Part {
             int size = 0, side = 0;
@@ -252,7 +300,7 @@ private:
         int sum = 0;
         for (const int t : band_.tetras.around(v)) sum += side(band_.tetras[t]);
         for (const int t : band_.triangles.around(v))
-            if (is_shell(t)) sum += side(band_.triangles[t]);
+            if (is_shell(t)) sum += shell_side(t);
         return sum;
     }
 
@@ -298,11 +346,9 @@ private:
         if (points > 0)
             out_.warnings.push_back(std::to_string(points) + " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole on the side with more elements there: " +
                                     std::to_string(points - points_positive) + " on the negative side, " + std::to_string(points_positive) + " on the positive");
-        int flat = 0;
-        for (int t = 0; t < band_.triangles.size(); ++t)
-            flat += band_.triangles.alive(t) && is_shell(t) && side(band_.triangles[t]) == 0;
-        if (flat > 0)
-            out_.warnings.push_back(std::to_string(flat) + " shell element(s) lie in the tool's surface; they stay on the negative side");
+        for (const int where : {-1, 1})
+            if (const auto flat = std::ranges::count(flat_side_, where); flat > 0)
+                out_.warnings.push_back(std::to_string(flat) + " shell element(s) lie in the tool's surface; they stay on the " + (where < 0 ? "negative" : "positive") + " side");
     }
 
     void make_lips() {
@@ -333,8 +379,7 @@ private:
             std::set<std::array<int, 2>> seen;
             for (const int t : band_.triangles.around(edge[0])) {
                 if (!is_shell(t) || std::ranges::find(band_.triangles[t], edge[1]) == band_.triangles[t].end()) continue;
-                const int s = side(band_.triangles[t]);
-                if (s == 0) continue;
+                const int s = shell_side(t);
                 std::array<int, 2> image;
                 for (int k = 0; k < 2; ++k)
                     image[k] = out_.triangles[t][std::ranges::find(band_.triangles[t], edge[k]) - band_.triangles[t].begin()];
@@ -390,6 +435,8 @@ private:
     std::unordered_set<std::uint64_t> open_edges_;
     std::vector<std::array<int, 3>> face_keys_;  // ascending
     std::vector<char> is_interface_, doubled_;   // by node
+    std::vector<signed char> flat_side_;         // by triangle: side of a shell in the tool's surface, 0 for others
+    std::vector<char> hangs_between_;            // of them: with shells on both sides of its sheet
     struct FirstItem {
         int around = -1;
         int item = -1;

@@ -2,7 +2,8 @@
 #include "operators/locate.h"
 
 #include <cmath>
-#include <sstream>
+
+#include "operators/no_cut.h"
 
 #include "mesh/rounding.h"
 
@@ -39,9 +40,6 @@ double longest_edge(const Mesh& mesh, int corners, const Index* n) {
 
 /// Marks the nodes of elements that one blade touches with level 0.
 void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& distance, Location& out) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const double d : distance)
-        if (std::abs(d) < std::abs(nearest)) nearest = d;
     std::vector<std::uint8_t> side(distance.size());
     for (std::size_t n = 0; n < side.size(); ++n)
         side[n] = distance[n] < -out.rounding ? behind : distance[n] > out.rounding ? before : on;
@@ -64,15 +62,7 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
             if (crossed || side[n[k]] == on) out.level[n[k]] = 0;
         touched = true;
     });
-    if (touched) return;
-    std::ostringstream message;
-    if (beyond) {
-        message << "the " << blade.tool->kind() << " meets the mesh only outside the part of it that is to cut. Move that part into the material";
-    } else {
-        message << "the " << blade.tool->kind() << " misses the mesh: the whole mesh lies on its " << (nearest > 0 ? "positive" : "negative")
-                << " side, the nearest node at distance " << std::abs(nearest) << ". Move the " << blade.tool->kind() << " or turn it";
-    }
-    throw ToolError(message.str());
+    if (!touched) throw ToolError(why_missed(mesh, blade, distance, out.tolerance, beyond));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Location {
 /// over the nodes, one over the elements and one per level, unless `adjacency` (elements around nodes) is
 /// given, which makes the levels cost only the band.
 ///
-/// Throws ToolError when a tool misses the mesh: says how far away it is, and on which side.
+/// Throws ToolError when a tool parts no nodes of an element and none lie on it: why_missed().
 Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr);
 
 /// Gives nodes without a level (-1) that are k <= `count` edges away from those of level 0 the level k.

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <unordered_set>
 
+#include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "operators/held_inside.h"
 #include "operators/poor.h"
@@ -88,47 +90,75 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
     return out;
 }
 
-/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool.
-void warn_of_grazing(Interface& f, const Tool& tool) {
+/// An element whose mean ratio fell below this part of what it was has become clearly worse.
+constexpr double clearly_worse = 0.75;
+
+/// Whether an element at a node is clearly worse than in the input.
+bool became_worse(const Interface& f, const Mesh& mesh, int v) {
     const BandMesh& band = f.d.band;
-    double smallest = 90;
+    const auto fell = [&](double now, const CellRef& cell) { return now < clearly_worse * mean_ratio(mesh, cell.type, cell.cell); };
+    return std::ranges::any_of(band.tetras.around(v), [&](int t) { return fell(tetra_quality(f.d, t), band.tetra_cells[band.tetras.origin(t)]); }) ||
+           std::ranges::any_of(band.triangles.around(v), [&](int t) {
+               return f.d.constraints.is_shell(band.triangles.origin(t)) && fell(shell_quality(f.d, t), band.triangle_cells[band.triangles.origin(t)]);
+           });
+}
+
+/// Whether all of the surface or curve that a node keeps to lies on the tool around it: then there is no wedge between them.
+bool lies_on(const Interface& f, const Tool& tool, int v) {
+    const BandMesh& band = f.d.band;
+    const NodeConstraint& c = f.d.constraints[v];
+    const auto on_tool = [&](const auto& list) {
+        return std::ranges::all_of(list.around(v), [&](int s) {
+            return list.tag(s) != c.shape || std::ranges::all_of(list[s], [&](int w) { return std::abs(tool.distance(band.nodes[w].at)) <= 10 * f.tolerance; });
+        });
+    };
+    return c.freedom == NodeFreedom::curve ? on_tool(band.creases) : c.freedom == NodeFreedom::surface && on_tool(band.skin);
+}
+
+std::string degrees(double angle) {
+    if (angle < 0.1) return "less than 0.1 degrees";
+    std::ostringstream text;
+    text.precision(2);
+    text << angle << " degrees";
+    return text.str();
+}
+
+/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool. Only where elements have become worse.
+void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
+    const BandMesh& band = f.d.band;
+    const auto angle = [](double sine) { return std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi; };
+    const auto counts = [&](int v) { return !lies_on(f, tool, v) && became_worse(f, mesh, v); };
+    constexpr double narrow = 5;
+    double smallest = narrow;
     for (const int v : f.nodes) {
         if (!f.d.contact[v].has(&tool)) continue;
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
         if (!normal) continue;
-        const double sine = normal->cross(tool.normal(band.nodes[v].at)).norm();
-        smallest = std::min(smallest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+        const double here = angle(normal->cross(tool.normal(band.nodes[v].at)).norm());
+        if (here < smallest && counts(v)) smallest = here;
     }
-    if (smallest < 5) {
-        std::ostringstream message;
-        message.precision(2);
-        message << "the " << tool.kind() << " meets a surface or group border at " << smallest
-                << " degrees: elements in the wedge between them cannot be better than the wedge";
-        f.warnings.push_back(message.str());
-    }
-    double flattest = 90;
+    if (smallest < narrow)
+        f.warnings.push_back("the " + tool.kind() + " meets a surface or group border at " + degrees(smallest) +
+                             ": elements in the wedge between them cannot be better than the wedge");
+    double flattest = narrow;
     for (const auto* set : {&f.nodes, &f.transition})
         for (const int v : *set) {
             if (f.d.constraints[v].freedom != NodeFreedom::curve) continue;
             if (std::abs(tool.distance(band.nodes[v].at)) > 0.15 * band.mean_edge_length(v)) continue;
             Eigen::Matrix3d along;
             f.d.constraints.tangents(v, nullptr, band.nodes[v].at, along);
-            const double sine = std::abs(along.col(0).dot(tool.normal(band.nodes[v].at)));
-            flattest = std::min(flattest, std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi);
+            const double here = angle(std::abs(along.col(0).dot(tool.normal(band.nodes[v].at))));
+            if (here < flattest && counts(v)) flattest = here;
         }
-    if (flattest < 5) {
-        std::ostringstream message;
-        message.precision(2);
-        message << "the " << tool.kind() << " runs along a feature line or border line at " << flattest
-                << " degrees: elements between them cannot be better than that wedge";
-        f.warnings.push_back(message.str());
-    }
+    if (flattest < narrow)
+        f.warnings.push_back("the " + tool.kind() + " runs along a feature line or border line at " + degrees(flattest) +
+                             ": elements between them cannot be better than that wedge");
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
         if (!normal || normal->cross(tool.normal(band.nodes[v].at)).norm() >= 0.15) continue;
-        if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v)) ++near;
+        if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v) && counts(v)) ++near;
     }
     if (near > 0)
         f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
@@ -163,8 +193,46 @@ void warn_of_parted_lips(Interface& f) {
         alone += !near(k - 1) && !near(k + 1);
     }
     if (alone > 0)
-        f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (the lips of an earlier crack) keep their shape, but no longer match node for node (" +
+        f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (a contact, the lips of an earlier crack) keep their shape, but no longer match node for node (" +
                              std::to_string(alone) + " nodes): what joins coincident nodes there has to be made anew");
+}
+
+/// A mid-side node of the input that moved with its edge a-b.
+struct MovedMiddle {
+    Index node;  // of the input
+    int a, b;
+};
+
+/// In ascending order. Those that became corners are band nodes themselves.
+std::vector<MovedMiddle> moved_middles(const BandMesh& band, const Mesh& before, const Rebuilt& rebuilt) {
+    std::unordered_set<Index> corners;
+    for (const BandNode& n : band.nodes)
+        if (n.global >= 0) corners.insert(n.global);
+    std::vector<MovedMiddle> out;
+    for (const auto& [key, middle] : band.mid_nodes) {
+        const Index now = rebuilt.kept_node(middle);
+        if (now < 0 || rebuilt.mesh.points[now] == before.points[middle] || corners.contains(middle)) continue;
+        out.push_back({middle, static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)});
+    }
+    std::ranges::sort(out, {}, &MovedMiddle::node);
+    return out;
+}
+
+/// Adds them to the set of their edge: interface if it lies on a tool, else transition; and to the constraints.
+void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before, const std::array<const char*, 4>& sets, Report& report) {
+    const NodeConstraints& constraints = f.d.constraints;
+    for (const MovedMiddle& m : middles) {
+        const Contact tools = f.d.edge_contact(m.a, m.b);
+        const NodeFreedom freedom = constraints.on_edge(f.d.band, m.a, m.b).freedom;
+        report.node_sets[sets[(tools ? 0 : 2) + constraints.is_exterior_edge(f.d.band, m.a, m.b)]].push_back(before.node_ids[m.node]);
+        std::set<std::string> kinds;
+        for (const Tool* t : tools.tools()) kinds.insert(t->kind());
+        for (const std::string& kind : kinds) ++report.constraints[kind];
+        report.constraints["tangent plane"] += constraints.is_skin_edge(f.d.band, m.a, m.b);
+        report.constraints["group boundary"] += constraints.is_internal_edge(f.d.band, m.a, m.b);
+        report.constraints["line"] += freedom == NodeFreedom::curve;
+        report.constraints["free"] += !tools && freedom == NodeFreedom::free;
+    }
 }
 
 void count_constraints(const Interface& f, const std::vector<Blade>& blades, Report& report) {
@@ -236,7 +304,7 @@ void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) 
     constexpr std::size_t named = 5;
     const double was = report.quality_before.minimum, is = report.quality_after.minimum;
     if (is >= poor || is >= fallen * was) return;
-    const HeldNodes held = held_inside(f);
+    const HeldInside held = held_inside(f);
     if (!held.many()) return;
     const auto counts = f.d.constraints.count_by_group(f.d.band, held.nodes, before.groups.size());
     std::vector<std::pair<Index, GroupIndex>> most;
@@ -262,6 +330,14 @@ void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& bef
         if (!drifting[g]) return;
         r.boundary_kept = false;
         r.boundary_drift = drift[g];
+    });
+}
+
+/// Of node groups whose boundary was kept, but for shortcuts: how far those went.
+void describe_shortcuts(const DriftGauge& gauge, const Interface& f, const Mesh& before, Report& report) {
+    const std::vector<double> drift = gauge.drift(f.d.band, before);
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        if (r.kind == GroupKind::node) r.boundary_drift = std::max(r.boundary_drift, drift[g]);
     });
 }
 
@@ -482,6 +558,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     check_input_shape(f, mesh());
     check_skin(f);
     if (options_.preserve) gauge_.emplace(f.d.band, mesh(), drifting_);
+    if (f.d.constraints.has_shortcuts()) shortcuts_.emplace(DriftGauge::of_shortcuts(f.d.band, mesh(), drifting_, constraint_options.on_shortcuts));
     for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
     watch_.lap("constraints");
     return f;
@@ -500,13 +577,14 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         if (!opened[v]) f.d.contact[v] = {};
     find_node_sets(f);
     add_moved_nodes(f);
-    for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
+    for (const Blade& b : blades_) warn_of_grazing(f, *b.tool, mesh());
     warn_of_parted_lips(f);
     report_.held = find_held_nodes(f, mesh());
     BandQuality quality = band_quality(f, mesh());
     report_.quality_before = summarise(std::move(quality.before));
     report_.quality_after = summarise(std::move(quality.after));
     report_.poor = find_poor_places(f, mesh(), report_.quality_before.minimum);
+    for (std::string& warning : warnings_of_opened_areas(f.d.band, mesh())) f.warnings.push_back(std::move(warning));
     watch_.lap("open");
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());
@@ -529,6 +607,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     report_.node_sets[naming.sets[2]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, interior);
     report_.node_sets[naming.sets[3]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, exterior);
     count_constraints(f, blades_, report_);
+    add_middles(moved_middles(f.d.band, mesh(), rebuilt), f, mesh(), naming.sets, report_);
     report_.nodes_split = rebuilt.nodes_split;
     report_.nodes_doubled = rebuilt.nodes_doubled;
     report_.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;
@@ -563,6 +642,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
     if (!meaningless_.empty())
         for_each_record(mesh(), report_, [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
+    if (shortcuts_) describe_shortcuts(*shortcuts_, f, mesh(), report_);
     watch_.lap("report");
     remove_marks(rebuilt.mesh);
     return {std::move(rebuilt.mesh), std::move(report_)};

@@ -40,7 +40,10 @@ struct RefineFirst {
 struct OperatorOptions {
     std::string name;               ///< prefix of the new groups
     Method method = Method::snap;
-    std::optional<int> transition;  ///< i-th neighbourhood that may move; computed when absent
+    /// The i-th neighbourhood of the interface that may move (the paper's bandwidth i, 3.1.2), 1 to 20. When absent: for `deform` as in the
+    /// paper, the largest distance of an interface node from the tool over the mean edge length, at least 2; for `snap`, which moves
+    /// nodes by less than an edge and splits the rest, 2, as more rings do not make better elements (resources/docs/paper.md).
+    std::optional<int> transition;
     double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
     /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
     std::optional<std::vector<std::string>> preserve;
@@ -119,6 +122,7 @@ private:
     std::vector<bool> meaningless_;    // groups of DeckMarks::surface_sets, by index; empty if none
     std::vector<bool> drifting_;       // groups, by index; empty if none
     std::optional<DriftGauge> gauge_;  // of them
+    std::optional<DriftGauge> shortcuts_;  // of the others, if they have any
     std::future<std::pair<std::unique_ptr<Mesh>, FamilyTotals>> copy_;
 };
 

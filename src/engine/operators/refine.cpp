@@ -10,6 +10,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "operators/interface.h"
 #include "operators/lips.h"
@@ -504,6 +505,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
         if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free && !rebuilt.mesh.families.groups(rebuilt.mesh.node_families[n]).empty())
             on_shortcuts.push_back(rebuilt.mesh.node_ids[n]);
     report.warnings = f->warnings;
+    for (std::string& warning : warnings_of_opened_areas(f->d.band, mesh)) report.warnings.push_back(std::move(warning));
     if (bisector->off_shape() > 0)
         report.warnings.push_back(std::to_string(bisector->off_shape()) + " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
     if (input.solver_input) {

@@ -66,7 +66,8 @@ struct Report {
     std::string name;       ///< prefix of the groups it made
     std::string method;     ///< "snap" or "deform"
     int transition = 0;     ///< i of the i-th neighbourhood that was allowed to move
-    /// Node numbers by the paper's names: ICN, ECN (interface), ITN, ETN (transition).
+    /// Node numbers by the paper's names: ICN, ECN (interface), ITN, ETN (transition). Of mid-side nodes those that moved, in the
+    /// set of their edge: interface if it lies on the tool, else transition.
     std::map<std::string, std::vector<Index>> node_sets;
     /// Number of nodes by constraint, in the paper's terms: the tool's kind ("plane"), "tangent plane" (on
     /// the skin or a shell), of these "line" (on a feature line or border line: two surfaces) and "fixed";

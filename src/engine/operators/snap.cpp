@@ -113,7 +113,11 @@ public:
         constexpr int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
         const auto touches = [&](int v) { return d_.contact[v].has(&tool_); };
         std::map<std::array<int, 3>, int> sides;      // side of the first tetrahedron met
-        std::map<std::array<int, 2>, int> edge_sides;
+        struct Shells {
+            bool positive = false, negative = false, flat = false;
+            bool parted() const { return positive + negative + flat > 1; }
+        };
+        std::map<std::array<int, 2>, Shells> shells_at;
         for (int v = 0; v < band_.size(); ++v) {
             if (!touches(v)) continue;
             for (const int t : band_.tetras.around(v)) {
@@ -131,9 +135,10 @@ public:
                 if (!d_.constraints.is_shell(band_.triangles.origin(t))) continue;
                 for (const int w : band_.triangles[t]) {
                     if (w <= v || !touches(w)) continue;
-                    const int side = side_of(band_.triangles[t]);
-                    const auto [first, fresh] = edge_sides.emplace(std::array{v, w}, side);
-                    if (!fresh && first->second * side < 0 && band_.cut_edges.find({v, w}) < 0) band_.cut_edges.add({v, w}, tag);
+                    Shells& at = shells_at[{v, w}];
+                    if (lies_flat(band_.triangles[t])) at.flat = true;
+                    else (side_of(band_.triangles[t]) > 0 ? at.positive : at.negative) = true;
+                    if (at.parted() && band_.cut_edges.find({v, w}) < 0) band_.cut_edges.add({v, w}, tag);
                 }
             }
         }
@@ -155,6 +160,16 @@ private:
         }
         if (std::abs(furthest) <= f_.tolerance) furthest = tool_.distance(middle);
         return furthest > 0 ? 1 : -1;
+    }
+
+    /// Whether a shell lies in a tool: what stands on it can be parted from it.
+    bool lies_flat(const std::array<int, 3>& nodes) const {
+        Vec3 middle = Vec3::Zero();
+        for (const int v : nodes) {
+            if (std::abs(value_[v]) > f_.tolerance) return false;
+            middle += band_.nodes[v].at / 3;
+        }
+        return std::abs(tool_.distance(middle)) <= f_.tolerance;
     }
 
     /// The elements in which the blade is wanted.

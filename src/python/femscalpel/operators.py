@@ -80,6 +80,9 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     skin like any other, and where cracks cross, every piece of the material has nodes of its own. The lips of the older crack keep
     their plane and area, but need not match node for node there any more; the report warns of that.
 
+    Shells that lie in the tool's surface come apart from those that stand on them: a plate stays with the negative side, or, where
+    others are joined to it on the negative side only, with the positive.
+
     Parameters
     ----------
     mesh : Mesh
@@ -94,7 +97,9 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         "snap" moves nodes near the tool onto it and splits what still crosses; it always succeeds on a sound
         mesh. "deform" only moves nodes (the paper, 3.1.1) and may end in QualityError.
     transition : int, optional
-        How many rings of elements around the tool may move; computed when not given.
+        How many rings of nodes around those on the tool may move (the paper's bandwidth i, 3.1.2), 1 to 20. When not given: with
+        "deform" as in the paper, the largest distance of an interface node from the tool over the mean edge length, at least 2; with
+        "snap", which moves nodes by less than an edge and splits the rest, 2: more do not make better elements.
     feature_angle : float
         Degrees; a skin edge sharper than this is a feature line that keeps its shape.
     strict : bool
@@ -133,7 +138,8 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     Raises
     ------
     ToolError
-        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool misses the mesh.
+        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool cuts nothing: the message says
+        where it passes instead.
     UnsupportedElementError
         The band around the tool reaches quadrangles, prisms, pyramids or hexahedra.
     QualityError

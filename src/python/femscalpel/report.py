@@ -104,7 +104,9 @@ class Report:
     name: str  #: prefix of the groups it made
     method: str  #: "snap" or "deform"
     transition: int  #: number of rings around the tool that were allowed to move
-    node_sets: Dict[str, np.ndarray]  #: node numbers: ICN, ECN (interface), ITN, ETN (transition), as in the paper
+    #: Node numbers: ICN, ECN (interface), ITN, ETN (transition), as in the paper. Of mid-side nodes those that moved, in the set of
+    #: their edge: interface if it lies on the tool, else transition.
+    node_sets: Dict[str, np.ndarray]
     #: Number of nodes by constraint: the tool's kind ("plane"), "tangent plane" (on the skin or a shell), of these "line"
     #: and "fixed"; "group boundary"; "free". A node can count twice.
     constraints: Dict[str, int]
