@@ -173,8 +173,8 @@ void check_shape(const Interface& f, const Mesh& mesh) {
         throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +
                            "): the tool passes too close to a corner or crease there. Move it a little");
     std::vector<Bad> folded;
-    for (const int t : folded_elements(f, 0)) {
-        const CellRef& c = f.d.band.tetra_cells[f.d.band.tetras.origin(t)];
+    for (const BandElement e : folded_elements(f, 0)) {
+        const CellRef& c = e.cell(f.d.band);
         folded.push_back({mesh.block(c.type).ids[c.cell], 0});
     }
     if (!folded.empty())

@@ -334,9 +334,9 @@ Vec3 middle_of(const BandMesh& band, const auto& nodes) {
 Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     Slots found;
-    for (const int t : folded_elements(f, least_curved)) {
-        found.tetras.push_back(band.tetras.origin(t));
-        found.places.push_back(middle_of(band, band.tetras[t]));
+    for (const BandElement e : folded_elements(f, least_curved)) {
+        (e.triangle ? found.triangles : found.tetras).push_back(e.origin(band));
+        found.places.push_back(middle_of(band, e.nodes(band)));
     }
     for (int v = band.original_nodes(); v < band.size(); ++v) {
         if (!band.in_use(v)) continue;
