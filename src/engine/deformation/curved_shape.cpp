@@ -58,7 +58,7 @@ std::span<const std::array<std::int8_t, 2>> edges_of(std::size_t corners) {
 
 /// curved_ratio() of the element with these corners, or 1 if it is straight, -1 if a mid-side node does not fit.
 /// `mid(k)`: of edge k.
-double ratio(std::span<const Vec3> corner, auto mid) {
+double ratio(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corners_too) {
     std::array<Vec3, 10> x;
     std::ranges::copy(corner, x.begin());
     bool straight = true;
@@ -70,13 +70,15 @@ double ratio(std::span<const Vec3> corner, auto mid) {
         x[corner.size() + k] = m.at;
         straight = straight && m.at == (corner[i] + corner[j]) / 2;
     }
-    return straight ? 1 : curved_ratio(std::span(x).first(corner.size() + edges.size()));
+    if (straight) return 1;
+    const auto nodes = std::span(x).first(corner.size() + edges.size());
+    return at == ShapeAt::corners_too ? curved_ratio(nodes) : integration_ratio(nodes);
 }
 
 /// The same, its mid-side nodes by mid(i, j), a function of the places of an edge's ends among the corners.
-double ratio_by_ends(std::span<const Vec3> corner, auto mid) {
+double ratio_by_ends(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corners_too) {
     const auto edges = edges_of(corner.size());
-    return ratio(corner, [&](std::size_t k) { return mid(edges[k][0], edges[k][1]); });
+    return ratio(corner, [&](std::size_t k) { return mid(edges[k][0], edges[k][1]); }, at);
 }
 
 /// The corners of an element, were its nodes at place_of(node).
@@ -176,10 +178,10 @@ bool CurvedStar::stays_sound(const Vec3& x) {
     return at_home_ < curved_limit && worst(x, at_home_) >= at_home_;
 }
 
-double curved_shape(const Deformable& d, BandElement element) {
+double curved_shape(const Deformable& d, BandElement element, ShapeAt at) {
     if (!is_second_order(d, element)) return 1;
     const auto v = element.nodes(d.band);
-    return ratio_by_ends(Corners(v, [&](int n) { return d.band.nodes[n].at; }), [&](int i, int j) { return mid_side(d, v[i], v[j]); });
+    return ratio_by_ends(Corners(v, [&](int n) { return d.band.nodes[n].at; }), [&](int i, int j) { return mid_side(d, v[i], v[j]); }, at);
 }
 
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) { return CurvedStar(d, node).stays_sound(x); }
@@ -190,9 +192,8 @@ double curved_children(const Deformable& d, int a, int b, const Vec3& at, const 
     const double t = fraction(band.nodes[a].at, band.nodes[b].at, at);
     const NodeConstraint along = d.constraints.on_edge(band, a, b);
     double worst = 1;
-    for_second_order_around(d, a, [&](BandElement element) {
+    for_second_order_at_edge(d, a, b, [&](BandElement element) {
         const auto v = element.nodes(band);
-        if (std::ranges::find(v, b) == v.end()) return;
         for (const int replaced : {a, b}) {
             const Corners corner(v, [&](int n) { return n == replaced ? at : band.nodes[n].at; });
             worst = std::min(worst, ratio_by_ends(corner, [&](int i, int j) {

@@ -37,6 +37,14 @@ void for_second_order_around(const Deformable& d, int node, auto visit) {
             if (const BandElement e{triangle, s}; is_second_order(d, e)) visit(e);
 }
 
+/// Calls visit(element) for those around the edge a-b.
+void for_second_order_at_edge(const Deformable& d, int a, int b, auto visit) {
+    for_second_order_around(d, a, [&](BandElement e) {
+        const auto nodes = e.nodes(d.band);
+        if (std::ranges::find(nodes, b) != nodes.end()) visit(e);
+    });
+}
+
 /// Where the mid-side node of an edge belongs.
 struct MidSide {
     Vec3 at;
@@ -83,8 +91,11 @@ private:
     double at_home_ = 0;           // worst() where the node is
 };
 
-/// curved_ratio() of an element of the band as it is, 1 if it is not of second order.
-double curved_shape(const Deformable& d, BandElement element);
+/// Where to look at an element's Jacobian: integration_ratio() or curved_ratio().
+enum class ShapeAt { integration_points, corners_too };
+
+/// That ratio of an element of the band as it is, 1 if it is not of second order.
+double curved_shape(const Deformable& d, BandElement element, ShapeAt at = ShapeAt::corners_too);
 
 /// CurvedStar::stays_sound() for a single place.
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x);

@@ -39,9 +39,28 @@ public:
         else bulges_[edge_key(a, b)] = bulge;
     }
 
+    /// Moves the mid-side node of an edge of the input: it is to be written although the edge's ends stay.
+    void mend(int a, int b, const Vec3& bulge) {
+        mended_.emplace(edge_key(a, b), this->bulge(a, b));
+        set_bulge(a, b, bulge);
+    }
+
+    /// Takes that back.
+    void put_back(int a, int b) {
+        const auto it = mended_.find(edge_key(a, b));
+        if (it == mended_.end()) return;
+        set_bulge(a, b, it->second);
+        mended_.erase(it);
+    }
+
+    bool is_mended(int a, int b) const { return mended_.contains(edge_key(a, b)); }
+
+    /// The input's bulges of the edges that mend() was called for, by edge.
+    const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
+
 private:
     bool any_ = false;
-    std::unordered_map<std::uint64_t, Vec3> bulges_;
+    std::unordered_map<std::uint64_t, Vec3> bulges_, mended_;
 };
 
 /// How far along from a to b the point `at` is, as a fraction of the chord.

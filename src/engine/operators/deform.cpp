@@ -8,6 +8,7 @@
 
 #include "deformation/bar_network.h"
 #include "operators/interface.h"
+#include "operators/folded_input.h"
 #include "operators/mend_curved.h"
 #include "operators/stopwatch.h"
 
@@ -329,7 +330,7 @@ public:
         if (worst_ > 0) {
             relax(d_, movable);
             mend_curved(f_, tool_, false);
-            folded_ = folded_elements(f_, least_curved);
+            folded_ = newly_folded(f_, folded_elements(f_, least_curved));
             worst_ = folded_.empty() ? worst_quality() : 0;
         }
         find_misplaced();

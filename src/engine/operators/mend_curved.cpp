@@ -33,10 +33,7 @@ public:
 private:
     double worst_around_edge(int a, int b) const {
         double worst = 1;
-        for_second_order_around(d_, a, [&](BandElement e) {
-            const auto nodes = e.nodes(band_);
-            if (std::ranges::find(nodes, b) != nodes.end()) worst = std::min(worst, curved_shape(d_, e));
-        });
+        for_second_order_at_edge(d_, a, b, [&](BandElement e) { worst = std::min(worst, curved_shape(d_, e)); });
         return worst;
     }
 

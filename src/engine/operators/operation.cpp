@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
+#include "operators/folded_input.h"
 #include "operators/refine_first.h"
 
 namespace femscalpel {
@@ -469,6 +470,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
     warn_of_parted_lips(f);
     watch_.lap("open");
+    put_back_middles(f, mesh());
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;

@@ -8,6 +8,7 @@
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "mesh/quality.h"
+#include "operators/folded_input.h"
 #include "operators/improve.h"
 #include "operators/interface.h"
 #include "operators/mend_curved.h"
@@ -334,7 +335,7 @@ Vec3 middle_of(const BandMesh& band, const auto& nodes) {
 Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     Slots found;
-    for (const BandElement e : folded_elements(f, least_curved)) {
+    for (const BandElement e : newly_folded(f, folded_elements(f, least_curved))) {
         (e.triangle ? found.triangles : found.tetras).push_back(e.origin(band));
         found.places.push_back(middle_of(band, e.nodes(band)));
     }
@@ -465,6 +466,8 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     for (int attempt = 1, polished = 0;; ++attempt) {
         cut(f);
         Slots bad = misfits(f);
+        // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
+        if (attempt > 1) check_folded_input(f, newly_folded(f, folded_elements(f, least_curved)));
         bool polish = false;
         if (bad.empty()) {
             if (plain) return;
