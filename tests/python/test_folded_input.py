@@ -143,7 +143,7 @@ def test_held_middles_are_named(kind):
     mesh.add_group("GAUGES", "node", mesh.node_ids[moved])
     old = mesh.points[moved]
     folded = folded_numbers(mesh, kind)
-    for z in (1.9, 2.2, 2.5, 2.77, 3.1):
+    for z in (0.2, 0.9, 2.2, 2.5, 2.77):
         try:
             result = fs.crack(mesh, fs.Plane((2, z, 2.5), (0.1, 2, 0.5)))
         except fs.QualityError as error:
