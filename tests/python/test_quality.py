@@ -54,3 +54,56 @@ def test_scaled_jacobian_and_angle_of_bad_elements():
     assert 0 < fs.scaled_jacobian(flat)["tetra"][0] < 2e-3
     assert fs.smallest_angle(flat)["tetra"] == pytest.approx([np.degrees(1e-3)] * 2, abs=1e-3)
     assert fs.scaled_jacobian(flat)["line"] == [1] and np.isnan(fs.smallest_angle(flat)["line"]).all()
+
+
+# Ends of the edges that carry mid-side nodes, in their order.
+EDGES = {
+    "tetra10": ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    "pyramid13": ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
+    "wedge15": ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
+    "hexahedron20": ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
+    "triangle6": ((0, 1), (1, 2), (2, 0)),
+    "quad8": ((0, 1), (1, 2), (2, 3), (3, 0)),
+}
+
+
+@pytest.mark.parametrize("kind", EDGES)
+def test_scaled_jacobian_looks_at_the_corners_of_second_order_elements(kind):
+    shape = kind.rstrip("0123456789")
+    corners = np.array(UNIT[shape], float)
+    if shape == "tetra":
+        corners[[0, 1]] = corners[[1, 0]]
+    middles = np.array([(corners[a] + corners[b]) / 2 for a, b in EDGES[kind]])
+
+    def value():
+        points = np.concatenate([corners, middles])
+        return fs.scaled_jacobian(fs.Mesh(points, {kind: [range(len(points))]}))[kind][0]
+
+    assert value() == pytest.approx(1)
+    for k, (a, b) in enumerate(EDGES[kind]):
+        straight = middles[k].copy()
+        # Along the edge past a quarter of it, the edge leaves its near end backwards.
+        middles[k] = 0.76 * corners[a] + 0.24 * corners[b]
+        assert value() < -0.5, (a, b)
+        middles[k] = 0.74 * corners[a] + 0.26 * corners[b]
+        assert value() > 0.5, (a, b)
+        middles[k] = straight
+
+
+def test_scaled_jacobian_of_bent_elements():
+    # The edge 0-1 of a right triangle bent inwards by h: at node 1 the directions are (-1, 4h) and (-1, 1).
+    for h in (0.1, 0.25, 0.4):
+        points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, h, 0], [0.5, 0.5, 0], [0, 0.5, 0]]
+        angle = np.arctan2(1, 1) - np.arctan2(4 * h, 1)
+        expected = min(np.sin(angle), np.sin(np.pi / 4)) / np.sin(np.pi / 3)
+        assert fs.scaled_jacobian(fs.Mesh(points, {"triangle6": [range(6)]}))["triangle6"] == pytest.approx([expected], abs=1e-12)
+        # In any plane, seen from either side.
+        turned = np.array(points) @ np.linalg.qr(np.arange(9).reshape(3, 3) ** 2 + np.eye(3))[0]
+        for order in (range(6), [1, 0, 2, 3, 5, 4]):
+            mesh = fs.Mesh(turned, {"triangle6": [list(order)]})
+            assert fs.scaled_jacobian(mesh)["triangle6"] == pytest.approx([expected], abs=1e-12)
+
+
+def test_scaled_jacobian_of_a_quadrangle_with_a_reentrant_corner():
+    mesh = fs.Mesh([[0, 0, 0], [2, 0, 0], [0.5, 0.5, 0], [0, 2, 0]], {"quad": [[0, 1, 2, 3]]})
+    assert fs.scaled_jacobian(mesh)["quad"][0] < -0.5

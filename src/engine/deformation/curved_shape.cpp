@@ -55,32 +55,45 @@ EdgeShape shape_of(const Deformable& d, int a, int b) {
     return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b), d.held_between(a, b)};
 }
 
-bool is_second_order(const Deformable& d, int tetra) { return d.band.tetra_cells[d.band.tetras.origin(tetra)].type == CellType::tetra10; }
+/// Edges of a tetrahedron by places of corners; those of a triangle are the first.
+std::span<const std::array<std::int8_t, 2>> edges_of(std::size_t corners) {
+    return traits(corners == 3 ? CellType::triangle6 : CellType::tetra10).edges;
+}
 
-/// curved_ratio() of the tetrahedron with these corners, or 1 if it is straight, -1 if a mid-side node does not fit.
+/// curved_ratio() of the element with these corners, or 1 if it is straight, -1 if a mid-side node does not fit.
 /// `mid(k)`: of edge k.
-double ratio(const std::array<Vec3, 4>& corner, auto mid) {
+double ratio(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corners_too) {
     std::array<Vec3, 10> x;
     std::ranges::copy(corner, x.begin());
     bool straight = true;
-    const auto& edges = traits(CellType::tetra10).edges;
+    const auto edges = edges_of(corner.size());
     for (std::size_t k = 0; k < edges.size(); ++k) {
         const int i = edges[k][0], j = edges[k][1];
         const MidSide m = mid(k);
         if (!m.fits) return -1;
-        x[4 + k] = m.at;
+        x[corner.size() + k] = m.at;
         straight = straight && m.at == (corner[i] + corner[j]) / 2;
     }
-    return straight ? 1 : curved_ratio(x);
+    if (straight) return 1;
+    const auto nodes = std::span(x).first(corner.size() + edges.size());
+    return at == ShapeAt::corners_too ? curved_ratio(nodes) : integration_ratio(nodes);
 }
 
-/// For ratio(), from a function of the places of an edge's ends among the corners.
-auto by_ends(auto mid) {
-    return [mid](std::size_t k) {
-        const auto& e = traits(CellType::tetra10).edges[k];
-        return mid(e[0], e[1]);
-    };
+/// The same, its mid-side nodes by mid(i, j), a function of the places of an edge's ends among the corners.
+double ratio_by_ends(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corners_too) {
+    const auto edges = edges_of(corner.size());
+    return ratio(corner, [&](std::size_t k) { return mid(edges[k][0], edges[k][1]); }, at);
 }
+
+/// The corners of an element, were its nodes at place_of(node).
+struct Corners {
+    Corners(std::span<const int> nodes, auto place_of) : count(nodes.size()) { std::ranges::transform(nodes, at.begin(), place_of); }
+
+    operator std::span<const Vec3>() const { return std::span(at).first(count); }
+
+    std::size_t count;
+    std::array<Vec3, 4> at;
+};
 
 }  // namespace
 
@@ -97,6 +110,11 @@ MidSide mid_side(const Deformable& d, int a, int b) {
     return fit(d, na.at, nb.at, shape_of(d, a, b));
 }
 
+bool is_second_order(const Deformable& d, BandElement e) {
+    const CellType type = e.cell(d.band).type;
+    return e.triangle ? type == CellType::triangle6 && d.constraints.is_shell(e.origin(d.band)) : type == CellType::tetra10;
+}
+
 CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {}
 
 void CurvedStar::gather() {
@@ -109,16 +127,17 @@ void CurvedStar::gather() {
         list.push_back(wanted);
         return static_cast<int>(list.size()) - 1;
     };
-    const auto& edges = traits(CellType::tetra10).edges;
-    for (const int t : d_.band.tetras.around(node_)) {
-        if (!is_second_order(d_, t)) continue;
-        Element e{d_.band.tetras[t], {}};
+    for_second_order_around(d_, node_, [&](BandElement element) {
+        const auto nodes = element.nodes(d_.band);
+        const auto edges = edges_of(nodes.size());
+        Element e{nodes.size(), {}, {}};
+        std::ranges::copy(nodes, e.corner.begin());
         for (std::size_t k = 0; k < edges.size(); ++k) {
             const int a = e.corner[edges[k][0]], b = e.corner[edges[k][1]];
             e.mid[k] = a == node_ || b == node_ ? place(spokes_, a == node_ ? b : a) : -1 - place(across, edge_key(a, b));
         }
         elements_.push_back(e);
-    }
+    });
     mids_.resize(spokes_.size());
     found_.resize(spokes_.size());
     for (const std::uint64_t key : across) mids_.push_back(mid_side(d_, static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)));
@@ -137,8 +156,7 @@ double CurvedStar::worst(const Vec3& x, double enough) {
     double worst = 1;
     for (std::size_t i = 0; i < elements_.size() && worst >= enough; ++i) {
         const Element& e = elements_[i];
-        std::array<Vec3, 4> corner;
-        for (int k = 0; k < 4; ++k) corner[k] = d_.band.nodes[e.corner[k]].at;
+        const Corners corner(std::span(e.corner).first(e.corners), [&](int v) { return d_.band.nodes[v].at; });
         worst = std::min(worst, ratio(corner, [&](std::size_t k) {
             const auto m = static_cast<std::size_t>(e.mid[k]);
             if (m < found_.size() && !found_[m]) {
@@ -164,11 +182,10 @@ bool CurvedStar::stays_sound(const Vec3& x) {
     return at_home_ < curved_limit && worst(x, at_home_) >= at_home_;
 }
 
-double curved_shape(const Deformable& d, int tetra) {
-    if (!is_second_order(d, tetra)) return 1;
-    const auto& v = d.band.tetras[tetra];
-    const auto& n = d.band.nodes;
-    return ratio({n[v[0]].at, n[v[1]].at, n[v[2]].at, n[v[3]].at}, by_ends([&](int i, int j) { return mid_side(d, v[i], v[j]); }));
+double curved_shape(const Deformable& d, BandElement element, ShapeAt at) {
+    if (!is_second_order(d, element)) return 1;
+    const auto v = element.nodes(d.band);
+    return ratio_by_ends(Corners(v, [&](int n) { return d.band.nodes[n].at; }), [&](int i, int j) { return mid_side(d, v[i], v[j]); }, at);
 }
 
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) { return CurvedStar(d, node).stays_sound(x); }
@@ -180,22 +197,21 @@ double curved_children(const Deformable& d, int a, int b, const Vec3& at, const 
     const NodeConstraint along = d.constraints.on_edge(band, a, b);
     const double held = d.held_between(a, b);
     double worst = 1;
-    for (const int s : band.tetras.around(a)) {
-        const auto& v = band.tetras[s];
-        if (std::ranges::find(v, b) == v.end() || !is_second_order(d, s)) continue;
+    for_second_order_at_edge(d, a, b, [&](BandElement element) {
+        const auto v = element.nodes(band);
         for (const int replaced : {a, b}) {
-            std::array<Vec3, 4> corner;
-            for (int k = 0; k < 4; ++k) corner[k] = v[k] == replaced ? at : band.nodes[v[k]].at;
-            worst = std::min(worst, ratio(corner, by_ends([&](int i, int j) {
+            const Corners corner(v, [&](int n) { return n == replaced ? at : band.nodes[n].at; });
+            worst = std::min(worst, ratio_by_ends(corner, [&](int i, int j) {
                 if (v[i] != replaced && v[j] != replaced) return mid_side(d, v[i], v[j]);
                 const int other = v[i] == replaced ? v[j] : v[i];
                 const Contact both = tools.common(d.contact[other]);
-                if (other == a) return fit(d, corner[i], corner[j], {along, both, t * t * d.mids.bulge(a, b), held});
-                if (other == b) return fit(d, corner[i], corner[j], {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b), held});
-                return fit(d, corner[i], corner[j], {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t), std::max(held, d.held_off[other])});
-            })));
+                const Vec3 &x = corner.at[i], &y = corner.at[j];
+                if (other == a) return fit(d, x, y, {along, both, t * t * d.mids.bulge(a, b), held});
+                if (other == b) return fit(d, x, y, {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b), held});
+                return fit(d, x, y, {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t), std::max(held, d.held_off[other])});
+            }));
         }
-    }
+    });
     return worst;
 }
 
@@ -203,17 +219,16 @@ double curved_merged(const Deformable& d, int p, int t) {
     if (!d.mids.any()) return 1;
     const BandMesh& band = d.band;
     double worst = 1;
-    for (const int s : band.tetras.around(p)) {
-        const auto& v = band.tetras[s];
-        if (std::ranges::find(v, t) != v.end() || !is_second_order(d, s)) continue;
-        std::array<Vec3, 4> corner;
-        for (int k = 0; k < 4; ++k) corner[k] = band.nodes[v[k] == p ? t : v[k]].at;
-        worst = std::min(worst, ratio(corner, by_ends([&](int i, int j) {
+    for_second_order_around(d, p, [&](BandElement element) {
+        const auto v = element.nodes(band);
+        if (std::ranges::find(v, t) != v.end()) return;
+        const Corners corner(v, [&](int n) { return band.nodes[n == p ? t : n].at; });
+        worst = std::min(worst, ratio_by_ends(corner, [&](int i, int j) {
             if (v[i] != p && v[j] != p) return mid_side(d, v[i], v[j]);
             const int other = v[i] == p ? v[j] : v[i];
-            return fit(d, corner[i], corner[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero(), d.held_between(t, other)});
-        })));
-    }
+            return fit(d, corner.at[i], corner.at[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero(), d.held_between(t, other)});
+        }));
+    });
     return worst;
 }
 

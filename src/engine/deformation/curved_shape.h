@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "deformation/relaxation.h"
 
@@ -10,6 +11,39 @@ namespace femscalpel {
 
 /// Second-order elements whose curved_ratio() is below this are not made, unless they were worse before.
 inline constexpr double curved_limit = 0.15;
+
+/// A tetrahedron or triangle of a band.
+struct BandElement {
+    bool triangle;
+    int slot;
+
+    bool operator==(const BandElement&) const = default;
+    bool alive(const BandMesh& band) const { return triangle ? band.triangles.alive(slot) : band.tetras.alive(slot); }
+    int origin(const BandMesh& band) const { return triangle ? band.triangles.origin(slot) : band.tetras.origin(slot); }
+    const CellRef& cell(const BandMesh& band) const { return (triangle ? band.triangle_cells : band.tetra_cells)[origin(band)]; }
+    /// Its corners. Not to be kept while elements are added, split or merged.
+    std::span<const int> nodes(const BandMesh& band) const {
+        return triangle ? std::span<const int>(band.triangles[slot]) : std::span<const int>(band.tetras[slot]);
+    }
+};
+
+/// Whether it is curved by its mid-side nodes, and by nothing else: a second-order tetrahedron or shell.
+bool is_second_order(const Deformable& d, BandElement element);
+
+/// Calls visit(element) for the second-order elements around a node.
+void for_second_order_around(const Deformable& d, int node, auto visit) {
+    for (const bool triangle : {false, true})
+        for (const int s : triangle ? d.band.triangles.around(node) : d.band.tetras.around(node))
+            if (const BandElement e{triangle, s}; is_second_order(d, e)) visit(e);
+}
+
+/// Calls visit(element) for those around the edge a-b.
+void for_second_order_at_edge(const Deformable& d, int a, int b, auto visit) {
+    for_second_order_around(d, a, [&](BandElement e) {
+        const auto nodes = e.nodes(d.band);
+        if (std::ranges::find(nodes, b) != nodes.end()) visit(e);
+    });
+}
 
 /// Where the mid-side node of an edge belongs.
 struct MidSide {
@@ -42,6 +76,7 @@ private:
     void gather();
 
     struct Element {
+        std::size_t corners;
         std::array<int, 4> corner;
         std::array<int, 6> mid;  // places in mids_
     };
@@ -56,8 +91,11 @@ private:
     double at_home_ = 0;           // worst() where the node is
 };
 
-/// curved_ratio() of a tetrahedron of the band as it is.
-double curved_shape(const Deformable& d, int tetra);
+/// Where to look at an element's Jacobian: integration_ratio() or curved_ratio().
+enum class ShapeAt { integration_points, corners_too };
+
+/// That ratio of an element of the band as it is, 1 if it is not of second order.
+double curved_shape(const Deformable& d, BandElement element, ShapeAt at = ShapeAt::corners_too);
 
 /// CurvedStar::stays_sound() for a single place.
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
+#include <span>
 #include <unordered_map>
 
 #include "mesh/band_mesh.h"
@@ -40,9 +40,28 @@ public:
         else bulges_[edge_key(a, b)] = bulge;
     }
 
+    /// Moves the mid-side node of an edge of the input: it is to be written although the edge's ends stay.
+    void mend(int a, int b, const Vec3& bulge) {
+        mended_.emplace(edge_key(a, b), this->bulge(a, b));
+        set_bulge(a, b, bulge);
+    }
+
+    /// Takes that back.
+    void put_back(int a, int b) {
+        const auto it = mended_.find(edge_key(a, b));
+        if (it == mended_.end()) return;
+        set_bulge(a, b, it->second);
+        mended_.erase(it);
+    }
+
+    bool is_mended(int a, int b) const { return mended_.contains(edge_key(a, b)); }
+
+    /// The input's bulges of the edges that mend() was called for, by edge.
+    const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
+
 private:
     bool any_ = false;
-    std::unordered_map<std::uint64_t, Vec3> bulges_;
+    std::unordered_map<std::uint64_t, Vec3> bulges_, mended_;
 };
 
 /// How far along from a to b the point `at` is, as a fraction of the chord.
@@ -51,8 +70,12 @@ inline double fraction(const Vec3& a, const Vec3& b, const Vec3& at) {
     return std::clamp(chord.dot(at - a) / chord.squaredNorm(), 0.0, 1.0);
 }
 
-/// Smallest Jacobian determinant of a ten-node tetrahedron at its four integration points and its four corners, over
-/// that of the straight element with the same corners: 1 if it is straight, not positive if it is folded.
-double curved_ratio(const std::array<Vec3, 10>& nodes);
+/// Smallest Jacobian determinant of a second-order simplex at its integration points and its corners, over that of the straight
+/// element with the same corners: 1 if it is straight, not positive if it is folded. `nodes`: ten points in the order of
+/// CellType::tetra10, or six in that of CellType::triangle6. A triangle in space counts as seen along the normal of its corners'.
+double curved_ratio(std::span<const Vec3> nodes);
+
+/// The same at the integration points alone, those of solvers: four in a tetrahedron (C3D10, TETRA10), three in a triangle.
+double integration_ratio(std::span<const Vec3> nodes);
 
 }  // namespace femscalpel

@@ -8,6 +8,7 @@
 
 #include "deformation/bar_network.h"
 #include "operators/interface.h"
+#include "operators/folded_input.h"
 #include "operators/mend_curved.h"
 #include "operators/stopwatch.h"
 
@@ -329,7 +330,7 @@ public:
         if (worst_ > 0) {
             relax(d_, movable);
             mend_curved(f_, tool_, false);
-            folded_ = folded_elements(f_, least_curved);
+            folded_ = newly_folded(f_, folded_elements(f_, least_curved));
             worst_ = folded_.empty() ? worst_quality() : 0;
         }
         find_misplaced();
@@ -415,10 +416,11 @@ private:
 
     void for_bad(auto visit) const {
         const double limit = misplaced_.empty() ? std::max(good_enough, worst_) : acceptable;
+        const auto is_folded = [&](bool triangle, int slot) { return std::ranges::find(folded_, BandElement{triangle, slot}) != folded_.end(); };
         for (int t = 0; t < band_.tetras.size(); ++t)
-            if (tetra_quality(d_, t) <= limit || std::ranges::find(folded_, t) != folded_.end()) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
+            if (tetra_quality(d_, t) <= limit || is_folded(false, t)) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
         for (int t = 0; t < band_.triangles.size(); ++t)
-            if (is_shell(t) && shell_quality(d_, t) <= limit) visit(band_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)]);
+            if (is_shell(t) && (shell_quality(d_, t) <= limit || is_folded(true, t))) visit(band_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)]);
     }
 
     /// Where each node would go, and how far that is.
@@ -595,7 +597,7 @@ private:
     std::vector<Vec3> target_;    ///< on the tool
     std::vector<double> slide_;   ///< distance to it in mean edge lengths
     std::vector<double> length_;  ///< mean edge lengths
-    std::vector<int> folded_;     ///< second-order elements, by slot
+    std::vector<BandElement> folded_;  ///< second-order elements
     std::vector<int> misplaced_;  ///< nodes that ended on the wrong side of the tool
     double worst_ = 1;
 };

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "mesh/quality.h"
+#include "operators/folded_input.h"
 #include "operators/mend_curved.h"
 
 namespace femscalpel {
@@ -137,15 +138,8 @@ void check_input_shape(Interface& f, const Mesh& mesh) {
     if (!bad.empty())
         throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
                            name_them(bad) + "); repair them first");
-    for (const CellRef& c : f.d.band.tetra_cells) {
-        if (c.type != CellType::tetra10) continue;
-        std::array<Vec3, 10> x;
-        std::ranges::transform(mesh.block(c.type).nodes(c.cell), x.begin(), [&](Index n) { return mesh.points[n]; });
-        if (!(smallest_jacobian(x) > 0)) bad.push_back({mesh.block(c.type).ids[c.cell], 0});
-    }
-    if (!bad.empty())
-        throw QualityError("the mesh already has " + std::to_string(bad.size()) + " second-order element(s) near the tool that are folded (" +
-                           name_them(bad) + "): move their mid-side nodes nearer to the middle of their edges first");
+    find_folded_input(f, mesh);
+    mend_folded_input(f);
     if (!poor.empty())
         f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) + " element(s) with mean ratio below 0.1 near the tool (" +
                              name_them(poor) + ")");
@@ -166,9 +160,11 @@ void check_shape(const Interface& f, const Mesh& mesh) {
     if (!bad.empty())
         throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +
                            "): the tool passes too close to a corner or crease there. Move it a little");
+    const std::vector<BandElement> elements = newly_folded(f, folded_elements(f, 0));
+    check_folded_input(f, elements);
     std::vector<Bad> folded;
-    for (const int t : folded_elements(f, 0)) {
-        const CellRef& c = f.d.band.tetra_cells[f.d.band.tetras.origin(t)];
+    for (const BandElement e : elements) {
+        const CellRef& c = e.cell(f.d.band);
         folded.push_back({mesh.block(c.type).ids[c.cell], 0});
     }
     if (!folded.empty())

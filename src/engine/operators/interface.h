@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +53,13 @@ struct Interface {
     std::function<Vec3(int, int)> mid_side = {};
     std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
     bool holds_wide = false;                 ///< nodes count as on the tool from farther beside it than they do at once: see is_beside()
+    struct FoldedElement {
+        Index id;        ///< number in the mesh
+        double ratio;    ///< its curved_ratio() there
+        bool mended;     ///< by moving mid-side nodes alone
+    };
+    /// Folded or strongly curved ones of the input, see folded_input.h; by whether it is a triangle, and slot.
+    std::map<std::pair<bool, int>, FoldedElement> folded_input = {};
     bool patched = false;                    ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Signed distance of a node to a tool, 0 in contact. To the first tool it is that of before the band was relaxed:
@@ -119,8 +127,9 @@ void deform_to_tool(Interface& interface, const Tool& tool, const Mesh& mesh);
 /// split in that node, where it is; the blade then crosses one half. To be called first.
 void split_at_fixed_middles(Interface& interface, const Blade& blade, const Mesh& mesh);
 
-/// Throws QualityError that names the elements when the input itself has inverted or folded ones in the band; counts
-/// poor ones (mean ratio below 0.1) as a warning.
+/// Throws QualityError that names the elements when the input itself has inverted ones in the band, or second-order ones that
+/// are folded where solvers integrate; counts poor ones (mean ratio below 0.1) as a warning. Elements that are folded at
+/// a corner only are mended, see folded_input.h.
 void check_input_shape(Interface& interface, const Mesh& mesh);
 
 /// With the shape of the skin given: throws ToolError when no face of the skin in the band lies on it, counts those that do not

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deformation/curved_shape.h"
-
 namespace femscalpel {
 namespace {
 
@@ -21,13 +19,13 @@ public:
 
     void run() {
         for (int round = 0; round < rounds; ++round) {
-            const std::vector<int> bad = folded_elements(f_, goal);
+            const std::vector<BandElement> bad = folded_elements(f_, goal);
             if (bad.empty()) return;
-            for (const int t : bad) {
-                if (!band_.tetras.alive(t) || curved_shape(d_, t) >= goal) continue;
-                flatten_edges(t);
-                if (curved_shape(d_, t) < goal) move_nodes(t);
-                if (may_split_ && curved_shape(d_, t) < goal && round % 2 == 1) split_edge(t);
+            for (const BandElement e : bad) {
+                if (!e.alive(band_) || curved_shape(d_, e) >= goal) continue;
+                flatten_edges(e);
+                if (curved_shape(d_, e) < goal) move_nodes(e);
+                if (may_split_ && curved_shape(d_, e) < goal && round % 2 == 1) split_edge(e);
             }
         }
     }
@@ -35,8 +33,7 @@ public:
 private:
     double worst_around_edge(int a, int b) const {
         double worst = 1;
-        for (const int t : band_.tetras.around(a))
-            if (std::ranges::find(band_.tetras[t], b) != band_.tetras[t].end()) worst = std::min(worst, curved_shape(d_, t));
+        for_second_order_at_edge(d_, a, b, [&](BandElement e) { worst = std::min(worst, curved_shape(d_, e)); });
         return worst;
     }
 
@@ -45,10 +42,10 @@ private:
     }
 
     /// Mid-side nodes to the middle of their edges.
-    void flatten_edges(int t) {
-        const auto nodes = band_.tetras[t];
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < i; ++j) {
+    void flatten_edges(BandElement e) {
+        const auto nodes = e.nodes(band_);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
                 const int a = nodes[i], b = nodes[j];
                 const Vec3 bulge = d_.mids.bulge(a, b);
                 if (bulge.isZero(0) || is_untouched(a, b)) continue;
@@ -65,9 +62,8 @@ private:
     }
 
     /// Pattern search for each corner.
-    void move_nodes(int t) {
-        const auto nodes = band_.tetras[t];
-        for (const int v : nodes) {
+    void move_nodes(BandElement e) {
+        for (const int v : e.nodes(band_)) {
             if (!band_.nodes[v].movable()) continue;
             CurvedStar star(d_, v);
             double best = merit(star, v, band_.nodes[v].at);
@@ -90,12 +86,12 @@ private:
     }
 
     /// Bisects the edge that bulges most: halves have a quarter of the bulge.
-    void split_edge(int t) {
-        const auto nodes = band_.tetras[t];
+    void split_edge(BandElement e) {
+        const auto nodes = e.nodes(band_);
         double farthest = far_bulge;
         int a = -1, b = -1;
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < i; ++j) {
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
                 const Vec3 &x = band_.nodes[nodes[i]].at, &y = band_.nodes[nodes[j]].at;
                 const MidSide mid = mid_side(d_, nodes[i], nodes[j]);
                 const double bulge = (mid.at - (x + y) / 2).norm() / (x - y).norm();
@@ -121,22 +117,24 @@ private:
 
 }  // namespace
 
-std::vector<int> folded_elements(const Interface& f, double limit) {
+std::vector<BandElement> folded_elements(const Interface& f, double limit) {
     const BandMesh& band = f.d.band;
-    std::vector<std::pair<double, int>> found;
+    std::vector<std::tuple<double, bool, int>> found;
     if (!f.d.mids.any()) return {};
-    for (int t = 0; t < band.tetras.size(); ++t) {
-        if (!band.tetras.alive(t)) continue;
-        const bool changed = std::ranges::any_of(band.tetras[t], [&](int v) {
-            return band.is_new(v) || band.nodes[v].at != band.nodes[v].start || f.d.contact[v];
-        });
-        if (!changed) continue;
-        if (const double ratio = curved_shape(f.d, t); ratio < limit) found.push_back({ratio, t});
-    }
+    for (const bool triangle : {false, true})
+        for (int s = 0; s < (triangle ? band.triangles.size() : band.tetras.size()); ++s) {
+            const BandElement e{triangle, s};
+            if (!e.alive(band)) continue;
+            const bool changed = std::ranges::any_of(e.nodes(band), [&](int v) {
+                return band.is_new(v) || band.nodes[v].at != band.nodes[v].start || f.d.contact[v];
+            });
+            if (!changed) continue;
+            if (const double ratio = curved_shape(f.d, e); ratio < limit) found.push_back({ratio, triangle, s});
+        }
     std::ranges::sort(found);
-    std::vector<int> slots;
-    for (const auto& [ratio, t] : found) slots.push_back(t);
-    return slots;
+    std::vector<BandElement> out;
+    for (const auto& [ratio, triangle, slot] : found) out.push_back({triangle, slot});
+    return out;
 }
 
 void mend_curved(Interface& f, const Tool& tool, bool may_split) {

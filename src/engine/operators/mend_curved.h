@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "deformation/curved_shape.h"
 #include "operators/interface.h"
 
 namespace femscalpel {
@@ -11,8 +12,8 @@ namespace femscalpel {
 inline constexpr double least_curved = 0.02;
 
 /// Second-order elements of the band that were changed and are nearly or really folded (curved_ratio() below `limit`),
-/// by slot.
-std::vector<int> folded_elements(const Interface& f, double limit);
+/// worst first.
+std::vector<BandElement> folded_elements(const Interface& f, double limit);
 
 /// Improves second-order elements that came out nearly folded, one after the other: mid-side nodes give up the place the
 /// input had them at along their edge, corner nodes move within their constraints, and edges that bulge far from their

@@ -13,6 +13,7 @@
 #include "mesh/quality.h"
 #include "operators/held_inside.h"
 #include "operators/poor.h"
+#include "operators/folded_input.h"
 #include "operators/refine_first.h"
 
 namespace femscalpel {
@@ -586,6 +587,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     report_.poor = find_poor_places(f, mesh(), report_.quality_before.minimum);
     for (std::string& warning : warnings_of_opened_areas(f.d.band, mesh())) f.warnings.push_back(std::move(warning));
     watch_.lap("open");
+    put_back_middles(f, mesh());
     auto [output, own_totals] = copy_.get();
     if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;

@@ -41,6 +41,13 @@ public:
 private:
     bool moved(int v) const { return band_.nodes[v].global >= 0 && band_.nodes[v].at != input_.points[band_.nodes[v].global]; }
 
+    /// Whether a mid-side node of the element was moved for its own sake.
+    bool is_mended(const auto& corners) const {
+        return !f_.d.mids.mended().empty() && std::ranges::any_of(corners, [&](int v) {
+            return std::ranges::any_of(corners, [&](int w) { return f_.d.mids.is_mended(v, w); });
+        });
+    }
+
     void write_nodes() {
         Mesh& mesh = out_.mesh;
         out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
@@ -129,7 +136,7 @@ private:
             note_born(a, b);
             return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
         }
-        if (moved(a) || moved(b) || f_.d.edge_contact(a, b)) {
+        if (moved(a) || moved(b) || f_.d.edge_contact(a, b) || f_.d.mids.is_mended(a, b)) {
             const Vec3 at = half_way(a, b);
             // Straight to within the digits of a text file stays as it is.
             if (moved(a) || moved(b) || (at - mesh.points[original->second]).norm() > 1e-8 * (band_.nodes[a].at - band_.nodes[b].at).norm())
@@ -187,7 +194,7 @@ private:
                 Index* at = block.connectivity.data() + cell.cell * traits(cell.type).nodes;
                 const bool same = std::equal(nodes.begin(), nodes.end(), at);
                 if (!same) std::ranges::copy(nodes, at);
-                if (!same || std::ranges::any_of(list[s], [&](int v) { return moved(v); })) {
+                if (!same || std::ranges::any_of(list[s], [&](int v) { return moved(v); }) || is_mended(list[s])) {
                     out_.before.push_back(cell);
                     out_.after.push_back(cell);
                 }

@@ -12,9 +12,11 @@
 
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
+#include "operators/folded_input.h"
 #include "operators/interface.h"
 #include "operators/lips.h"
 #include "operators/locate.h"
+#include "operators/mend_curved.h"
 #include "operators/rebuild.h"
 #include "operators/stopwatch.h"
 #include "semantics/carry_over.h"
@@ -111,7 +113,12 @@ std::unordered_set<std::uint64_t> blocked_edges(const Mesh& mesh, const BandMesh
 /// A band's geometry before it is refined: where points of its elements are, second-order ones on their curves.
 class InputGeometry {
 public:
-    InputGeometry(const BandMesh& band, const Mesh& mesh) : band_(band), mids_(band.mid_nodes), mesh_(mesh) {
+    InputGeometry(const BandMesh& band, const MidSides& mids, const Mesh& mesh) : band_(band) {
+        for (const auto& [key, node] : band.mid_nodes) mids_.emplace(key, mesh.points[node]);
+        for (const auto& [key, bulge] : mids.mended()) {
+            const int a = static_cast<int>(key >> 32), b = static_cast<int>(key & 0xffffffffu);
+            mids_[key] = (input(a) + input(b)) / 2 + mids.bulge(a, b);
+        }
         const auto look = [&](const auto& list, std::vector<char>& curved) {
             curved.assign(static_cast<std::size_t>(list.size()), 0);
             for (int s = 0; s < list.size(); ++s)
@@ -127,7 +134,10 @@ public:
     void add_node(int a, int b) { born_.push_back(between(a, b)); }
 
     /// The middle, in the element's own parameters, of an edge inside an element of the input.
-    Vec3 middle(int a, int b) const { return at(between(a, b)); }
+    Vec3 middle(int a, int b) const {
+        const auto mid = mids_.find(edge_key(a, b));
+        return mid == mids_.end() ? at(between(a, b)) : mid->second;
+    }
 
     /// Whether an element around `node` is part of a curved one.
     bool is_curved_around(int node) const {
@@ -158,7 +168,7 @@ private:
     bool bends(int a, int b) const {
         const auto mid = mids_.find(edge_key(a, b));
         if (mid == mids_.end()) return false;
-        return (mesh_.points[mid->second] - (input(a) + input(b)) / 2).norm() > 1e-10 * (input(a) - input(b)).norm();
+        return (mid->second - (input(a) + input(b)) / 2).norm() > 1e-10 * (input(a) - input(b)).norm();
     }
 
     Place between(int a, int b) const {
@@ -181,7 +191,7 @@ private:
             x += p.weight[i] * (2 * p.weight[i] - 1) * input(p.node[i]);
             for (int j = 0; j < i; ++j) {
                 const auto mid = mids_.find(edge_key(p.node[i], p.node[j]));
-                const Vec3 m = mid == mids_.end() ? Vec3((input(p.node[i]) + input(p.node[j])) / 2) : mesh_.points[mid->second];
+                const Vec3 m = mid == mids_.end() ? Vec3((input(p.node[i]) + input(p.node[j])) / 2) : mid->second;
                 x += 4 * p.weight[i] * p.weight[j] * m;
             }
         }
@@ -189,8 +199,7 @@ private:
     }
 
     const BandMesh& band_;
-    const std::unordered_map<std::uint64_t, Index> mids_;
-    const Mesh& mesh_;
+    std::unordered_map<std::uint64_t, Vec3> mids_;
     std::vector<Place> born_;
     std::vector<char> curved_tetras_, curved_triangles_, curved_lines_;  // by slot of the original element
 };
@@ -199,7 +208,7 @@ class Bisector {
 public:
     Bisector(Deformable& d, const Mesh& mesh, const Target& target, const RefineOptions& options, std::vector<double> distance, bool may_grow)
         : d_(d), band_(d.band), mesh_(mesh), target_(target), options_(options), distance_(std::move(distance)), may_grow_(may_grow),
-          blocked_(blocked_edges(mesh, d.band)), geometry_(d.band, mesh) {}
+          blocked_(blocked_edges(mesh, d.band)), geometry_(d.band, d.mids, mesh) {}
 
     /// False when an edge had to be bisected some of whose elements are outside the band.
     bool run() {
@@ -306,7 +315,6 @@ private:
 
     void split(int a, int b) {
         Vec3 at = middle(a, b);
-        if (const auto mid = band_.mid_nodes.find(edge_key(a, b)); mid != band_.mid_nodes.end()) at = mesh_.points[mid->second];
         geometry_.add_node(a, b);
         // On the shape the mesh was made from, if that leaves sound elements.
         bool on_shape = false;
@@ -496,6 +504,8 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     }
     watch.lap("bisect");
 
+    if (!f->folded_input.empty()) check_folded_input(*f, newly_folded(*f, folded_elements(*f, 0)));
+    put_back_middles(*f, mesh);
     f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
     auto [output, totals] = copy.get();
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));

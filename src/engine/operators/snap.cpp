@@ -8,6 +8,7 @@
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "mesh/quality.h"
+#include "operators/folded_input.h"
 #include "operators/improve.h"
 #include "operators/interface.h"
 #include "operators/mend_curved.h"
@@ -363,9 +364,9 @@ Vec3 middle_of(const BandMesh& band, const auto& nodes) {
 Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     Slots found;
-    for (const int t : folded_elements(f, least_curved)) {
-        found.tetras.push_back(band.tetras.origin(t));
-        found.places.push_back(middle_of(band, band.tetras[t]));
+    for (const BandElement e : newly_folded(f, folded_elements(f, least_curved))) {
+        (e.triangle ? found.triangles : found.tetras).push_back(e.origin(band));
+        found.places.push_back(middle_of(band, e.nodes(band)));
     }
     for (int v = band.original_nodes(); v < band.size(); ++v) {
         if (!band.in_use(v)) continue;
@@ -514,6 +515,8 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     for (int attempt = 1, polished = 0;; ++attempt) {
         cut(f);
         Slots bad = misfits(f);
+        // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
+        if (attempt > 1) check_folded_input(f, newly_folded(f, folded_elements(f, least_curved)));
         bool polish = false;
         if (bad.empty()) {
             const double enough = f.d.mids.any() ? second_order_quality : poor_quality;

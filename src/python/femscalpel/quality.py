@@ -5,7 +5,7 @@ from typing import Dict
 
 import numpy as np
 
-from .mesh import CELL_TYPES, Mesh, check_mesh
+from .mesh import Mesh, check_mesh
 
 
 def mean_ratio(mesh: Mesh) -> Dict[str, np.ndarray]:
@@ -35,6 +35,16 @@ _CORNERS = {
     "triangle": ((0, 1, 2), (1, 2, 0), (2, 0, 1)),
     "quad": ((0, 1, 3), (1, 2, 0), (2, 3, 1), (3, 0, 2)),
 }
+# Ends of the edges in the order of their mid-side nodes.
+_EDGES = {shape: [frozenset(map(int, e)) for e in edges.split()] for shape, edges in {
+    "tetra": "01 12 02 03 13 23",
+    "pyramid": "01 12 23 03 04 14 24 34",
+    "wedge": "01 12 02 34 45 35 03 14 25",
+    "hexahedron": "01 12 23 03 45 56 67 47 04 15 26 37",
+    "triangle": "01 12 02",
+    "quad": "01 12 23 03",
+}.items()}
+_COUNT = {"tetra": 4, "pyramid": 5, "wedge": 6, "hexahedron": 8, "triangle": 3, "quad": 4}
 # What the smallest corner of the regular element has.
 _REGULAR = {"tetra": np.sqrt(0.5), "pyramid": np.sqrt(0.5), "wedge": np.sqrt(0.75), "hexahedron": 1.0,
             "triangle": np.sqrt(0.75), "quad": 1.0}
@@ -50,21 +60,38 @@ _FACES = {
 def scaled_jacobian(mesh: Mesh) -> Dict[str, np.ndarray]:
     """Scaled Jacobian of every element by type, in the order of ``mesh.cells``: 1 regular, 0 flat, negative inverted.
 
-    By the corner nodes: the smallest determinant of the unit edge vectors at a corner, divided by that of the regular
-    element (Knupp, SIAM J. Sci. Comput. 23, 2001). Of triangles and quadrangles the sine of the smallest or
-    largest corner angle, likewise divided. 1 for points and segments.
+    The smallest determinant of the unit edge vectors at a corner, divided by that of the regular element (Knupp,
+    SIAM J. Sci. Comput. 23, 2001). Of triangles and quadrangles the sine of the smallest or largest corner angle,
+    likewise divided; a corner that is turned over against the element's normal counts negative. 1 for points and segments.
+
+    Second-order elements count by their straight edges and by the directions in which their curved edges leave the corners,
+    whichever is worse: where it is not positive, the element's own Jacobian is not positive at a corner (0 at that of a
+    quarter-point element).
     """
     def of(shape, points):
+        corners, middles = points[:, :_COUNT[shape]], points[:, _COUNT[shape]:]
         smallest = np.full(len(points), np.inf)
         for corner in _CORNERS[shape]:
-            edges = [points[:, k] - points[:, corner[0]] for k in corner[1:]]
-            length = np.prod([np.linalg.norm(e, axis=1) for e in edges], axis=0)
-            if len(edges) == 3:
-                size = np.einsum("ij,ij->i", np.cross(edges[0], edges[1]), edges[2])
-            else:
-                size = np.linalg.norm(np.cross(*edges), axis=1)
-            smallest = np.minimum(smallest, size / np.where(length > 0, length, 1))
+            start = corners[:, corner[0]]
+            straight = [corners[:, k] - start for k in corner[1:]]
+            smallest = np.minimum(smallest, determinant(shape, straight, corners))
+            if middles.shape[1]:
+                # The derivative of the parabola through both ends and the mid-side node.
+                bent = [4 * (middles[:, _EDGES[shape].index(frozenset((corner[0], k)))] - start) - e
+                        for k, e in zip(corner[1:], straight)]
+                smallest = np.minimum(smallest, determinant(shape, bent, corners))
         return smallest / _REGULAR[shape]
+
+    def determinant(shape, edges, corners):
+        length = np.prod([np.linalg.norm(e, axis=1) for e in edges], axis=0)
+        normal = np.cross(edges[0], edges[1])
+        if len(edges) == 3:
+            size = np.einsum("ij,ij->i", normal, edges[2])
+        else:
+            # Along the element's normal: of a quadrangle by its diagonals, of a triangle by two edges.
+            whole = np.cross(corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1])
+            size = np.copysign(np.linalg.norm(normal, axis=1), np.einsum("ij,ij->i", normal, whole))
+        return size / np.where(length > 0, length, 1)
 
     return _by_type(mesh, of, _CORNERS, 1.0)
 
@@ -108,7 +135,7 @@ def _by_type(mesh, function, known, otherwise):
     for name, nodes in mesh.cells.items():
         shape = name.rstrip("0123456789")
         if shape in known:
-            out[name] = function(shape, mesh.points[nodes[:, :CELL_TYPES[name][2]]])
+            out[name] = function(shape, mesh.points[nodes])
         else:
             out[name] = np.full(len(nodes), otherwise)
     return out
