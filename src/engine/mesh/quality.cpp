@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -259,7 +261,8 @@ double mean_ratio(const Mesh& mesh, CellType type, Index cell) {
 
 std::vector<double> mean_ratios(const Mesh& mesh, CellType type) {
     std::vector<double> out(static_cast<std::size_t>(mesh.block(type).size()));
-    for (std::size_t c = 0; c < out.size(); ++c) out[c] = mean_ratio(mesh, type, static_cast<Index>(c));
+    SparseCheck check;
+    for (std::size_t c = 0; c < out.size(); ++c, check()) out[c] = mean_ratio(mesh, type, static_cast<Index>(c));
     return out;
 }
 

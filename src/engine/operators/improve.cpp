@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
 
@@ -30,6 +31,7 @@ public:
         bool any = false;
         std::size_t allowance = 16 + f_.nodes.size() / 8;
         for (const auto& [quality, v] : bad_elements(limit)) {
+            check_cancelled();
             if (allowance-- == 0) break;
             const int corners = v[3] < 0 ? 3 : 4;
             int a = -1, b = -1;
@@ -69,6 +71,7 @@ private:
     using Element = std::pair<double, std::array<int, 4>>;
 
     std::vector<Element> bad_elements(double goal) const {
+        check_cancelled();
         std::vector<Element> bad;
         for (int t = 0; t < band_.tetras.size(); ++t)
             if (band_.tetras.alive(t) && tetra_is_below(goal, d_, t)) bad.push_back({tetra_quality(d_, t), band_.tetras[t]});
@@ -167,6 +170,7 @@ private:
     }
 
     bool try_merge(int p) {
+        check_cancelled();
         if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return false;
         band_.neighbours(p, candidates_);
         double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "cancel.h"
 #include "mesh/quality.h"
 #include "operators/mend_curved.h"
 
@@ -92,6 +93,7 @@ std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) 
     std::vector<Bad> bad;
     const auto note = [&](const CellRef& c, double q) { bad.push_back({mesh.block(c.type).ids[c.cell], q}); };
     const BandMesh& band = f.d.band;
+    check_cancelled();
     for (int t = 0; t < band.tetras.size(); ++t)
         if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -143,7 +145,9 @@ void check_input_shape(Interface& f, const Mesh& mesh) {
     if (!bad.empty())
         throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
                            name_them(bad) + "); repair them first");
+    SparseCheck check;
     for (const CellRef& c : f.d.band.tetra_cells) {
+        check();
         if (c.type != CellType::tetra10) continue;
         std::array<Vec3, 10> x;
         std::ranges::transform(mesh.block(c.type).nodes(c.cell), x.begin(), [&](Index n) { return mesh.points[n]; });

@@ -8,6 +8,7 @@
 
 #include "deformation/relaxation.h"
 #include "operators/report.h"
+#include "operators/stopwatch.h"
 
 namespace femscalpel {
 
@@ -47,7 +48,7 @@ struct Interface {
     int bandwidth = 2;                       ///< i of the paper's i-th neighbourhood
     std::vector<CellRef> deep_inside = {};   ///< elements to be removed that are not in the band
     std::vector<std::string> warnings = {};
-    std::vector<std::pair<std::string, double>> seconds = {};
+    Laps seconds = {};
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side = {};
     std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 
 namespace femscalpel {
@@ -24,6 +25,7 @@ public:
             const std::vector<int> bad = folded_elements(f_, goal);
             if (bad.empty()) return;
             for (const int t : bad) {
+                check_cancelled();
                 if (!band_.tetras.alive(t) || curved_shape(d_, t) >= goal) continue;
                 flatten_edges(t);
                 if (curved_shape(d_, t) < goal) move_nodes(t);

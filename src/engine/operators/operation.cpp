@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "cancel.h"
 #include "mesh/quality.h"
 #include "operators/refine_first.h"
 
@@ -71,6 +72,7 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
     BandQuality out;
     const auto look = [&](const auto& list, const auto& cells, auto counts, auto quality_now) {
         std::vector<char> counted(cells.size(), 0);
+        check_cancelled();
         for (int s = 0; s < list.size(); ++s) {
             if (!list.alive(s) || !counts(list.origin(s)) || std::ranges::none_of(list[s], [&](int v) { return in[v] != 0; })) continue;
             const CellRef& cell = cells[list.origin(s)];
@@ -90,7 +92,9 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
 void warn_of_grazing(Interface& f, const Tool& tool) {
     const BandMesh& band = f.d.band;
     double smallest = 90;
+    SparseCheck check(256);
     for (const int v : f.nodes) {
+        check();
         if (!f.d.contact[v].has(&tool)) continue;
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
         if (!normal) continue;
@@ -248,7 +252,8 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
         int last = -1;
     };
     std::vector<Motion> motion(before.groups.size());
-    for (Index n = 0; n < before.node_count(); ++n) {
+    SparseCheck check;
+    for (Index n = 0; n < before.node_count(); ++n, check()) {
         const Index now = rebuilt.kept_node(n);
         if (before.node_ids[n] >= first_new) continue;
         if (now < 0)
@@ -259,6 +264,7 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
     }
     for (int v = 0; v < band.original_nodes(); ++v) {
         const BandNode& n = band.nodes[v];
+        check();
         if (n.at == n.start || !band.in_use(v)) continue;
         const double drift = f.d.constraints.distance(f.d.constraints[v], n.at);
         const auto meet = [&](FamilyIndex family) {
@@ -338,8 +344,8 @@ void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
 }  // namespace
 
 Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-                     const std::vector<std::string>& suffixes)
-    : input_(input), options_(options), prepared_(prepared) {
+                     const std::vector<std::string>& suffixes, Stopwatch::Time started)
+    : input_(input), options_(options), prepared_(prepared), watch_(seconds_, started) {
     report_.operation = kind;
     report_.name = options.name;
     report_.method = std::string(to_string(options.method));
@@ -348,17 +354,13 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
         throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20");
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
-    watch_.skip();
+    if (prepared.refined) seconds_.add("refine", prepared.refined->seconds);
+    watch_.lap("locate");
     if (!prepared.marks) own_marks_ = mark_deck(input);
     marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
     numbering_ = next_numbers(whole());
-    if (prepared.refined) {
-        report_.warnings = prepared.refined->report.warnings;
-        double seconds = 0;
-        for (const auto& [step, s] : prepared.refined->report.seconds) seconds += s;
-        if (!prepared.refined->tried_in_vain) report_.seconds.emplace_back("refine", seconds);
-    }
+    if (prepared.refined) report_.warnings = prepared.refined->report.warnings;
     if (input.solver_input) watch_.lap("mark deck");
 }
 
@@ -415,7 +417,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     blades_.assign(blades.begin(), blades.end());
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
     const bool copies = !options_.band_only, measures = prepared_.totals == nullptr;
-    copy_ = std::async(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
+    copy_ = async_obeying(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
         return std::pair(copies ? std::make_unique<Mesh>(whole()) : nullptr, measures ? family_totals(whole()) : FamilyTotals());
     });
     int width = options_.transition.value_or(2);
@@ -439,6 +441,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), .tool = &first, .tolerance = location_.tolerance, .bandwidth = width};
     f.deep_inside = std::move(removed);
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
+    check_cancelled();
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];
         if (std::abs(f.distance[v]) > location_.tolerance) continue;
@@ -453,11 +456,6 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     return f;
 }
 
-void Operation::take_laps(const std::vector<std::pair<std::string, double>>& laps) {
-    report_.seconds.insert(report_.seconds.end(), laps.begin(), laps.end());
-    watch_.skip();
-}
-
 Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
     std::vector<char> opened(static_cast<std::size_t>(f.d.band.size()), 0);
@@ -469,9 +467,10 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     for (const Blade& b : blades_) warn_of_grazing(f, *b.tool);
     warn_of_parted_lips(f);
     watch_.lap("open");
-    auto [output, own_totals] = copy_.get();
+    auto [output, own_totals] = await(copy_);
     if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
+    check_cancelled();
     Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
     if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
     watch_.lap("rebuild");
@@ -520,8 +519,9 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
     count_group_constraints(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
-    watch_.lap("report");
     remove_marks(rebuilt.mesh);
+    watch_.lap("report");
+    report_.seconds = seconds_.list();
     return {std::move(rebuilt.mesh), std::move(report_)};
 }
 

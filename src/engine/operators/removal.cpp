@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "cancel.h"
 #include "error.h"
 
 namespace femscalpel {
@@ -25,6 +26,7 @@ public:
     }
 
     int run() {
+        check_cancelled();
         std::vector<int> tetras, shells;
         for (int t = 0; t < band_.tetras.size(); ++t)
             if (band_.tetras.alive(t) && is_inside(band_.tetras[t])) tetras.push_back(t);
@@ -88,8 +90,10 @@ private:
 
     void make_walls(const std::vector<int>& tetras, const std::vector<int>& shells) {
         const std::set<int> out(tetras.begin(), tetras.end()), shells_out(shells.begin(), shells.end());
+        SparseCheck check(64);
         for (const int t : tetras)
             for (const auto& face : outward_faces) {
+                check();
                 const auto& n = band_.tetras[t];
                 // Turned round: out of the material that stays.
                 const std::array<int, 3> nodes{n[face[0]], n[face[2]], n[face[1]]};
@@ -128,7 +132,9 @@ private:
     /// Removes those of `list` at touched nodes that `goes` picks.
     template <std::size_t N>
     void drop(SimplexList<N>& list, auto goes) {
+        SparseCheck check(64);
         for (const int v : touched_) {
+            check();
             const auto slots = list.around(v);
             for (const int s : std::vector<int>(slots.begin(), slots.end()))
                 if (goes(s)) list.remove(s);
@@ -216,6 +222,7 @@ void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_ta
 }
 
 Lips open_walls(const Interface& f) {
+    check_cancelled();
     const BandMesh& band = f.d.band;
     Lips out;
     out.removes = true;
@@ -233,11 +240,13 @@ Lips open_walls(const Interface& f) {
         if (band.cut_edges.alive(s))
             for (const int l : band.lines.around(band.cut_edges[s][0])) line_at.emplace(sorted(band.lines[l]), l);
     std::set<int> nodes;
+    SparseCheck check(64);
     for (int s = 0; s < band.cut_faces.size(); ++s) {
         if (!band.cut_faces.alive(s)) continue;
         auto face = band.cut_faces[s];
         const auto around = band.tetras.around(face[0]);
         const auto host = std::ranges::find_if(around, [&](int t) { return holds(band.tetras[t], face[1]) && holds(band.tetras[t], face[2]); });
+        check();
         // Merging nodes may have turned it over.
         for (const auto& f : outward_faces) {
             const auto& n = band.tetras[*host];
@@ -270,7 +279,8 @@ std::vector<CellRef> deep_inside(const Mesh& mesh, const std::vector<std::int8_t
     std::vector<char> in(mesh.points.size());
     for (const auto& depth : depths) {
         bool any = false;
-        for (std::size_t n = 0; n < in.size(); ++n) {
+        SparseCheck check(256);
+        for (std::size_t n = 0; n < in.size(); ++n, check()) {
             in[n] = level[n] < 0 && depth(mesh.points[n]) < 0;
             any = any || in[n];
         }

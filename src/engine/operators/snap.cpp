@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "mesh/quality.h"
@@ -93,8 +94,10 @@ public:
         std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) {
             return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node);
         });
-        for (const Candidate& c : candidates)
+        for (const Candidate& c : candidates) {
+            check_cancelled();
             if (crosses(c.node)) snap(c.node, c.length, c.ratio);
+        }
     }
 
     void split_edges() {
@@ -110,8 +113,10 @@ public:
         const auto touches = [&](int v) { return d_.contact[v].has(&tool_); };
         std::map<std::array<int, 3>, int> sides;      // side of the first tetrahedron met
         std::map<std::array<int, 2>, int> edge_sides;
+        SparseCheck check(64);
         for (int v = 0; v < band_.size(); ++v) {
             if (!touches(v)) continue;
+            check();
             for (const int t : band_.tetras.around(v)) {
                 const auto& n = band_.tetras[t];
                 for (const auto& f : faces) {
@@ -155,6 +160,7 @@ private:
 
     /// The elements in which the blade is wanted.
     void find_region() {
+        check_cancelled();
         everywhere_ = !blade_.bound && blade_.inside.empty();
         if (everywhere_) return;
         std::vector<double> bound(static_cast<std::size_t>(band_.size()), -std::numeric_limits<double>::infinity());
@@ -356,9 +362,11 @@ Slots misfits(const Interface& f) {
 double poorest(const Interface& f, double limit, Slots& poor) {
     const BandMesh& band = f.d.band;
     double worst = 1;
+    SparseCheck check;
     const auto look = [&](const auto& list, std::vector<int>& origins, auto quality_of) {
         for (int s = 0; s < list.size(); ++s) {
             if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
+            check();
             const double quality = quality_of(s);
             worst = std::min(worst, quality);
             if (quality >= limit) continue;
@@ -463,6 +471,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     std::optional<Interface> best;
     double best_quality = degenerate_quality;
     for (int attempt = 1, polished = 0;; ++attempt) {
+        check_cancelled();
         cut(f);
         Slots bad = misfits(f);
         bool polish = false;
@@ -493,9 +502,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
             refine(start, bad);
             std::ranges::fill(off_tool, 0);
         }
-        const auto seconds = f.seconds;
         f = start;
-        f.seconds = seconds;
     }
     f = std::move(*best);
     if (best_quality >= poor_quality) return;

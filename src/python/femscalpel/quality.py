@@ -46,6 +46,9 @@ _FACES = {
     "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
 }
 
+# Elements worked on at a time.
+_PIECE = 50_000
+
 
 def scaled_jacobian(mesh: Mesh) -> Dict[str, np.ndarray]:
     """Scaled Jacobian of every element by type, in the order of ``mesh.cells``: 1 regular, 0 flat, negative inverted.
@@ -108,7 +111,10 @@ def _by_type(mesh, function, known, otherwise):
     for name, nodes in mesh.cells.items():
         shape = name.rstrip("0123456789")
         if shape in known:
-            out[name] = function(shape, mesh.points[nodes[:, :CELL_TYPES[name][2]]])
+            # In pieces, so that Ctrl-C does not wait for NumPy, and memory stays small.
+            corners = nodes[:, :CELL_TYPES[name][2]]
+            pieces = [function(shape, mesh.points[corners[k:k + _PIECE]]) for k in range(0, len(corners), _PIECE)]
+            out[name] = np.concatenate(pieces) if pieces else np.empty(0)
         else:
             out[name] = np.full(len(nodes), otherwise)
     return out
