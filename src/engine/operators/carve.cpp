@@ -204,6 +204,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
         if (!left && removed >= solid_count(operation.whole()))
             throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
         release_all_but_walls(g, tool_of_tag);
+        note_slivers(g, tool_of_tag, 1);
         if (options.method == Method::snap) relax_band(g);
     };
     if (options.method == Method::snap) cut_soundly(f, carve_once, carve_attempts);
@@ -215,6 +216,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     check_contacts(f);
     const Lips walls = open_walls(f);
     warn_of_flat_walls(f, walls, tool_of_tag);
+    note_slivers(f, tool_of_tag, -1);
     return operation.finish(f, walls, naming);
 }
 

@@ -197,26 +197,47 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
         if (!before.groups[g].hidden) visit(g, report.groups[record++]);
 }
 
-/// Where nothing is taken away and borders stay, only the corners between the facets of a curved skin can get lost, when their nodes
-/// move: warns where that is much of the mesh or of a group.
-void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, Report& report) {
-    const int dimension = before.dimension();
+/// Beyond what tools take, and drifting borders hand over, only the corners between the facets of a curved skin can get lost, when their
+/// nodes move: warns where that is much of the mesh or of a group. (With the shape of the skin given, what changes is the error of the
+/// facets: this is not for that.) `whole` is the mesh before, of which `totals` are; `before` may be its band alone.
+void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, const Interface& f,
+                          const std::vector<bool>& drifting, Report& report) {
+    const int dimension = whole.dimension();
     const auto all = [&](const FamilyTotals& t) {
         double sum = 0;
         for (const FamilyTotals::Entry& e : t.by_family) sum += e.measure[dimension];
         return sum;
     };
+    std::vector<double> taken(static_cast<std::size_t>(before.families.size()), 0);
+    double taken_in_all = 0;
+    const auto take = [&](const CellRef& c, double measure) {
+        if (traits(c.type).dimension != dimension) return;
+        taken[before.block(c.type).families[c.cell]] += measure;
+        taken_in_all += measure;
+    };
+    for (const auto& [cell, measure] : f.taken) take(cell, measure);
+    for (const CellRef& c : f.deep_inside) take(c, cell_measure(before, c.type, c.cell));
     std::ostringstream message;
     message.precision(2);
-    const auto look = [&](const std::string& name, double was, double is) {
-        if (was > 0 && std::abs(is - was) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * (is - was) / was << " %";
+    const auto look = [&](const std::string& name, double was, double change) {
+        if (was > 0 && std::abs(change) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * change / was << " %";
     };
-    look("the mesh", all(totals), all(after));
-    for_each_record(before, report, [&](std::size_t, const GroupRecord& r) {
-        if (r.kind == GroupKind::element && r.dimension == dimension) look("'" + r.name + "'", r.measure_before, r.measure_after);
+    const double change = all(after) - all(totals) + taken_in_all;
+    double was = all(totals);
+    if (std::abs(change) > size_noticed * was)  // totals are without what is in no group
+        for (const CellBlock& b : whole.blocks())
+            for (Index c = 0; traits(b.type).dimension == dimension && c < b.size(); ++c)
+                if (b.families[c] == 0) was += cell_measure(whole, b.type, c);
+    look("the mesh", was, change);
+    for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
+        if (r.kind != GroupKind::element || r.dimension != dimension || (!drifting.empty() && drifting[g])) return;
+        double taken_of_group = 0;
+        for (FamilyIndex k = 0; k < static_cast<FamilyIndex>(taken.size()); ++k)
+            if (taken[k] != 0 && before.families.contains(k, static_cast<GroupIndex>(g))) taken_of_group += taken[k];
+        look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before + taken_of_group);
     });
     if (message.tellp() > 0)
-        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " + message.str() +
+        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " + message.str() + (taken_in_all > 0 ? ", beyond what was removed" : "") +
                                   ": give its shape (skin), a smaller feature_angle, which keeps the edges between its facets, or refine the mesh there first");
 }
 
@@ -507,7 +528,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         recount_nodes_and_facets(after, rebuilt.mesh);
     }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
-    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, report_);
+    if (!options_.skin) warn_of_changed_size(whole(), mesh(), totals, after, f, drifting_, report_);
     for (const GroupRecord& g : report_.groups)
         if (g.status == "became empty")
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");

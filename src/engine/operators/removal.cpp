@@ -8,7 +8,9 @@
 #include <sstream>
 
 #include "cancel.h"
+#include "deformation/curved_shape.h"
 #include "error.h"
+#include "mesh/quality.h"
 
 namespace femscalpel {
 namespace {
@@ -16,6 +18,15 @@ namespace {
 constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
+
+/// Area or volume of a triangle or tetrahedron of the band as it is.
+double measure_now(const Deformable& d, const auto& corners, CellType type) {
+    std::vector<Vec3> nodes;
+    for (const int v : corners) nodes.push_back(d.band.nodes[v].at);
+    if (const CellTraits& t = traits(type); t.quadratic)
+        for (const auto& e : t.edges) nodes.push_back(mid_side(d, corners[e[0]], corners[e[1]]).at);
+    return cell_measure(type, nodes);
+}
 
 class Remover {
 public:
@@ -35,8 +46,8 @@ public:
         drop_tags(band_.cut_faces);
         drop_tags(band_.cut_edges);
         make_walls(tetras, shells);
-        for (const int t : tetras) take(band_.tetras, t);
-        for (const int t : shells) take(band_.triangles, t);
+        for (const int t : tetras) take(band_.tetras, band_.tetra_cells, t);
+        for (const int t : shells) take(band_.triangles, band_.triangle_cells, t);
         take_what_they_carried();
         return static_cast<int>(tetras.size() + shells.size());
     }
@@ -114,7 +125,8 @@ private:
     }
 
     template <std::size_t N>
-    void take(SimplexList<N>& list, int s) {
+    void take(SimplexList<N>& list, const std::vector<CellRef>& cells, int s) {
+        f_.taken.push_back({cells[list.origin(s)], measure_now(f_.d, list[s], cells[list.origin(s)].type)});
         touched_.insert(list[s].begin(), list[s].end());
         list.remove(s);
     }
@@ -203,6 +215,31 @@ std::array<int, N> sorted(std::array<int, N> nodes) {
 }
 
 }  // namespace
+
+void note_slivers(Interface& f, std::span<const Tool* const> tool_of_tag, int sign) {
+    const BandMesh& band = f.d.band;
+    const auto look = [&](const auto& walls, const auto& hosts, const std::vector<CellRef>& cells, auto size, double share) {
+        for (int s = 0; s < walls.size(); ++s) {
+            if (!walls.alive(s)) continue;
+            const Tool& tool = *tool_of_tag[walls.tag(s)];
+            const auto& nodes = walls[s];
+            const auto around = hosts.around(nodes[0]);
+            const auto host = std::ranges::find_if(around, [&](int t) { return std::ranges::all_of(nodes, [&](int v) { return holds(hosts[t], v); }); });
+            if (!std::isfinite(tool.feature_size()) || host == around.end()) continue;
+            const CellRef& cell = cells[hosts.origin(*host)];
+            if (traits(cell.type).quadratic) continue;  // its faces are as curved as the tool
+            // Distances grow as squares from the nodes, which are on the tool: their mean over a face is that at its edges' middles.
+            double depth = 0;
+            int edges = 0;
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j, ++edges) depth -= tool.distance((band.nodes[nodes[i]].at + band.nodes[nodes[j]].at) / 2);
+            f.taken.push_back({cell, sign * share * size(nodes) * depth / edges});
+        }
+    };
+    const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
+    look(band.cut_faces, band.tetras, band.tetra_cells, [&](const auto& n) { return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2; }, 1);
+    look(band.cut_edges, band.triangles, band.triangle_cells, [&](const auto& n) { return (at(n[1]) - at(n[0])).norm(); }, 2.0 / 3);
+}
 
 int remove_inside(Interface& f, std::span<const Tool* const> tools, int first_tag) { return Remover(f, tools, first_tag).run(); }
 
