@@ -2,6 +2,7 @@
 #include "operators/removal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -21,11 +22,12 @@ bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) 
 
 /// Area or volume of a triangle or tetrahedron of the band as it is.
 double measure_now(const Deformable& d, const auto& corners, CellType type) {
-    std::vector<Vec3> nodes;
-    for (const int v : corners) nodes.push_back(d.band.nodes[v].at);
+    std::array<Vec3, 10> nodes;
+    std::size_t count = 0;
+    for (const int v : corners) nodes[count++] = d.band.nodes[v].at;
     if (const CellTraits& t = traits(type); t.quadratic)
-        for (const auto& e : t.edges) nodes.push_back(mid_side(d, corners[e[0]], corners[e[1]]).at);
-    return cell_measure(type, nodes);
+        for (const auto& e : t.edges) nodes[count++] = mid_side(d, corners[e[0]], corners[e[1]]).at;
+    return cell_measure(type, {nodes.data(), count});
 }
 
 class Remover {
