@@ -39,6 +39,7 @@ auto interruptible(Function function) {
     const auto run = [&] {
         const pybind11::gil_scoped_release release;
         const CancelScope scope(CancelToken(), [&signals] { return signals.raised(); });
+        check_cancelled();  // small meshes have no other check point
         return function();
     };
     try {
