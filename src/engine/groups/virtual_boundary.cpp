@@ -86,9 +86,11 @@ private:
     }
 
     void grow() {
-        check_cancelled();
         slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), empty);
-        for (std::size_t e = 0; e < entries_.size(); ++e) slots_[place(entries_[e].key)] = static_cast<std::uint32_t>(e);
+        for (std::size_t e = 0; e < entries_.size(); ++e) {
+            check_();
+            slots_[place(entries_[e].key)] = static_cast<std::uint32_t>(e);
+        }
     }
 
     std::vector<std::uint32_t> slots_;
