@@ -2,13 +2,19 @@
 """One worker thread with one slot: work that was overtaken by newer work is never started."""
 
 import threading
+import time
 from collections import deque
 
 from PySide import QtCore
 
+import femscalpel
+
+#: Work that has run so many seconds makes room for newer work; what is quicker is finished, so that something is seen while one drags.
+PATIENCE = 1.0
+
 
 class LatestWins(QtCore.QObject):
-    """Runs functions off the GUI thread, one at a time; of those that wait, only the newest.
+    """Runs functions off the GUI thread, one at a time; of those that wait, only the newest, for which one that takes long is cancelled.
 
     Calls finished(ticket, value) or failed(ticket, error) on the GUI thread. `ticket` is what request() returned.
     """
@@ -24,6 +30,7 @@ class LatestWins(QtCore.QObject):
         self._waiting = None
         self._closed = False
         self._last = 0
+        self._running = None  # its femscalpel.CancelToken and since when
         self._thread = threading.Thread(target=self._work, name="FemScalpel preview", daemon=True)
         self._thread.start()
 
@@ -32,14 +39,18 @@ class LatestWins(QtCore.QObject):
         with self._wake:
             self._last += 1
             self._waiting = (self._last, function)
+            if self._running and time.monotonic() - self._running[1] > PATIENCE:
+                self._running[0].cancel()
             self._wake.notify()
             return self._last
 
     def close(self):
-        """Drops what waits; what runs ends unheard. Does not block."""
+        """Drops what waits and cancels what runs, which ends unheard. Does not block."""
         with self._wake:
             self._closed = True
             self._waiting = None
+            if self._running:
+                self._running[0].cancel()
             self._wake.notify()
 
     def _deliver(self):
@@ -56,10 +67,18 @@ class LatestWins(QtCore.QObject):
                     return
                 ticket, function = self._waiting
                 self._waiting = None
+                token = femscalpel.CancelToken()
+                self._running = (token, time.monotonic())
             try:
-                outcome = self._finished, ticket, function()
+                with token:
+                    outcome = self._finished, ticket, function()
+            except femscalpel.Cancelled:  # newer work waits, or nobody listens any more
+                continue
             except Exception as error:  # reported by the receiver, in the panel
                 outcome = self._failed, ticket, error
+            finally:
+                with self._wake:
+                    self._running = None
             self._done.append(outcome)
             del function, outcome
             try:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "bindings.h"
-#include "error.h"
+#include "cancel.h"
 
 namespace py = pybind11;
 
@@ -15,6 +15,7 @@ struct Types {
     PyObject* tool;
     PyObject* quality;
     PyObject* unsupported;
+    PyObject* cancelled;
 };
 
 Types types;
@@ -43,6 +44,7 @@ void bind_errors(py::module_& module) {
     types.unsupported = add_exception(
         module, "UnsupportedElementError",
         "The tool or its band reaches elements the method cannot cut (quadrangles, prisms, ...).", types.error);
+    types.cancelled = add_exception(module, "Cancelled", "What ran was cancelled through a CancelToken; nothing was changed or written.", types.error);
 
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
@@ -57,6 +59,8 @@ void bind_errors(py::module_& module) {
             PyErr_SetString(types.quality, e.what());
         } catch (const UnsupportedElementError& e) {
             PyErr_SetString(types.unsupported, e.what());
+        } catch (const Cancelled& e) {
+            PyErr_SetString(types.cancelled, e.what());
         } catch (const Error& e) {
             PyErr_SetString(types.error, e.what());
         }

@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "groups/elementary_groups.h"
 #include "groups/virtual_boundary.h"
+#include "interruptible.h"
 
 namespace py = pybind11;
 
@@ -58,12 +59,12 @@ py::tuple boundary(const Mesh& mesh, const VirtualBoundary& b) {
 }
 
 py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
-    std::vector<VirtualBoundary> found;
-    {
-        py::gil_scoped_release release;
+    const std::vector<VirtualBoundary> found = interruptible([&] {
         const VirtualBoundaryFinder finder(mesh);
-        for (const GroupIndex g : groups) found.push_back(finder.find(g));
-    }
+        std::vector<VirtualBoundary> all;
+        for (const GroupIndex g : groups) all.push_back(finder.find(g));
+        return all;
+    });
     py::list out;
     for (const VirtualBoundary& b : found) out.append(boundary(mesh, b));
     return out;
@@ -73,11 +74,7 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
 
 void bind_groups(py::module_& module) {
     module.def("elementary_groups", [](const Mesh& mesh) {
-        std::vector<ElementaryGroup> found;
-        {
-            py::gil_scoped_release release;
-            found = elementary_groups(mesh);
-        }
+        const std::vector<ElementaryGroup> found = interruptible([&] { return elementary_groups(mesh); });
         py::list out;
         for (const ElementaryGroup& g : found) {
             py::tuple names(g.groups.size());

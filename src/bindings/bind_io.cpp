@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bindings.h"
+#include "interruptible.h"
 #include "io/io.h"
 
 namespace py = pybind11;
@@ -11,10 +12,12 @@ namespace py = pybind11;
 namespace femscalpel::bindings {
 
 void bind_io(py::module_& module) {
-    module.def("read", [](const std::filesystem::path& path) { return std::make_shared<Mesh>(read(path)); }, py::arg("path"),
-               py::call_guard<py::gil_scoped_release>());
-    module.def("write", [](const Mesh& mesh, const std::filesystem::path& path) { write(mesh, path); }, py::arg("mesh"),
-               py::arg("path"), py::call_guard<py::gil_scoped_release>());
+    module.def("read", [](const std::filesystem::path& path) {
+        return interruptible([&] { return std::make_shared<Mesh>(read(path)); });
+    }, py::arg("path"));
+    module.def("write", [](const Mesh& mesh, const std::filesystem::path& path) {
+        interruptible([&] { write(mesh, path); });
+    }, py::arg("mesh"), py::arg("path"));
 }
 
 }  // namespace femscalpel::bindings

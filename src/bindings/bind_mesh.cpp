@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "interruptible.h"
 #include "mesh/quality.h"
 
 namespace py = pybind11;
@@ -62,13 +63,13 @@ std::shared_ptr<Mesh> make_mesh(const RealArray& points, const IndexArray& node_
         block.ids = to_vector(ids);
         block.families.assign(block.ids.size(), 0);
     }
-    mesh->validate();
+    interruptible([&] { mesh->validate(); });
     std::vector<GroupMembers> members;
     for (const auto& [name, kind, ids] : groups) {
         mesh->add_group(name, kind_from_name(kind));
         members.push_back(members_from(kind_from_name(kind), name, ids));
     }
-    if (!members.empty()) assign_groups(*mesh, members);
+    if (!members.empty()) interruptible([&] { assign_groups(*mesh, members); });
     return mesh;
 }
 
@@ -138,21 +139,25 @@ void bind_mesh(py::module_& module) {
         .def("mean_ratios", [](const Mesh& mesh) {
             py::dict out;
             for (const CellBlock& b : mesh.blocks())
-                if (b.size() > 0) out[py::str(std::string(traits(b.type).name))] = copied<double>(mean_ratios(mesh, b.type));
+                if (b.size() > 0) out[py::str(std::string(traits(b.type).name))] = copied<double>(interruptible([&] { return mean_ratios(mesh, b.type); }));
             return out;
         })
         .def("measures", [](const Mesh& mesh) {
             py::dict out;
             for (const CellBlock& b : mesh.blocks()) {
                 if (b.size() == 0) continue;
-                py::array_t<double> values(b.size());
-                for (Index c = 0; c < b.size(); ++c) values.mutable_at(c) = cell_measure(mesh, b.type, c);
-                out[py::str(std::string(traits(b.type).name))] = values;
+                const std::vector<double> values = interruptible([&] {
+                    std::vector<double> measured;
+                    SparseCheck check;
+                    for (Index c = 0; c < b.size(); ++c, check()) measured.push_back(cell_measure(mesh, b.type, c));
+                    return measured;
+                });
+                out[py::str(std::string(traits(b.type).name))] = copied<double>(values);
             }
             return out;
         })
         .def("copy", [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }, py::call_guard<py::gil_scoped_release>())
-        .def("validate", &Mesh::validate, py::call_guard<py::gil_scoped_release>())
+        .def("validate", [](const Mesh& mesh) { interruptible([&] { mesh.validate(); }); })
         .def("groups", [](const Mesh& mesh) {
             std::vector<std::pair<std::string, std::string>> out;
             for (const Group& g : mesh.groups)
@@ -160,7 +165,8 @@ void bind_mesh(py::module_& module) {
             return out;
         })
         .def("group_ids", [](const Mesh& mesh, const std::string& name, const std::string& kind) {
-            return to_array(group_members(mesh, require_group(mesh, name, kind)));
+            const GroupIndex group = require_group(mesh, name, kind);
+            return to_array(interruptible([&] { return group_members(mesh, group); }));
         })
         .def("add_group", [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
             const GroupMembers members = members_from(kind_from_name(kind), name, ids);

@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "interruptible.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 
@@ -116,14 +117,10 @@ Options options(const CommonOptions& common) {
 /// Runs `operation` without the interpreter lock and returns (mesh, report as a dict).
 template <class Operation>
 py::tuple run(Operation operation) {
-    std::shared_ptr<Mesh> mesh;
-    Report report;
-    {
-        py::gil_scoped_release release;
+    const auto [mesh, report] = interruptible([&] {
         Result result = operation();
-        mesh = std::make_shared<Mesh>(std::move(result.mesh));
-        report = std::move(result.report);
-    }
+        return std::pair(std::make_shared<Mesh>(std::move(result.mesh)), std::move(result.report));
+    });
     return py::make_tuple(mesh, to_dict(report));
 }
 
@@ -179,8 +176,7 @@ void bind_operators(py::module_& module) {
 
     py::class_<Scalpel>(module, "Scalpel")
         // The session gets its own copy, so that groups added to the Python mesh later do not reach it.
-        .def(py::init([](const Mesh& mesh) { return Scalpel(std::make_shared<const Mesh>(mesh)); }),
-             py::call_guard<py::gil_scoped_release>())
+        .def(py::init([](const Mesh& mesh) { return interruptible([&] { return Scalpel(std::make_shared<const Mesh>(mesh)); }); }))
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
         .def("crack", [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
             return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });

@@ -9,6 +9,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "error.h"
+#include "interruptible.h"
 #include "tools/cad_shape.h"
 #include "tools/cone.h"
 #include "tools/cylinder.h"
@@ -28,6 +29,18 @@ using Triple = std::array<double, 3>;
 Eigen::Vector3d vector(const Triple& t) { return {t[0], t[1], t[2]}; }
 Triple triple(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
+/// A value for each of the points.
+template <class Function>
+py::array_t<double> at_each(const RealArray& points, Function value) {
+    const std::vector<double> values = interruptible([&, data = points.data(), count = points.shape(0)] {
+        std::vector<double> out;
+        SparseCheck check(256);
+        for (py::ssize_t i = 0; i < count; ++i, check()) out.push_back(value(Eigen::Map<const Eigen::Vector3d>(data + 3 * i)));
+        return out;
+    });
+    return copied<double>(values);
+}
+
 }  // namespace
 
 void bind_tools(py::module_& module) {
@@ -38,10 +51,7 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("feature_size", &Tool::feature_size)
         .def("distances", [](const Tool& tool, const RealArray& points) {
             if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");
-            py::array_t<double> out(points.shape(0));
-            for (py::ssize_t i = 0; i < points.shape(0); ++i)
-                out.mutable_at(i) = tool.distance(Eigen::Map<const Eigen::Vector3d>(points.data() + 3 * i));
-            return out;
+            return at_each(points, [&](const Eigen::Vector3d& x) { return tool.distance(x); });
         });
     py::class_<Plane, Tool>(module, "Plane")
         .def(py::init([](const Triple& origin, const Triple& normal) { return Plane(vector(origin), vector(normal)); }),
@@ -84,9 +94,7 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("face_count", &Face::face_count)
         .def("beyond", [](const Face& face, const RealArray& points) {
             if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");
-            py::array_t<double> out(points.shape(0));
-            for (py::ssize_t i = 0; i < points.shape(0); ++i) out.mutable_at(i) = face.beyond(Eigen::Map<const Eigen::Vector3d>(points.data() + 3 * i));
-            return out;
+            return at_each(points, [&](const Eigen::Vector3d& x) { return face.beyond(x); });
         });
 
     py::class_<CadShape>(module, "CadShape")

@@ -83,7 +83,7 @@ def test_for_a_tool_finer_than_the_mesh():
     fine, warning = crack(fs.refine(mesh, sphere, size=sphere.radius / 3).mesh)
     assert fine == pytest.approx(whole, rel=0.05) and "coarse" not in warning
     fine, warning = crack(mesh)
-    assert fine == pytest.approx(whole, rel=0.05) and not warning
+    assert fine == pytest.approx(whole, rel=0.05) and "the mesh is coarse" not in warning
 
 
 HOLE = fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 0.5)
@@ -121,6 +121,22 @@ def test_operators_refine_first():
     assert preview.mesh.cell_count < result.mesh.cell_count
     for name in ("refinement", "nodes_added", "nodes_removed", "elements_added", "elements_removed", "nodes_moved", "groups"):
         assert getattr(preview.report, name) == getattr(report, name), name
+
+
+def test_first_refinement_that_makes_many_elements_says_so():
+    """The report, and the preview before it, say what becomes of the mesh; so it was asked for, or little, there is nothing to say."""
+    mesh, hole = grid_box((4, 3, 2), (4.0, 3.0, 2.0)), fs.Cylinder((2.1, 1.4, 0), (0, 0, 1), 0.1)
+    result = fs.drill(mesh, hole)
+    before, after = result.report.refinement.elements_before, result.report.refinement.elements_after
+    assert before == 144 and after < 55_000  # edges that grew half as fast from the wall made 76 000
+    told = [w for w in result.report.warnings if f"from 144 to {after} elements" in w]
+    assert len(told) == 1 and "refine=0.1 makes fewer, refine=False none" in told[0]
+    assert fs.Scalpel(mesh).drill(hole, band_only=True).report.warnings == result.report.warnings
+    assert result.report.quality.after.minimum > 0.4
+    fewer = fs.drill(mesh, hole, refine=0.1).report
+    assert fewer.refinement.elements_after < after / 2 and not any("refined first" in w for w in fewer.warnings)
+    small = fs.drill(grid_box((12, 9, 6), (4.0, 3.0, 2.0)), fs.Cylinder((2.1, 1.4, 0), (0, 0, 1), 0.8)).report
+    assert small.refinement is not None and not any("refined first" in w for w in small.warnings)
 
 
 def test_first_refinement_by_size_or_never():
@@ -202,7 +218,7 @@ def test_flat_walls_of_a_coarse_hole_are_told():
     assert left(coarse) > 0.05
     assert float(re.search(r"leave about (\d+) %", warning)[1]) / 100 == pytest.approx(left(coarse), abs=0.03)
     fine = fs.drill(mesh, hole)
-    assert left(fine) < 0.05 and not fine.report.warnings
+    assert left(fine) < 0.05 and not any("the mesh is coarse" in w for w in fine.report.warnings)
 
 
 def test_too_small_a_size_of_an_operator_is_its_own_error():

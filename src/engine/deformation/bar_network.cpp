@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deformation/bar_network.h"
 
+#include "cancel.h"
+
 namespace femscalpel {
 
 std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vector<int>& known, const std::vector<Vec3>& given,
@@ -31,7 +33,8 @@ std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vect
     Field residual(moving.size(), Vec3::Zero());
     std::vector<std::pair<std::size_t, Eigen::Matrix3d>> projectors;  // of the unknowns that are not free
     std::vector<int> neighbours;
-    for (std::size_t k = 0; k < moving.size(); ++k) {
+    SparseCheck check(64);
+    for (std::size_t k = 0; k < moving.size(); ++k, check()) {
         const int v = unknown[moving[k]];
         const auto tangent = basis_of[k].leftCols(freedom[k]);
         if (freedom[k] < 3) projectors.emplace_back(k, tangent * tangent.transpose());
@@ -66,6 +69,7 @@ std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vect
     double energy = product(residual, scaled);
     const double enough = 1e-6 * energy;
     for (int iteration = 0; iteration < 200 && energy > enough; ++iteration) {
+        check_cancelled();
         for (std::size_t k = 0; k < image.size(); ++k) {
             Vec3 sum = diagonal[k] * direction[k];
             for (int e = row[k]; e < row[k + 1]; ++e) sum -= bars[e] * direction[column[e]];

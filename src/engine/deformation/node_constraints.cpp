@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deformation/node_constraints.h"
 
+#include "cancel.h"
 #include "groups/band_boundaries.h"
 #include "mesh/closest_point.h"
 
@@ -97,7 +98,9 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         int cad;  // face of the shape it lies on
     };
     std::vector<Face> faces;
+    SparseCheck check(64);
     for (const BandBoundaries::Face& f : boundaries.faces()) {
+        check();
         // Faces that differ in this are never one surface.
         const int place = f.is_shell() ? 0 : f.is_skin() ? 1 : 2;
         int cad = -1;
@@ -109,7 +112,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         faces.push_back({f.nodes, (f.kind * 3 + place) * 2 + f.element, f.is_internal(), f.is_shell(), f.kind, cad});
     }
     shell_.assign(static_cast<std::size_t>(band.triangles.size()), 0);
-    for (int t = 0; t < band.triangles.size(); ++t) {
+    for (int t = 0; t < band.triangles.size(); ++t, check()) {
         const auto& v = band.triangles[t];
         shell_[t] = std::ranges::none_of(band.tetras.around(v[0]), [&](int s) {
             const auto& n = band.tetras[s];
@@ -179,6 +182,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     std::vector<Crease> creases;
     const auto groups_of_line = [](int line_family) { return line_family / 2; };
     for (std::size_t i = 0; i < edges.size();) {
+        check();
         std::size_t end = i;
         while (end < edges.size() && edges[end].first == edges[i].first) ++end;
         const std::uint64_t key = edges[i].first;
@@ -214,7 +218,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     };
     std::vector<int> surface_of(faces.size(), -1);
     facets_.resize(faces.size());
-    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f, check()) {
         const int root = joined.find(f);
         if (surface_of[root] < 0) {
             surface_of[root] = static_cast<int>(surfaces_.size());
@@ -288,6 +292,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     }
 
     // 4. Curves: creases joined at nodes where exactly two of one kind meet without a kink.
+    check_cancelled();
     std::vector<std::vector<int>> creases_at(static_cast<std::size_t>(node_count));
     for (int c = 0; c < static_cast<int>(creases.size()); ++c)
         for (int v : creases[c].nodes) creases_at[v].push_back(c);
@@ -311,6 +316,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     std::vector<int> curve_of(creases.size(), -1);
     segments_.resize(creases.size());
     for (int c = 0; c < static_cast<int>(creases.size()); ++c) {
+        check();
         const int root = chained.find(c);
         Segment& segment = segments_[c];
         segment.node = creases[c].nodes;
@@ -366,6 +372,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         for (const auto& [key, mid] : band.mid_nodes)
             if (std::ranges::binary_search(options.pinned, mid)) fixed_middles_.insert(key);
     for (int v = 0; v < node_count; ++v) {
+        check();
         NodeConstraint& c = nodes_[v];
         if (c.freedom == NodeFreedom::fixed) continue;
         if (!band.nodes[v].movable() || !band.vertices.around(v).empty() ||

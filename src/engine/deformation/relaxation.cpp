@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
 
@@ -137,6 +138,7 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
     : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh, options.rounding), membership(band, mesh),
       contact(static_cast<std::size_t>(band.size())), side(static_cast<std::size_t>(band.size()), 0),
       off_tool(static_cast<std::size_t>(band.size()), 0), tolerance(options.tolerance), rounding(options.rounding), held_off(static_cast<std::size_t>(band.size()), 0) {
+    check_cancelled();
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];
@@ -146,6 +148,7 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
 }
 
 int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
+    check_cancelled();
     mids.split(band, a, b, band.size(), fraction(band.nodes[a].at, band.nodes[b].at, at));
     const bool fixed = constraints.has_fixed_middle(a, b);
     const int node = band.split_edge(a, b, at);
@@ -253,6 +256,8 @@ double shell_quality(const Deformable& d, int triangle) {
 
 double quality_around(const Deformable& d, int node, const Vec3& x) {
     thread_local Star star;
+    thread_local SparseCheck check(16);
+    check();
     star.gather(d, node);
     return star.empty() ? 1 : star.worst(x);
 }
@@ -284,6 +289,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
     std::vector<char> dirty(static_cast<std::size_t>(band.size()), 0);
     std::vector<int> active, next;
     Star star;
+    SparseCheck check(16);
     long moves = 0;
     for (int sweep = 0; sweep < 2 * options.sweeps; ++sweep) {
         const bool last_stage = sweep >= options.sweeps;
@@ -293,6 +299,7 @@ long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptio
         next.clear();
         for (const int v : active) dirty[v] = 0;
         for (const int v : active) {
+            check();
             if (!is_poor(v)) continue;
             BandNode& node = band.nodes[v];
             const Contact& tools = d.contact[v];

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -62,7 +64,9 @@ void mark_outer_nodes(const BandMesh& band, std::vector<char>& marked) {
     };
     std::vector<std::uint64_t> random(static_cast<std::size_t>(band.size())), rest(random.size(), 0);
     for (std::size_t v = 0; v < random.size(); ++v) random[v] = scramble(v + 0x9e3779b97f4a7c15u);
+    SparseCheck check(1 << 12);
     for (int t = 0; t < band.tetras.size(); ++t) {
+        check();
         if (!band.tetras.alive(t)) continue;
         const auto& v = band.tetras[t];
         const std::uint64_t sum = random[v[0]] + random[v[1]] + random[v[2]] + random[v[3]];
@@ -82,8 +86,10 @@ public:
     TetraFaces(const BandMesh& band, const std::vector<char>& counts) : start_(static_cast<std::size_t>(band.size()) + 1, 0) {
         std::vector<char> movable(static_cast<std::size_t>(band.size()));
         for (int v = 0; v < band.size(); ++v) movable[v] = band.nodes[v].movable();
+        SparseCheck check;
         const auto for_each = [&](auto visit) {
             for (int t = 0; t < band.tetras.size(); ++t) {
+                check();
                 if (!band.tetras.alive(t)) continue;
                 const auto& v = band.tetras[t];
                 if (counts[v[0]] + counts[v[1]] + counts[v[2]] + counts[v[3]] < 3) continue;
@@ -243,7 +249,9 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         if (const int set = in_all(f.nodes))
             for (const int v : f.nodes) on_kept[v] = sets.either(on_kept[v], set);
     };
+    SparseCheck check;
     for (std::size_t k = 0; k < faces.size(); ++k) {
+        check();
         Face& f = faces[k];
         const auto volume = [&](int t) { return t < 0 ? 0 : volume_kind[t]; };
         f.kind = sets.either(f.kind, sets.differ(volume(f.tetra[0]), volume(f.tetra[1])));
@@ -260,6 +268,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
         return 0;
     };
     for (std::size_t k = 0; k < faces.size(); ++k) {
+        check();
         Face& f = faces[k];
         if (int belongs = in_all(f.nodes)) {
             if (f.is_internal()) {
@@ -327,6 +336,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     };
     const auto link_edges = [&](const auto& list) {
         for (int s = 0; s < list.size(); ++s) {
+            check();
             if (!list.alive(s)) continue;
             const auto& v = list[s];
             // Inside an area nothing is left of any edge.
@@ -347,6 +357,7 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     // 4. Nodes: those without a neighbour in the group, and point elements.
     std::vector<int> pinned(in.size(), 0);
     for (int v = 0; v < band.size(); ++v) {
+        check();
         if (!band.in_use(v) || !band.nodes[v].movable()) continue;
         for (const int s : band.vertices.around(v))
             pinned[v] = sets.either(pinned[v], of_cell(band.vertex_cells[band.vertices.origin(s)]));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -53,14 +55,15 @@ std::vector<ElementaryGroup> elementary_groups(const Mesh& mesh) {
 
     std::vector<ElementaryGroup> out;
     Classes nodes(GroupKind::node, 0, visible);
-    for (Index n = 0; n < mesh.node_count(); ++n)
+    SparseCheck check(1 << 14);
+    for (Index n = 0; n < mesh.node_count(); ++n, check())
         if (GroupMembers* m = nodes.members(image[mesh.node_families[n]])) m->ids.push_back(mesh.node_ids[n]);
     nodes.move_to(out);
     for (int dimension = 0; dimension <= 3; ++dimension) {
         Classes elements(GroupKind::element, dimension, visible);
         for (const CellBlock& b : mesh.blocks()) {
             if (traits(b.type).dimension != dimension) continue;
-            for (Index c = 0; c < b.size(); ++c)
+            for (Index c = 0; c < b.size(); ++c, check())
                 if (GroupMembers* m = elements.members(image[b.families[c]])) m->ids.push_back(b.ids[c]);
         }
         elements.move_to(out);
@@ -68,6 +71,7 @@ std::vector<ElementaryGroup> elementary_groups(const Mesh& mesh) {
     for (int dimension = 1; dimension <= 2; ++dimension) {
         Classes facets(GroupKind::facet, dimension, visible);
         for (const Facet& f : mesh.facets) {
+            check();
             // Faces 1 and 2 of a shell element are its two sides, the others its edges.
             if ((traits(f.type).dimension == 3 || f.face <= 2 ? 2 : 1) != dimension) continue;
             if (GroupMembers* m = facets.members(image[f.family])) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cancel.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
@@ -67,7 +68,8 @@ FamilyTotals family_totals(const Mesh& mesh) {
     fit(totals, mesh);
     for (const CellBlock& b : mesh.blocks()) {
         const int d = traits(b.type).dimension;
-        for (Index c = 0; c < b.size(); ++c) {
+        SparseCheck check;
+        for (Index c = 0; c < b.size(); ++c, check()) {
             FamilyTotals::Entry& e = totals.by_family[b.families[c]];
             ++e.cells[d];
             if (b.families[c] != 0) e.measure[d] += cell_measure(mesh, b.type, c);
@@ -79,7 +81,9 @@ FamilyTotals family_totals(const Mesh& mesh) {
 
 void count_cells(FamilyTotals& totals, const Mesh& mesh, std::span<const CellRef> cells, int sign) {
     fit(totals, mesh);
+    SparseCheck check;
     for (const CellRef& c : cells) {
+        check();
         FamilyTotals::Entry& e = totals.by_family[mesh.block(c.type).families[c.cell]];
         const int d = traits(c.type).dimension;
         e.cells[d] += sign;
@@ -89,6 +93,7 @@ void count_cells(FamilyTotals& totals, const Mesh& mesh, std::span<const CellRef
 
 void count_nodes_and_facets(FamilyTotals& totals, const Mesh& mesh, int sign) {
     fit(totals, mesh);
+    check_cancelled();
     for (FamilyIndex f : mesh.node_families) totals.by_family[f].nodes += sign;
     for (const Facet& f : mesh.facets) {
         totals.by_family[f.family].facets += sign;

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -36,6 +38,7 @@ public:
     };
 
     Entry& insert(const std::array<Index, N>& nodes) {
+        check_();
         if (2 * (entries_.size() + 1) > slots_.size()) grow();
         const Key key = sorted(nodes);
         const std::size_t h = place(key);
@@ -84,11 +87,15 @@ private:
 
     void grow() {
         slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), empty);
-        for (std::size_t e = 0; e < entries_.size(); ++e) slots_[place(entries_[e].key)] = static_cast<std::uint32_t>(e);
+        for (std::size_t e = 0; e < entries_.size(); ++e) {
+            check_();
+            slots_[place(entries_[e].key)] = static_cast<std::uint32_t>(e);
+        }
     }
 
     std::vector<std::uint32_t> slots_;
     std::vector<Entry> entries_;
+    SparseCheck check_;
 };
 
 /// Things in rows: those of row r are items[start[r]] to items[start[r + 1]].
@@ -106,11 +113,18 @@ template <class T, class Generate>
 Rows<T> make_rows(Index rows, Generate generate) {
     Rows<T> out;
     out.start.assign(static_cast<std::size_t>(rows) + 1, 0);
-    generate([&](Index row, const T&) { ++out.start[static_cast<std::size_t>(row) + 1]; });
+    SparseCheck check(1 << 16);
+    generate([&](Index row, const T&) {
+        check();
+        ++out.start[static_cast<std::size_t>(row) + 1];
+    });
     std::partial_sum(out.start.begin(), out.start.end(), out.start.begin());
     out.items.resize(static_cast<std::size_t>(out.start.back()));
     std::vector<Index> fill(out.start.begin(), out.start.end() - 1);
-    generate([&](Index row, const T& item) { out.items[static_cast<std::size_t>(fill[row]++)] = item; });
+    generate([&](Index row, const T& item) {
+        check();
+        out.items[static_cast<std::size_t>(fill[row]++)] = item;
+    });
     return out;
 }
 
@@ -186,6 +200,7 @@ public:
             collect_node_group();
         else
             collect_elements();
+        check_cancelled();
         std::ranges::sort(area_);
         area_.erase(std::unique(area_.begin(), area_.end()), area_.end());
         bound_area();
@@ -226,7 +241,9 @@ private:
         for (const FamilyIndex f : t_.families[group_]) family[f] = 1;
         const auto in = [&](Index n) { return n == none || family[mesh_.node_families[n]] != 0; };
         std::vector<Index> covered;  // mid-side and centre nodes
+        SparseCheck check;
         const auto look = [&](Index element) {
+            check();
             const CellTraits& t = traits_of(element);
             const auto n = corners(element);
             const bool all = std::ranges::all_of(n, in);
@@ -263,6 +280,7 @@ private:
         std::ranges::sort(covered);
         for (const FamilyIndex f : t_.families[group_])
             for (const Index v : t_.nodes[f]) {
+                check();
                 const bool linked = std::ranges::any_of(t_.around[v], [&](Index element) {
                     const auto n = corners(element);
                     return std::ranges::any_of(traits_of(element).edges, [&](const auto& e) {
@@ -298,8 +316,10 @@ private:
     }
 
     void collect_elements() {
+        SparseCheck check;
         for (const FamilyIndex f : t_.families[group_]) {
             for (const Index element : t_.cells[f]) {
+                check();
                 const auto n = corners(element);
                 const int dimension = traits_of(element).dimension;
                 if (dimension >= 2 && dimension == t_.dimension) area_.push_back(element);
@@ -330,7 +350,9 @@ private:
 
     /// Faces all of whose edges belong.
     void close_faces() {
+        SparseCheck check;
         for (const auto& entry : edges_.entries()) {
+            check();
             const auto [a, b] = entry.nodes();
             for (const Index element : t_.around[a]) {
                 const CellTraits& t = traits_of(element);
@@ -351,8 +373,10 @@ private:
 
     /// Volume elements all of whose faces belong.
     void close_area() {
+        SparseCheck check;
         for (const auto& entry : faces_.entries())
             for (const Index element : t_.around[entry.nodes()[0]]) {
+                check();
                 const CellTraits& t = traits_of(element);
                 if (t.dimension < 3) continue;
                 const auto n = corners(element);
@@ -364,7 +388,9 @@ private:
 
     /// Counts the area on both sides of its faces (edges).
     void bound_area() {
+        SparseCheck check;
         for (const Index element : area_) {
+            check();
             const CellTraits& t = traits_of(element);
             const auto n = corners(element);
             const auto count = [&](auto& entry, const auto& nodes) {
@@ -389,8 +415,10 @@ private:
 
     void cover_edges() {
         if (t_.dimension != 3) return;
+        SparseCheck check;
         for (const auto& face : faces_.entries())
             for_each_edge(face.nodes(), [&](const Edge& e) {
+                check();
                 if (auto* entry = edges_.find(e)) entry->covered = true;
             });
     }
@@ -412,12 +440,15 @@ private:
     }
 
     void write() {
+        SparseCheck check;
         const auto put_face = [&](BoundaryPart& part, const auto& entry) {
+            check();
             part.faces.push_back(entry.nodes());
             const std::span<const Index> nodes(part.faces.back());
             part.face_elements.push_back(element_on(nodes.first(nodes[3] == none ? 3 : 4), 2));
         };
         const auto put_edge = [&](BoundaryPart& part, const auto& entry) {
+            check();
             part.edges.push_back(entry.nodes());
             part.edge_elements.push_back(element_on(part.edges.back(), 1));
         };
@@ -431,7 +462,10 @@ private:
             else if (edge.areas == 0 && edge.belongs && !edge.covered) put_edge(out_.linking, edge);
         }
         isolate_points();
-        for (const Index element : area_) out_.enclosed.push_back(unpack(element));
+        for (const Index element : area_) {
+            check();
+            out_.enclosed.push_back(unpack(element));
+        }
     }
 
     void isolate_points() {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "io/atomic_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ostream>
 #include <random>
 #include <string>
 #include <system_error>
 
+#include "cancel.h"
 #include "error.h"
 
 namespace fs = std::filesystem;
@@ -76,6 +79,14 @@ void AtomicFile::commit() {
     fs::rename(temporary_, target_, error);
     if (error) fail(shown_, error.message());
     temporary_.clear();
+}
+
+void write_obeying(std::ostream& out, std::string_view text) {
+    constexpr std::size_t piece = 1 << 22;
+    for (; !text.empty(); text.remove_prefix(std::min(piece, text.size()))) {
+        check_cancelled();
+        out.write(text.data(), static_cast<std::streamsize>(std::min(piece, text.size())));
+    }
 }
 
 }  // namespace femscalpel

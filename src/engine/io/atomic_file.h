@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
+#include <string_view>
 
 namespace femscalpel {
 
@@ -31,5 +33,8 @@ private:
     std::filesystem::path target_;  // the same with links followed
     std::filesystem::path temporary_;
 };
+
+/// Writes `text` to `out`, in pieces: a check point (cancel.h) before each.
+void write_obeying(std::ostream& out, std::string_view text);
 
 }  // namespace femscalpel

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 
+#include "cancel.h"
 #include "io/inp.h"
 #include "semantics/solver_element.h"
 #include "semantics/solver_input.h"
@@ -22,6 +24,7 @@ constexpr Index largest_number = 2147483647;  // CalculiX counts in 32 bits
 std::string unzip(const std::string& packed, const std::string& shown) {
     z_stream stream{};
     if (inflateInit2(&stream, 15 + 16) != Z_OK) throw ReadError(shown + ": cannot start unpacking gzip");
+    const std::unique_ptr<z_stream, int (*)(z_streamp)> end(&stream, inflateEnd);
     std::string out;
     std::vector<char> buffer(1 << 18);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
@@ -34,6 +37,7 @@ std::string unzip(const std::string& packed, const std::string& shown) {
         }
         stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
         stream.avail_out = static_cast<uInt>(buffer.size());
+        check_cancelled();
         status = inflate(&stream, Z_NO_FLUSH);
         if (status != Z_OK && status != Z_STREAM_END) break;
         out.append(buffer.data(), buffer.size() - stream.avail_out);
@@ -42,7 +46,6 @@ std::string unzip(const std::string& packed, const std::string& shown) {
             inflateReset(&stream);  // gzip files may be several in a row
         }
     }
-    inflateEnd(&stream);
     if (status != Z_STREAM_END) throw ReadError(shown + ": the gzip'd file is truncated or damaged");
     return out;
 }
@@ -56,8 +59,13 @@ std::string load(const fs::path& path) {
     const auto size = fs::file_size(path, error);
     if (!in || error) throw ReadError(shown + ": cannot be opened for reading");
     std::string text(size, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(size));
-    if (in.gcount() != static_cast<std::streamsize>(size)) throw ReadError(shown + ": reading failed");
+    constexpr std::size_t piece = 1 << 23;
+    for (std::size_t at = 0; at < size; at += piece) {
+        check_cancelled();
+        const auto wanted = static_cast<std::streamsize>(std::min<std::size_t>(piece, size - at));
+        in.read(text.data() + at, wanted);
+        if (in.gcount() != wanted) throw ReadError(shown + ": reading failed");
+    }
     if (text.starts_with("\x1f\x8b")) return unzip(text, shown);
     return text;
 }
@@ -90,7 +98,9 @@ private:
             const void* newline = std::memchr(from, '\n', static_cast<std::size_t>(end - from));
             return newline ? static_cast<const char*>(newline) + 1 : end;
         };
+        SparseCheck check(1 << 12);
         while (p < end) {
+            check();
             const char* next = next_line(p);
             const char* first = p;
             while (first < next && (*first == ' ' || *first == '\t')) ++first;
@@ -295,7 +305,8 @@ private:
         {
             const NumberIndex numbers(mesh_);
             bool repeated = false;
-            for (Index i = 0; i < mesh_.node_count() && !repeated; ++i)
+            SparseCheck check(1 << 14);
+            for (Index i = 0; i < mesh_.node_count() && !repeated; ++i, check())
                 repeated = *numbers.node(mesh_.node_ids[i]) != i;
             if (!repeated) return;
         }
@@ -452,8 +463,9 @@ private:
     void check_element_numbers() const {
         const NumberIndex numbers(mesh_);
         std::optional<Index> twice;
+        SparseCheck check(1 << 14);
         for (const CellBlock& b : mesh_.blocks())
-            for (Index i = 0; i < b.size() && !twice; ++i)
+            for (Index i = 0; i < b.size() && !twice; ++i, check())
                 if (*numbers.cell(b.ids[i]) != CellRef{b.type, i}) twice = b.ids[i];
         std::unordered_set<Index> others;
         for (const OtherElement& e : input_->other_elements())
@@ -489,6 +501,7 @@ private:
         const auto contributed = members_by_card(mesh_, *input_);
         std::vector<SetMembers> sets = evaluate_sets(mesh_, numbers, *input_, contributed, {}, &input_->warnings());
         std::vector<std::pair<std::array<Index, 3>, GroupIndex>> facets;  // type, cell, face
+        SparseCheck check;
         for (std::size_t s = 0; s < sets.size(); ++s) {
             DeckSet& set = input_->sets()[s];
             set.unheld = std::move(sets[s].unheld);
@@ -502,6 +515,7 @@ private:
                 f = with[static_cast<std::size_t>(f)];
             };
             for (Index member : sets[s].members) {
+                check();
                 if (group_kind(set.type) == GroupKind::node) {
                     join(mesh_.node_families[*numbers.node(member)]);
                 } else if (group_kind(set.type) == GroupKind::element) {

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 
+#include "cancel.h"
 #include "io/atomic_file.h"
 #include "io/inp.h"
 #include "semantics/solver_element.h"
@@ -114,6 +116,7 @@ private:
     // --- what is where -----------------------------------------------------------------------------
 
     void find_cards() {
+        check_cancelled();
         std::unordered_map<std::string_view, std::size_t> by_group;
         for (std::size_t c = 0; c < input_->cards().size(); ++c) {
             const Card& card = input_->cards()[c];
@@ -214,7 +217,7 @@ private:
         for (const CellBlock& b : mesh_.blocks()) {
             const CellTraits& t = traits(b.type);
             if (t.dimension <= dimension || t.dimension < 2) continue;
-            for (Index i = 0; i < b.size(); ++i) {
+            for (Index i = 0; i < b.size(); ++i, check_()) {
                 const auto nodes = b.nodes(i);
                 int near = 0;
                 for (int k = 0; k < t.corners; ++k)
@@ -256,11 +259,11 @@ private:
         planes_ = plane_families(mesh_, *input_);
         std::vector<std::vector<Index>> members(mesh_.groups.size());
         std::vector<std::vector<std::size_t>> loose(mesh_.groups.size());
-        for (Index i = 0; i < mesh_.node_count(); ++i)
+        for (Index i = 0; i < mesh_.node_count(); ++i, check_())
             for (GroupIndex g : mesh_.families.groups(mesh_.node_families[i]))
                 if (!mesh_.groups[g].hidden) members[g].push_back(mesh_.node_ids[i]);
         for (const CellBlock& b : mesh_.blocks())
-            for (Index i = 0; i < b.size(); ++i) {
+            for (Index i = 0; i < b.size(); ++i, check_()) {
                 const Fate fate = fates_[static_cast<int>(b.type)][i];
                 if (fate != Fate::card && fate != Fate::free) continue;
                 for (GroupIndex g : mesh_.families.groups(b.families[i]))
@@ -520,6 +523,7 @@ private:
     }
 
     void put_node(Index node) {
+        check_();
         start_line();
         append_integer(out_, mesh_.node_ids[node]);
         for (int k = 0; k < 3; ++k) {
@@ -617,6 +621,7 @@ private:
     }
 
     void put_element(CellRef ref) {
+        check_();
         const auto nodes = mesh_.block(ref.type).nodes(ref.cell);
         std::array<Index, 27> order;
         std::ranges::copy(nodes, order.begin());
@@ -739,6 +744,7 @@ private:
         if (type == DeckSetType::element_surface) {
             start_line();
             for (Index key : members) {
+                check_();
                 const CellRef ref = *numbers_.cell(key / 8);
                 append_integer(out_, key / 8);
                 out_ += ", ";
@@ -752,6 +758,7 @@ private:
         const std::size_t per_line = type == DeckSetType::node_surface ? 1 : 10;
         std::size_t on_line = 0;
         const auto put_number = [&](Index number) {
+            check_();
             if (on_line == per_line) out_ += eol_, on_line = 0;
             append_integer(out_, number);
             if (per_line > 1) out_ += ", ";
@@ -796,24 +803,26 @@ private:
     std::array<std::vector<char>, cell_type_count> element_written_;
     std::vector<std::string_view> tail_;
     std::string out_, eol_ = "\n";
+    SparseCheck check_;
 };
 
 void save(const fs::path& path, const std::string& text) {
     AtomicFile file(path);
     std::string extension = path.extension().string();
     if (extension == ".gz" || extension == ".GZ") {
-        gzFile out = gzopen(file.temporary().c_str(), "wb6");
+        std::unique_ptr<gzFile_s, int (*)(gzFile)> out(gzopen(file.temporary().c_str(), "wb6"), gzclose);
         bool good = out != nullptr;
         for (std::size_t at = 0; good && at < text.size();) {
-            const auto part = static_cast<unsigned>(std::min<std::size_t>(text.size() - at, 1u << 24));
-            good = gzwrite(out, text.data() + at, part) == static_cast<int>(part);
+            check_cancelled();
+            const auto part = static_cast<unsigned>(std::min<std::size_t>(text.size() - at, 1u << 18));
+            good = gzwrite(out.get(), text.data() + at, part) == static_cast<int>(part);
             at += part;
         }
-        if (out) good = gzclose(out) == Z_OK && good;
+        if (out) good = gzclose(out.release()) == Z_OK && good;
         if (!good) throw WriteError(path.string() + ": writing failed (disk full?)");
     } else {
         std::ofstream out(file.temporary(), std::ios::binary);
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
+        write_obeying(out, text);
         out.close();
         if (!out) throw WriteError(path.string() + ": writing failed (disk full?)");
     }

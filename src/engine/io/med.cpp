@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -17,6 +18,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cancel.h"
 #include "error.h"
 #include "io/atomic_file.h"
 
@@ -24,7 +26,14 @@ namespace femscalpel {
 namespace {
 
 // Neither library is thread-safe.
-std::mutex library_mutex;
+std::timed_mutex library_mutex;
+
+/// Waits for the libraries.
+std::unique_lock<std::timed_mutex> lock_libraries() {
+    std::unique_lock lock(library_mutex, std::defer_lock);
+    while (!lock.try_lock_for(std::chrono::milliseconds(20))) check_cancelled();
+    return lock;
+}
 
 /// Keeps HDF5 from printing its error stack. MED-fichier does so too, with an older call that leaves HDF5
 /// confused when it closes at the end of the program; hence once more at the end.
@@ -253,6 +262,7 @@ public:
         if (MEDfileCompatibility(path_.c_str(), &hdf_good, &med_good) < 0) damaged("its MED version");
         if (!med_good) fail("not a MED file, or one of a MED version this library (" MED_VERSION_STR ") cannot read");
 
+        check_cancelled();
         MedFile file(MEDfileOpen(path_.c_str(), MED_ACC_RDONLY));
         fid_ = file.id();
         if (fid_ < 0) damaged("the file");
@@ -264,6 +274,8 @@ public:
         number_elements();
         try {
             mesh_.validate();
+        } catch (const Cancelled&) {
+            throw;
         } catch (const Error& e) {
             fail(std::string("contradictory or damaged: ") + e.what());
         }
@@ -358,11 +370,13 @@ private:
             fail("contradictory or damaged: " + std::to_string(n) + " " + who + ", but " + std::to_string(stored) +
                  " family numbers");
         const MedInts raw = ints(n, "the families of " + who);
+        check_cancelled();
         if (MEDmeshEntityFamilyNumberRd(fid_, name_, step_, iteration_, entity, geometry, raw.get()) < 0)
             damaged("the families of " + who);
         med_int last = 0;
         std::int32_t position = 0;
-        for (Index i = 0; i < n; ++i) {
+        SparseCheck check(1 << 16);
+        for (Index i = 0; i < n; ++i, check()) {
             if (raw[i] != last) {
                 last = raw[i];
                 position = numbers_.find(last);
@@ -387,6 +401,7 @@ private:
             fail("contradictory or damaged: " + std::to_string(n) + " " + who + ", but " + std::to_string(stored) +
                  " numbers");
         const MedInts raw = ints(n, "the numbers of " + who);
+        check_cancelled();
         if (MEDmeshEntityNumberRd(fid_, name_, step_, iteration_, entity, geometry, raw.get()) < 0)
             damaged("the numbers of " + who);
         return {raw.get(), raw.get() + n};
@@ -399,9 +414,11 @@ private:
         const auto values = static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(dimension_);
         if (values * sizeof(med_float) > largest_array()) damaged("the coordinates");
         const auto raw = std::make_unique_for_overwrite<med_float[]>(values);
+        check_cancelled();
         // Coordinate by coordinate, as they lie in the file: HDF5 interleaves many times slower than we do.
         if (MEDmeshNodeCoordinateRd(fid_, name_, step_, iteration_, MED_NO_INTERLACE, raw.get()) < 0)
             damaged("the coordinates");
+        check_cancelled();
         mesh_.points.resize(static_cast<std::size_t>(n));
         for (Index i = 0; i < n; ++i) {
             Vec3& p = mesh_.points[static_cast<std::size_t>(i)];
@@ -466,6 +483,7 @@ private:
         const MedType& type = med_type(t.type);
         const std::string what = std::string("the connectivity of ") + type.name;
         const MedInts raw = ints(n * t.nodes, what);
+        check_cancelled();
         if (MEDmeshElementConnectivityRd(fid_, name_, step_, iteration_, MED_CELL, type.geometry, MED_NODAL,
                                          MED_NO_INTERLACE, raw.get()) < 0)
             damaged(what);
@@ -473,7 +491,8 @@ private:
         const med_int* columns[27];
         for (int k = 0; k < t.nodes; ++k) columns[k] = raw.get() + n * type.order[static_cast<std::size_t>(k)];
         Index* target = out.data();
-        for (Index c = 0; c < n; ++c)
+        SparseCheck check(1 << 16);
+        for (Index c = 0; c < n; ++c, check())
             for (int k = 0; k < t.nodes; ++k) *target++ = Index{columns[k][c]} - 1;
         const Index nodes = mesh_.node_count();
         const auto bad = std::ranges::find_if(out, [nodes](Index i) { return i < 0 || i >= nodes; });
@@ -499,6 +518,7 @@ private:
             return set.empty() ? 0 : mesh_.families.intern(set);
         };
         for (FileFamily& f : families_) {
+            check_cancelled();
             const bool used = f.nodes || f.elements;
             if (f.elements || (!used && f.number < 0)) f.as_elements = family_of(f.names, GroupKind::element);
             if (f.nodes || (!used && f.number > 0)) f.as_nodes = family_of(f.names, GroupKind::node);
@@ -624,6 +644,7 @@ public:
         write_families();
         write_nodes();
         for (const CellTraits& t : all_cell_types()) write_elements(t);
+        check_cancelled();
         if (!file.close()) fail("closing it failed; the disk may be full");
         target.commit();
     }
@@ -646,7 +667,9 @@ private:
 
     void collect_facets() {
         Index next = mesh_.largest_cell_id();
+        SparseCheck check;
         for (const Facet& f : mesh_.facets) {
+            check();
             const FacetElement e = facet_element(mesh_, f);
             CellBlock& block = facets_.block(e.type);
             block.connectivity.insert(block.connectivity.end(), e.nodes.begin(), e.nodes.begin() + e.size);
@@ -759,6 +782,7 @@ private:
                     names += names_[static_cast<std::size_t>(g)];
                     names.resize((names.size() + MED_LNAME_SIZE - 1) / MED_LNAME_SIZE * MED_LNAME_SIZE, '\0');
                 }
+                check_cancelled();
                 const med_int number = sign * static_cast<med_int>(i + 1);
                 const std::string name = "FAM_" + std::to_string(number);
                 check(MEDfamilyCr(fid_, name_, name.c_str(), number, static_cast<med_int>(set.size()), names.c_str()),
@@ -773,7 +797,8 @@ private:
         const auto coordinates = std::make_unique_for_overwrite<med_float[]>(3 * size);
         const auto numbers = std::make_unique_for_overwrite<med_int[]>(size);
         const auto families = std::make_unique_for_overwrite<med_int[]>(size);
-        for (std::size_t i = 0; i < size; ++i) {
+        SparseCheck sparse_check(1 << 14);
+        for (std::size_t i = 0; i < size; ++i, sparse_check()) {
             for (std::size_t a = 0; a < 3; ++a) coordinates[a * size + i] = mesh_.points[i][static_cast<Eigen::Index>(a)];
             numbers[i] = med_number(mesh_.node_ids[i]);
             families[i] = nodes_.number[static_cast<std::size_t>(mesh_.node_families[i])];
@@ -781,6 +806,7 @@ private:
         const auto count = static_cast<med_int>(n);
         check(MEDmeshNodeCoordinateWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_NO_INTERLACE, count, coordinates.get()),
               "the coordinates");
+        check_cancelled();
         check(MEDmeshEntityNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, count, numbers.get()),
               "the node numbers");
         check(MEDmeshEntityFamilyNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, count, families.get()),
@@ -802,7 +828,9 @@ private:
         std::size_t at = 0;
         for (const CellBlock* block : {&mesh_.block(t.type), &facets_.block(t.type)}) {
             const Index* source = block->connectivity.data();
+            SparseCheck sparse_check(1 << 14);
             for (std::size_t c = 0; c < block->ids.size(); ++c, ++at) {
+                sparse_check();
                 for (int k = 0; k < t.nodes; ++k) columns[k][at] = static_cast<med_int>(*source++ + 1);
                 numbers[at] = med_number(block->ids[c]);
                 families[at] = elements_.number[static_cast<std::size_t>(block->families[c])];
@@ -811,8 +839,10 @@ private:
         check(MEDmeshElementConnectivityWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type.geometry, MED_NODAL,
                                            MED_NO_INTERLACE, count, connectivity.get()),
               "the connectivity");
+        check_cancelled();
         check(MEDmeshEntityNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_CELL, type.geometry, count, numbers.get()),
               "the element numbers");
+        check_cancelled();
         check(MEDmeshEntityFamilyNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_CELL, type.geometry, count, families.get()),
               "the families of the elements");
     }
@@ -829,7 +859,7 @@ private:
 }  // namespace
 
 Mesh read_med(const std::filesystem::path& path) {
-    const std::lock_guard lock(library_mutex);
+    const auto lock = lock_libraries();
     const QuietHdf5 quiet;
     try {
         return Reader(path).read();
@@ -839,7 +869,7 @@ Mesh read_med(const std::filesystem::path& path) {
 }
 
 void write_med(const Mesh& mesh, const std::filesystem::path& path) {
-    const std::lock_guard lock(library_mutex);
+    const auto lock = lock_libraries();
     const QuietHdf5 quiet;
     Writer(mesh, path).write();
 }

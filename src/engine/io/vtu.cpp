@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cancel.h"
 #include "error.h"
 #include "io/atomic_file.h"
 
@@ -99,6 +100,7 @@ private:
         data.append(blocks * sizeof(std::uint64_t), '\0');
         std::vector<unsigned char> packed(compressBound(block_size));
         for (std::size_t b = 0; b < blocks; ++b) {
+            check_cancelled();
             uLongf length = packed.size();
             const std::size_t here = std::min(block_size, size - b * block_size);
             // With a buffer of this size only lack of memory can make it fail.
@@ -137,6 +139,7 @@ void write_point_data(Document& document, const Mesh& mesh) {
     document.array("Int32", names.unique("Family"), mesh.node_families);
     std::vector<std::uint8_t> flags(mesh.points.size());
     for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+        check_cancelled();
         const Group& group = mesh.groups[g];
         if (group.hidden || group.kind != GroupKind::node) continue;
         const std::vector<std::uint8_t> in = families_with(mesh, static_cast<GroupIndex>(g));
@@ -163,6 +166,7 @@ void write_cell_data(Document& document, const Mesh& mesh) {
     for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
         const Group& group = mesh.groups[g];
         if (group.hidden || group.kind == GroupKind::node) continue;
+        check_cancelled();
         const std::vector<std::uint8_t> in = families_with(mesh, static_cast<GroupIndex>(g));
         if (group.kind == GroupKind::element) {
             for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = in[static_cast<std::size_t>(families[i])];
@@ -222,7 +226,9 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
     document.xml += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
     std::ofstream file(target.temporary(), std::ios::binary | std::ios::trunc);
-    file << document.xml << document.data << "\n</AppendedData>\n</VTKFile>\n";
+    file << document.xml;
+    write_obeying(file, document.data);
+    file << "\n</AppendedData>\n</VTKFile>\n";
     file.close();
     if (!file) throw WriteError(path.string() + ": cannot be written: the disk may be full");
     target.commit();

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -99,6 +101,7 @@ double BandMesh::mean_edge_length(int node) const {
 BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency, bool simplices_only) {
     BandMesh band;
     const CellLists chosen = elements_near(mesh, level, adjacency);
+    check_cancelled();
     std::vector<int> local(mesh.points.size(), -1);
     for (const CellBlock& block : mesh.blocks()) {
         const CellTraits& t = traits(block.type);
@@ -129,7 +132,9 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, c
             if (!type) continue;
             const CellBlock& block = mesh.block(*type);
             const CellTraits& t = traits(*type);
+            SparseCheck check;
             for (const Index c : chosen[static_cast<int>(*type)]) {
+                check();
                 const auto n = block.nodes(c);
                 std::array<int, N> v;
                 for (std::size_t k = 0; k < N; ++k) v[k] = local[n[k]];
@@ -140,6 +145,7 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, c
                         band.mid_nodes.emplace(edge_key(v[t.edges[e][0]], v[t.edges[e][1]]), n[t.corners + static_cast<int>(e)]);
             }
         }
+        check_cancelled();
         list.assign(std::move(simplices), band.size());
     };
     fill(band.tetras, band.tetra_cells, CellType::tetra, CellType::tetra10);

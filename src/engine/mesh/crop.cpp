@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cancel.h"
+
 namespace femscalpel {
 
 Crop crop(const Mesh& mesh, const CellLists& cells) {
@@ -22,6 +24,7 @@ Crop crop(const Mesh& mesh, const CellLists& cells) {
             out.nodes.push_back(static_cast<Index>(n));
         }
     for (const CellBlock& from : mesh.blocks()) {
+        check_cancelled();
         CellBlock& to = part.block(from.type);
         for (const Index c : cells[static_cast<int>(from.type)]) {
             for (const Index n : from.nodes(c)) to.connectivity.push_back(place[n]);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "cancel.h"
+
 namespace femscalpel {
 
 std::string_view to_string(GroupKind kind) {
@@ -15,6 +17,20 @@ std::string_view to_string(GroupKind kind) {
     }
     return "";
 }
+
+namespace {
+
+/// Sorts numbers, of which there may be millions.
+void sort_obeying(std::vector<Index>& numbers) {
+    if (std::ranges::is_sorted(numbers)) return;
+    SparseCheck check(1 << 16);
+    std::ranges::sort(numbers, [&](Index a, Index b) {
+        check();
+        return a < b;
+    });
+}
+
+}  // namespace
 
 Mesh::Mesh() {
     for (const CellTraits& t : all_cell_types()) block(t.type).type = t.type;
@@ -77,14 +93,15 @@ void Mesh::validate() const {
     const auto bad_family = [this](FamilyIndex f) { return f < 0 || f >= families.size(); };
     if (node_ids.size() != points.size() || node_families.size() != points.size())
         throw Error("node numbers or families do not match the number of nodes");
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    SparseCheck check;
+    for (std::size_t i = 0; i < points.size(); ++i, check()) {
         if (!points[i].allFinite())
             throw Error("node " + std::to_string(node_ids[i]) + " has a coordinate that is not a finite number");
         if (node_ids[i] <= 0) throw Error("node number " + std::to_string(node_ids[i]) + " is not positive");
         if (bad_family(node_families[i])) throw Error("node " + std::to_string(node_ids[i]) + " has no valid family");
     }
     std::vector<Index> ids(node_ids);
-    std::ranges::sort(ids);
+    sort_obeying(ids);
     if (const auto twice = std::ranges::adjacent_find(ids); twice != ids.end())
         throw Error("node number " + std::to_string(*twice) + " is used twice");
     ids.clear();
@@ -92,7 +109,7 @@ void Mesh::validate() const {
         const CellTraits& t = traits(b.type);
         if (b.connectivity.size() != b.ids.size() * static_cast<std::size_t>(t.nodes) || b.families.size() != b.ids.size())
             throw Error("connectivity or families of the " + std::string(t.name) + " elements do not match their number");
-        for (Index c = 0; c < b.size(); ++c) {
+        for (Index c = 0; c < b.size(); ++c, check()) {
             const std::string who = std::string(t.name) + " element " + std::to_string(b.ids[c]);
             if (b.ids[c] <= 0) throw Error(who + ": element numbers must be positive");
             for (Index n : b.nodes(c))
@@ -101,7 +118,7 @@ void Mesh::validate() const {
         }
         ids.insert(ids.end(), b.ids.begin(), b.ids.end());
     }
-    std::ranges::sort(ids);
+    sort_obeying(ids);
     if (const auto twice = std::ranges::adjacent_find(ids); twice != ids.end())
         throw Error("element number " + std::to_string(*twice) + " is used twice");
     for (const Facet& f : facets)
@@ -135,10 +152,11 @@ struct NumberIndex::Tables {
 
 NumberIndex::NumberIndex(const Mesh& mesh) : tables_(std::make_unique<Tables>()) {
     tables_->nodes.reserve(mesh.largest_node_id(), mesh.node_count());
-    for (Index i = 0; i < mesh.node_count(); ++i) tables_->nodes.put(mesh.node_ids[i], i);
+    SparseCheck check(1 << 14);
+    for (Index i = 0; i < mesh.node_count(); ++i, check()) tables_->nodes.put(mesh.node_ids[i], i);
     tables_->cells.reserve(mesh.largest_cell_id(), mesh.cell_count());
     for (const CellBlock& b : mesh.blocks())
-        for (Index c = 0; c < b.size(); ++c)
+        for (Index c = 0; c < b.size(); ++c, check())
             tables_->cells.put(b.ids[c], c * cell_type_count + static_cast<Index>(b.type));
 }
 
@@ -233,6 +251,7 @@ GroupMembers group_members(const Mesh& mesh, GroupIndex group) {
     GroupMembers out;
     out.kind = mesh.groups.at(static_cast<std::size_t>(group)).kind;
     const std::vector<char> in = families_with(mesh, group);
+    check_cancelled();
     switch (out.kind) {
         case GroupKind::node:
             for (Index i = 0; i < mesh.node_count(); ++i)
@@ -260,10 +279,12 @@ void set_group_members(Mesh& mesh, GroupIndex group, const GroupMembers& members
     // Everything is looked up before anything changes, so that a bad number leaves the mesh as it was.
     std::vector<Index> nodes;
     std::vector<CellRef> cells;
-    if (g.kind == GroupKind::node)
-        for (Index id : members.ids) nodes.push_back(find_node(numbers, g, id));
-    else
-        for (Index id : members.ids) cells.push_back(find_cell(numbers, g, id));
+    SparseCheck check;
+    for (Index id : members.ids) {
+        check();
+        if (g.kind == GroupKind::node) nodes.push_back(find_node(numbers, g, id));
+        else cells.push_back(find_cell(numbers, g, id));
+    }
     if (g.kind == GroupKind::facet) {
         if (members.faces.size() != members.ids.size())
             throw Error(describe(g) + " needs one face number per element number");
@@ -309,6 +330,7 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members) {
     } node_pairs, cell_pairs;
     std::vector<std::pair<FacetKey, GroupIndex>> facet_pairs;
     for (std::size_t g = 0; g < members.size(); ++g) {
+        check_cancelled();
         const Group& group = mesh.groups.at(g);
         const GroupMembers& m = members[g];
         if (group.kind == GroupKind::node) {

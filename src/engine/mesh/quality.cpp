@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -259,14 +261,16 @@ double mean_ratio(const Mesh& mesh, CellType type, Index cell) {
 
 std::vector<double> mean_ratios(const Mesh& mesh, CellType type) {
     std::vector<double> out(static_cast<std::size_t>(mesh.block(type).size()));
-    for (std::size_t c = 0; c < out.size(); ++c) out[c] = mean_ratio(mesh, type, static_cast<Index>(c));
+    SparseCheck check;
+    for (std::size_t c = 0; c < out.size(); ++c, check()) out[c] = mean_ratio(mesh, type, static_cast<Index>(c));
     return out;
 }
 
-double cell_measure(const Mesh& mesh, CellType type, Index cell) {
+namespace {
+
+/// `at`: node of an element by its place.
+double measure_of(CellType type, auto at) {
     const CellTraits& t = traits(type);
-    const auto n = mesh.block(type).nodes(cell);
-    const auto at = [&](int k) -> const Vec3& { return mesh.points[n[k]]; };
     switch (type) {
         case CellType::vertex: return 0;
         case CellType::line: return (at(1) - at(0)).norm();
@@ -286,6 +290,17 @@ double cell_measure(const Mesh& mesh, CellType type, Index cell) {
         else measure += rule.weights[g] * jacobian.col(0).norm();
     }
     return measure;
+}
+
+}  // namespace
+
+double cell_measure(const Mesh& mesh, CellType type, Index cell) {
+    const auto n = mesh.block(type).nodes(cell);
+    return measure_of(type, [&](int k) -> const Vec3& { return mesh.points[n[k]]; });
+}
+
+double cell_measure(CellType type, std::span<const Vec3> nodes) {
+    return measure_of(type, [&](int k) -> const Vec3& { return nodes[k]; });
 }
 
 double smallest_jacobian(const std::array<Vec3, 10>& nodes) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "cancel.h"
 #include "error.h"
 #include "operators/no_cut.h"
 #include "operators/root.h"
@@ -72,7 +73,8 @@ private:
     /// The interface's edges that `wanted` takes, longest first.
     std::vector<std::pair<int, int>> edges(auto wanted) const {
         std::vector<std::pair<double, std::pair<int, int>>> found;
-        for (int v = 0; v < band_.size(); ++v)
+        SparseCheck check(8);
+        for (int v = 0; v < band_.size(); ++v, check())
             if (on_interface(v))
                 for (const int w : interface_neighbours(v))
                     if (w > v && wanted(v, w)) found.push_back({-length(v, w), {v, w}});
@@ -163,6 +165,7 @@ private:
         }
         std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) { return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node); });
         for (const Candidate& c : candidates) {
+            check_cancelled();
             if (!crosses(c.node)) continue;
             const Contact tools = d_.contact[c.node].with(&side_at(band_.nodes[c.node].at));
             if (snap(c.node, c.length, tools) || !is_beside(f_, value_[c.node], reach_beyond(c.node))) continue;
@@ -199,6 +202,7 @@ private:
 
     /// Makes a corner of the patch a node of the interface, if the interface gets there.
     void place_corner(const Patch::Corner& corner) {
+        check_cancelled();
         // The face of the interface it lies in: where it is least outside.
         int face = -1;
         double least = 0.1;

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "cancel.h"
 #include "operators/refine_first.h"
 #include "operators/removal.h"
 #include "tools/cylinder.h"
@@ -58,7 +59,9 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
         for (const Body::Wall& w : body.walls) radius = std::min(radius, w.tool->feature_size());
         if (!std::isfinite(radius)) continue;
         const auto look = [&](const auto& list) {
+            SparseCheck check(64);
             for (int s = 0; s < list.size(); ++s) {
+                check();
                 if (!list.alive(s)) continue;
                 Vec3 middle = Vec3::Zero();
                 double longest = 0;
@@ -120,6 +123,7 @@ std::vector<Body> without_idle_walls(const Mesh& mesh, std::span<const Body> bod
     std::vector<Body> out(bodies.begin(), bodies.end());
     for (Body& body : out) {
         const Body all = body;
+        check_cancelled();
         std::erase_if(body.walls, [&](const Body::Wall& w) { return std::ranges::all_of(mesh.points, [&](const Vec3& x) { return w.tool->distance(x) <= 0; }); });
         if (body.walls.empty())
             throw ToolError("the " + all.walls.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
@@ -140,8 +144,11 @@ double Body::depth(const Vec3& x) const {
 
 Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options, const std::array<const char*, 4>& sets,
              const Prepared& prepared) {
-    if (const auto refined = refine_first(input, zones_of(bodies, options.refine), options, prepared))
+    const Stopwatch::Time started = Stopwatch::now();
+    if (auto refined = refine_first(input, zones_of(bodies, options.refine), options, prepared)) {
+        refined->seconds = Stopwatch::since(started);
         return carve(kind, refined->mesh_of(input), bodies, options, sets, refined->prepared(prepared));
+    }
     std::vector<std::string> warnings;
     const std::vector<Body> cutting = without_idle_walls(input, bodies, warnings);
     bodies = cutting;
@@ -166,7 +173,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     if (blades.empty()) throw ToolError("there is no tool: give at least one");
     if (options.method == Method::deform && blades.size() > 1)
         throw ToolError("method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and several holes");
-    Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()});
+    Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()}, started);
     Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) { return deep_inside(whole, level, depths); });
     f.warnings.insert(f.warnings.end(), warnings.begin(), warnings.end());
     const Mesh& mesh = operation.mesh();
@@ -198,6 +205,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
         if (!left && removed >= solid_count(operation.whole()))
             throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
         release_all_but_walls(g, tool_of_tag);
+        note_slivers(g, tool_of_tag, 1);
         if (options.method == Method::snap) relax_band(g);
     };
     if (options.method == Method::snap) cut_soundly(f, carve_once, carve_attempts);
@@ -209,6 +217,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     check_contacts(f);
     const Lips walls = open_walls(f);
     warn_of_flat_walls(f, walls, tool_of_tag);
+    note_slivers(f, tool_of_tag, -1);
     return operation.finish(f, walls, naming);
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "cancel.h"
 #include "deformation/relaxation.h"
 #include "operators/border.h"
 #include "operators/no_cut.h"
@@ -156,6 +157,7 @@ std::string why_no_lips(const Interface& f, const Lips& lips, const Blade& blade
 }  // namespace
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
+    const Stopwatch::Time started = Stopwatch::now();
     Blade blade;
     blade.tool = &tool;
     if (options.method == Method::snap && std::isfinite(tool.feature_size())) blade.tag = whole_tool;
@@ -172,12 +174,13 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     const auto on_refined = [&]() -> std::optional<Result> {
         const auto zone = patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine);
         if (!zone) return {};
-        const auto refined = refine_first(input, {&*zone, 1}, options, prepared);
+        auto refined = refine_first(input, {&*zone, 1}, options, prepared);
         if (!refined) return {};
+        refined->seconds = Stopwatch::since(started);
         return crack(refined->mesh_of(input), tool, options, refined->prepared(prepared));
     };
     if (auto result = on_refined()) return std::move(*result);
-    Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"});
+    Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"}, started);
     Interface f = operation.begin({&blade, 1});
     // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut along.
     const std::optional<Interface> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
@@ -190,6 +193,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
         } else if (options.method == Method::snap) snap_to_tool(f, blade);
         else deform_to_tool(f, tool, operation.mesh());
     }
+    check_cancelled();
     std::optional<Lips> lips;
     if (start) {
         if (operation.location().crossed > 0) lips = open_lips(f);
@@ -198,9 +202,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
             if (auto result = on_refined()) return std::move(*result);
             blade.bound = patch->distance;
             blade.tag = whole_tool;
-            const auto seconds = f.seconds;
             f = *start;
-            f.seconds = seconds;
             cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
             lips.reset();
         }

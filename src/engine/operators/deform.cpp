@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "cancel.h"
 #include "deformation/bar_network.h"
 #include "operators/interface.h"
 #include "operators/folded_input.h"
@@ -52,9 +53,12 @@ public:
     /// False when only an endless weight would separate the sides.
     bool solve() {
         Weight flow = 0;
+        SparseCheck check(64);
         while (find_levels()) {
+            check_cancelled();
             next_ = first_;
             while (const Weight pushed = push(endless)) {
+                check();
                 flow += pushed;
                 if (flow >= endless) return false;
             }
@@ -143,8 +147,10 @@ public:
                 std::vector<char> chosen(may_move.size(), 0);
                 worst = choose(goal, chosen);
                 if (worst >= goal) return worst;
-                for (const int v : movable)
+                for (const int v : movable) {
+                    check_cancelled();
                     if (chosen[v]) improve(v, delta);
+                }
             }
         return worst;
     }
@@ -174,6 +180,7 @@ private:
     double choose(double goal, std::vector<char>& chosen) const {
         double worst = 1;
         std::vector<int> seeds;
+        check_cancelled();
         const auto look = [&](const auto& v, double quality) {
             worst = std::min(worst, quality);
             if (quality < goal) seeds.insert(seeds.end(), v.begin(), v.end());
@@ -407,6 +414,7 @@ private:
     }
 
     double worst_quality() const {
+        check_cancelled();
         double worst = 1;
         for (int t = 0; t < band_.tetras.size(); ++t) worst = std::min(worst, tetra_quality(d_, t));
         for (int t = 0; t < band_.triangles.size(); ++t)
@@ -415,6 +423,7 @@ private:
     }
 
     void for_bad(auto visit) const {
+        check_cancelled();
         const double limit = misplaced_.empty() ? std::max(good_enough, worst_) : acceptable;
         const auto is_folded = [&](bool triangle, int slot) { return std::ranges::find(folded_, BandElement{triangle, slot}) != folded_.end(); };
         for (int t = 0; t < band_.tetras.size(); ++t)
@@ -429,7 +438,9 @@ private:
         target_.resize(count);
         slide_.assign(count, reach + 1);
         length_.assign(count, 0);
+        SparseCheck check;
         for (int v = 0; v < band_.size(); ++v) {
+            check();
             length_[v] = band_.mean_edge_length(v);
             target_[v] = band_.nodes[v].at;
             if (band_.tetras.around(v).empty() && band_.triangles.around(v).empty()) continue;
@@ -445,7 +456,9 @@ private:
         VertexCut cut(band_.size());
         const auto weight = [](double w) { return static_cast<VertexCut::Weight>(w * 1e6); };
         std::vector<int> neighbours;
+        SparseCheck check;
         for (int v = 0; v < band_.size(); ++v) {
+            check();
             const double r = slide_[v];
             cut.set_weight(v, r > reach ? VertexCut::endless : weight(lessons_.penalty[v] * (0.1 + r * r + 2 * r * r * r * r)));
             const double off = std::abs(f_.distance[v]) / length_[v];
@@ -495,7 +508,9 @@ private:
             any = true;
         }
         std::set<std::array<int, 3>> seen;
+        SparseCheck check;
         const auto look = [&](std::array<int, 3> face) {
+            check();
             std::ranges::sort(face);
             if (!std::ranges::all_of(face, [&](int v) { return side_[v] == 0; }) || !seen.insert(face).second) return;
             const auto [a, b, c] = face;
@@ -552,7 +567,9 @@ private:
     std::vector<std::pair<int, int>> astray() const {
         std::vector<std::pair<double, std::pair<int, int>>> found;
         std::vector<int> others;
+        SparseCheck check;
         for (int v = 0; v < band_.size(); ++v) {
+            check();
             if (side_[v] != 0) continue;
             others.clear();
             look_around(v, [&](int w) {
@@ -616,6 +633,7 @@ void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     std::optional<Interface> best;
     double best_quality = acceptable;
     for (int k = 0; k < attempts; ++k) {
+        check_cancelled();
         Interface g = f;
         Deformer deformer(g, tool, mesh, lessons);
         if (!deformer.classify()) {

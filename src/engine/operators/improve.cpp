@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
 #include "operators/held_inside.h"
@@ -42,6 +43,7 @@ public:
         bool any = false;
         std::size_t allowance = 16 + f_.nodes.size() / 8;
         for (const auto& [quality, v] : bad_elements(limit)) {
+            check_cancelled();
             if (allowance-- == 0) break;
             const int corners = v[3] < 0 ? 3 : 4;
             int a = -1, b = -1;
@@ -89,6 +91,7 @@ private:
     using Element = std::pair<double, std::array<int, 4>>;
 
     std::vector<Element> bad_elements(double goal) const {
+        check_cancelled();
         std::vector<Element> bad;
         for (int t = 0; t < band_.tetras.size(); ++t)
             if (band_.tetras.alive(t) && tetra_is_below(goal, d_, t)) bad.push_back({tetra_quality(d_, t), band_.tetras[t]});
@@ -208,6 +211,7 @@ private:
 
     /// Merges p into the neighbour that makes the elements around it best; that neighbour, or -1 if none makes them better.
     int try_merge(int p) {
+        check_cancelled();
         if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return -1;
         band_.neighbours(p, candidates_);
         double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;

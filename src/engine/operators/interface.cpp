@@ -5,6 +5,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "cancel.h"
 #include "mesh/quality.h"
 #include "operators/folded_input.h"
 #include "operators/mend_curved.h"
@@ -93,6 +94,7 @@ std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) 
     std::vector<Bad> bad;
     const auto note = [&](const CellRef& c, double q) { bad.push_back({mesh.block(c.type).ids[c.cell], q}); };
     const BandMesh& band = f.d.band;
+    check_cancelled();
     for (int t = 0; t < band.tetras.size(); ++t)
         if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
     for (int t = 0; t < band.triangles.size(); ++t) {

@@ -9,6 +9,7 @@
 
 #include "deformation/relaxation.h"
 #include "operators/report.h"
+#include "operators/stopwatch.h"
 
 namespace femscalpel {
 
@@ -47,8 +48,11 @@ struct Interface {
     std::vector<int> transition = {};        ///< nodes within `bandwidth` edges of them (ITN and ETN), ascending
     int bandwidth = 2;                       ///< i of the paper's i-th neighbourhood
     std::vector<CellRef> deep_inside = {};   ///< elements to be removed that are not in the band
+    /// What tools have taken, as parts of elements of the mesh: those removed with their measure where they were then, and what walls
+    /// of flat faces have left standing (positive) at that moment, or leave in the end (negative).
+    std::vector<std::pair<CellRef, double>> taken = {};
     std::vector<std::string> warnings = {};
-    std::vector<std::pair<std::string, double>> seconds = {};
+    Laps seconds = {};
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side = {};
     std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back

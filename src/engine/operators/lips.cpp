@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -310,6 +312,7 @@ private:
     }
 
     void place_attached() {
+        check_cancelled();
         for (int t = 0; t < band_.triangles.size(); ++t) {
             if (!band_.triangles.alive(t) || is_shell(t) || !any_doubled(band_.triangles[t])) continue;
             const auto found = images(band_.triangles[t]);
@@ -358,7 +361,9 @@ private:
             if (band_.triangles.alive(t) && std::ranges::binary_search(face_keys_, sorted(band_.triangles[t]))) triangle_at.emplace(sorted(out_.triangles[t]), t);
         for (std::size_t k = 0; k < out_.triangle_twins.size(); ++k)
             triangle_at.emplace(sorted(out_.triangle_twins[k].nodes), -1 - static_cast<int>(k));
+        SparseCheck check;
         for (const auto& [nodes, tetra] : open_faces_) {
+            check();
             std::array<int, 3> image;
             for (int k = 0; k < 3; ++k)
                 image[k] = out_.tetras[tetra][std::ranges::find(band_.tetras[tetra], nodes[k]) - band_.tetras[tetra].begin()];
@@ -393,6 +398,7 @@ private:
 
     /// Edges of one open face only, but for those in the skin, put in order.
     void chain_front() {
+        check_cancelled();
         std::map<std::array<int, 2>, int> faces_at;
         for (const auto& key : face_keys_)
             for (int k = 0; k < 3; ++k) ++faces_at[sorted(std::array{key[k], key[(k + 1) % 3]})];

@@ -7,6 +7,8 @@
 
 #include "mesh/rounding.h"
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -44,10 +46,13 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
     for (std::size_t n = 0; n < side.size(); ++n)
         side[n] = distance[n] < -out.rounding ? behind : distance[n] > out.rounding ? before : on;
     bool touched = false, beyond = false;
+    SparseCheck check(64);
+    check_cancelled();
     for_each_element(mesh, [&](const Index* n, int corners) {
         std::uint8_t sides = 0;
         for (int k = 0; k < corners; ++k) sides |= side[n[k]];
         if (sides == behind || sides == before) return;
+        check();
         if (blade.bound) {
             double bound = std::numeric_limits<double>::infinity();
             for (int k = 0; k < corners; ++k) bound = std::min(bound, blade.bound(mesh.points[n[k]]));
@@ -81,7 +86,8 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
     out.rounding = std::max(out.tolerance, 2 * coordinate_rounding(mesh.points));
     for (const Blade& blade : blades) {
         std::vector<double> distance(mesh.points.size());
-        for (std::size_t n = 0; n < mesh.points.size(); ++n) distance[n] = blade.tool->distance(mesh.points[n]);
+        SparseCheck check(256);  // distances to CAD faces take their time
+        for (std::size_t n = 0; n < mesh.points.size(); ++n, check()) distance[n] = blade.tool->distance(mesh.points[n]);
         touch(mesh, blade, distance, out);
         if (&blade == blades.data()) out.distance = std::move(distance);
     }
@@ -96,6 +102,7 @@ void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count
         for (std::size_t n = 0; n < levels.size(); ++n)
             if (levels[n] == 0) front.push_back(static_cast<Index>(n));
     for (int level = 1; level <= count; ++level) {
+        check_cancelled();
         if (!adjacency) {
             for_each_element(mesh, [&](const Index* n, int corners) {
                 bool near = false;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -22,6 +24,7 @@ public:
             const std::vector<BandElement> bad = folded_elements(f_, goal);
             if (bad.empty()) return;
             for (const BandElement e : bad) {
+                check_cancelled();
                 if (!e.alive(band_) || curved_shape(d_, e) >= goal) continue;
                 flatten_edges(e);
                 if (curved_shape(d_, e) < goal) move_nodes(e);

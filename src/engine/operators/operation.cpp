@@ -9,11 +9,12 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "cancel.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
+#include "operators/folded_input.h"
 #include "operators/held_inside.h"
 #include "operators/poor.h"
-#include "operators/folded_input.h"
 #include "operators/refine_first.h"
 
 namespace femscalpel {
@@ -76,6 +77,7 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
     BandQuality out;
     const auto look = [&](const auto& list, const auto& cells, auto counts, auto quality_now) {
         std::vector<char> counted(cells.size(), 0);
+        check_cancelled();
         for (int s = 0; s < list.size(); ++s) {
             if (!list.alive(s) || !counts(list.origin(s)) || std::ranges::none_of(list[s], [&](int v) { return in[v] != 0; })) continue;
             const CellRef& cell = cells[list.origin(s)];
@@ -131,7 +133,9 @@ void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
     const auto counts = [&](int v) { return !lies_on(f, tool, v) && became_worse(f, mesh, v); };
     constexpr double narrow = 5;
     double smallest = narrow;
+    SparseCheck check(256);
     for (const int v : f.nodes) {
+        check();
         if (!f.d.contact[v].has(&tool)) continue;
         const auto normal = f.d.constraints.surface_normal(f.d.constraints[v], band.nodes[v].at);
         if (!normal) continue;
@@ -264,27 +268,47 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
         if (!before.groups[g].hidden) visit(g, report.groups[record++]);
 }
 
-/// Where nothing is taken away and borders stay, only the corners between the facets of a curved skin can get lost, when their nodes
-/// move: warns where that is much of the mesh or of a group.
-void warn_of_changed_size(const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, const std::vector<bool>& meaningless, Report& report) {
-    const int dimension = before.dimension();
+/// Beyond what tools take, and drifting borders hand over, only the corners between the facets of a curved skin can get lost, when their
+/// nodes move: warns where that is much of the mesh or of a group. (With the shape of the skin given, what changes is the error of the
+/// facets: this is not for that.) `whole` is the mesh before, of which `totals` are; `before` may be its band alone.
+void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, const Interface& f,
+                          const std::vector<bool>& unjudged, Report& report) {
+    const int dimension = whole.dimension();
     const auto all = [&](const FamilyTotals& t) {
         double sum = 0;
         for (const FamilyTotals::Entry& e : t.by_family) sum += e.measure[dimension];
         return sum;
     };
+    std::vector<double> taken(static_cast<std::size_t>(before.families.size()), 0);
+    double taken_in_all = 0;
+    const auto take = [&](const CellRef& c, double measure) {
+        if (traits(c.type).dimension != dimension) return;
+        taken[before.block(c.type).families[c.cell]] += measure;
+        taken_in_all += measure;
+    };
+    for (const auto& [cell, measure] : f.taken) take(cell, measure);
+    for (const CellRef& c : f.deep_inside) take(c, cell_measure(before, c.type, c.cell));
     std::ostringstream message;
     message.precision(2);
-    const auto look = [&](const std::string& name, double was, double is) {
-        if (was > 0 && std::abs(is - was) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * (is - was) / was << " %";
+    const auto look = [&](const std::string& name, double was, double change) {
+        if (was > 0 && std::abs(change) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * change / was << " %";
     };
-    look("the mesh", all(totals), all(after));
+    const double change = all(after) - all(totals) + taken_in_all;
+    double was = all(totals);
+    if (std::abs(change) > size_noticed * was)  // totals are without what is in no group
+        for (const CellBlock& b : whole.blocks())
+            for (Index c = 0; traits(b.type).dimension == dimension && c < b.size(); ++c)
+                if (b.families[c] == 0) was += cell_measure(whole, b.type, c);
+    look("the mesh", was, change);
     for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
-        if (!meaningless.empty() && meaningless[g]) return;
-        if (r.kind == GroupKind::element && r.dimension == dimension) look("'" + r.name + "'", r.measure_before, r.measure_after);
+        if (r.kind != GroupKind::element || r.dimension != dimension || (!unjudged.empty() && unjudged[g])) return;
+        double taken_of_group = 0;
+        for (FamilyIndex k = 0; k < static_cast<FamilyIndex>(taken.size()); ++k)
+            if (taken[k] != 0 && before.families.contains(k, static_cast<GroupIndex>(g))) taken_of_group += taken[k];
+        look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before + taken_of_group);
     });
     if (message.tellp() > 0)
-        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " + message.str() +
+        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " + message.str() + (taken_in_all > 0 ? ", beyond what was removed" : "") +
                                   ": give its shape (skin), a smaller feature_angle, which keeps the edges between its facets, or refine the mesh there first");
 }
 
@@ -353,7 +377,8 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
         int last = -1;
     };
     std::vector<Motion> motion(before.groups.size());
-    for (Index n = 0; n < before.node_count(); ++n) {
+    SparseCheck check;
+    for (Index n = 0; n < before.node_count(); ++n, check()) {
         const Index now = rebuilt.kept_node(n);
         if (before.node_ids[n] >= first_new) continue;
         if (now < 0)
@@ -364,6 +389,7 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
     }
     for (int v = 0; v < band.original_nodes(); ++v) {
         const BandNode& n = band.nodes[v];
+        check();
         if (n.at == n.start || !band.in_use(v)) continue;
         const double drift = f.d.constraints.distance(f.d.constraints[v], n.at);
         const auto meet = [&](FamilyIndex family) {
@@ -443,8 +469,8 @@ void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
 }  // namespace
 
 Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-                     const std::vector<std::string>& suffixes)
-    : input_(input), options_(options), prepared_(prepared) {
+                     const std::vector<std::string>& suffixes, Stopwatch::Time started)
+    : input_(input), options_(options), prepared_(prepared), watch_(seconds_, started) {
     report_.operation = kind;
     report_.name = options.name;
     report_.method = std::string(to_string(options.method));
@@ -453,18 +479,14 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
         throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20");
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
         throw ToolError("feature_angle must lie between 0 and 180 degrees");
-    watch_.skip();
+    if (prepared.refined) seconds_.add("refine", prepared.refined->seconds);
+    watch_.lap("locate");
     if (!prepared.marks) own_marks_ = mark_deck(input);
     marks_ = prepared.marks ? prepared.marks : &own_marks_;
     drifting_ = drifting_groups(mesh(), options.preserve);
     meaningless_ = groups_of(marks_->surface_sets, mesh());
     numbering_ = next_numbers(whole());
-    if (prepared.refined) {
-        report_.warnings = prepared.refined->report.warnings;
-        double seconds = 0;
-        for (const auto& [step, s] : prepared.refined->report.seconds) seconds += s;
-        if (!prepared.refined->tried_in_vain) report_.seconds.emplace_back("refine", seconds);
-    }
+    if (prepared.refined) report_.warnings = prepared.refined->report.warnings;
     if (input.solver_input) watch_.lap("mark deck");
 }
 
@@ -522,7 +544,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     blades_.assign(blades.begin(), blades.end());
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
     const bool copies = !options_.band_only, measures = prepared_.totals == nullptr;
-    copy_ = std::async(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
+    copy_ = async_obeying(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
         return std::pair(copies ? std::make_unique<Mesh>(whole()) : nullptr, measures ? family_totals(whole()) : FamilyTotals());
     });
     int width = options_.transition.value_or(2);
@@ -550,6 +572,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), .tool = &first, .tolerance = location_.tolerance, .bandwidth = width};
     f.deep_inside = std::move(removed);
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
+    check_cancelled();
     for (int v = 0; v < f.d.band.size(); ++v) {
         f.distance[v] = location_.distance[f.d.band.nodes[v].global];
         if (std::abs(f.distance[v]) > location_.rounding) continue;
@@ -563,11 +586,6 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
     watch_.lap("constraints");
     return f;
-}
-
-void Operation::take_laps(const std::vector<std::pair<std::string, double>>& laps) {
-    report_.seconds.insert(report_.seconds.end(), laps.begin(), laps.end());
-    watch_.skip();
 }
 
 Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
@@ -588,9 +606,10 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     for (std::string& warning : warnings_of_opened_areas(f.d.band, mesh())) f.warnings.push_back(std::move(warning));
     watch_.lap("open");
     put_back_middles(f, mesh());
-    auto [output, own_totals] = copy_.get();
+    auto [output, own_totals] = await(copy_);
     if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
+    check_cancelled();
     Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
     if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
     if (!marks_->surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
@@ -626,7 +645,11 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
         recount_nodes_and_facets(after, rebuilt.mesh);
     }
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
-    if (!lips.removes && drifting_.empty() && !options_.skin) warn_of_changed_size(mesh(), totals, after, meaningless_, report_);
+    // Sets that follow surfaces change with these; no size of theirs can get lost.
+    std::vector<bool> unjudged = drifting_;
+    if (unjudged.empty()) unjudged = meaningless_;
+    else for (std::size_t g = 0; g < meaningless_.size(); ++g) unjudged[g] = unjudged[g] || meaningless_[g];
+    if (!options_.skin) warn_of_changed_size(whole(), mesh(), totals, after, f, unjudged, report_);
     const auto follows_surfaces = [&](const GroupRecord& g) {
         return std::ranges::any_of(marks_->surface_sets, [&](const SurfaceSet& s) { return mesh().groups[s.group].name == g.name && g.kind == GroupKind::element; });
     };
@@ -645,8 +668,9 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     if (!meaningless_.empty())
         for_each_record(mesh(), report_, [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
     if (shortcuts_) describe_shortcuts(*shortcuts_, f, mesh(), report_);
-    watch_.lap("report");
     remove_marks(rebuilt.mesh);
+    watch_.lap("report");
+    report_.seconds = seconds_.list();
     return {std::move(rebuilt.mesh), std::move(report_)};
 }
 

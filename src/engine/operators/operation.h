@@ -78,9 +78,9 @@ struct Naming {
 /// putting the band back, carrying the solver's input over, and the report.
 class Operation {
 public:
-    /// Checks the options; `suffixes` are those of the groups the operator makes. Throws ToolError.
+    /// Checks the options; `suffixes` are those of the groups the operator makes, `started` is when it was called. Throws ToolError.
     Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
-              const std::vector<std::string>& suffixes);
+              const std::vector<std::string>& suffixes, Stopwatch::Time started);
 
     /// What is worked on: the input, with the solver's input marked; of it, if asked for and after begin(), the band alone.
     const Mesh& mesh() const { return part_ ? part_->mesh : whole(); }
@@ -98,8 +98,8 @@ public:
     /// Where the blades meet the mesh; known after begin().
     const Location& location() const { return location_; }
 
-    /// The steps that an operator has timed itself since begin().
-    void take_laps(const std::vector<std::pair<std::string, double>>& laps);
+    /// The steps that an operator has timed itself since begin(); what they leave of the time is that of checks and further attempts.
+    void take_laps(const Laps& laps) { watch_.lap("check", laps); }
 
     Result finish(Interface& f, const Lips& lips, const Naming& naming);
 
@@ -112,7 +112,8 @@ private:
     const OperatorOptions& options_;
     Prepared prepared_;
     Report report_;
-    Stopwatch watch_{report_.seconds};
+    Laps seconds_;
+    Stopwatch watch_;
     DeckMarks own_marks_;
     const DeckMarks* marks_;
     Numbering numbering_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "semantics/solver_input.h"
 
@@ -52,6 +53,7 @@ private:
         Mesh& mesh = out_.mesh;
         out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
         for (int v = 0; v < band_.size(); ++v) {
+            check_();
             const BandNode& n = band_.nodes[v];
             if (n.global < 0 && !band_.in_use(v)) continue;
             if (n.global >= 0) {
@@ -74,6 +76,7 @@ private:
 
     /// The next node is born on the edge a-b.
     void note_born(int a, int b) {
+        check_();
         Changes::Born born{next_node_, {}};
         gather_ancestors(a, born.ancestors);
         gather_ancestors(b, born.ancestors);
@@ -112,6 +115,7 @@ private:
     /// element still has it.
     void find_mid_owners() {
         const auto look = [&](const auto& corners, const auto& images, CellType type) {
+            check_();
             const CellTraits& t = traits(type);
             if (!t.quadratic) return;
             for (const auto& e : t.edges) {
@@ -183,7 +187,9 @@ private:
         written.assign(static_cast<std::size_t>(list.size()), -1);
         std::vector<char> seated(cells.size(), 0);
         std::vector<int> changed;
+        SparseCheck check;
         for (int s = 0; s < list.size(); ++s) {
+            check();
             if (!list.alive(s)) continue;
             const CellRef& cell = cells[list.origin(s)];
             const std::vector<Index> nodes = connectivity(cell.type, list[s], images[s]);
@@ -345,6 +351,7 @@ private:
     void remove_cells() {
         if (removed_.empty()) return;
         for (CellBlock& block : out_.mesh.blocks()) {
+            check_cancelled();
             std::vector<char> gone(static_cast<std::size_t>(block.size()), 0);
             bool any = false;
             for (const CellRef& c : removed_)
@@ -378,6 +385,7 @@ private:
     /// Drops the nodes that only removed elements had.
     void remove_nodes() {
         if (!lips_.removes) return;
+        check_cancelled();
         Mesh& mesh = out_.mesh;
         std::vector<char> orphan(mesh.points.size(), 0);
         bool any = false;
@@ -414,6 +422,7 @@ private:
     const Lips& lips_;
     Rebuilt out_;
     Index next_node_, next_cell_;
+    SparseCheck check_;
     std::vector<Index> tetra_cell_, triangle_cell_, line_cell_, vertex_cell_;  // by slot: index in the new mesh
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;

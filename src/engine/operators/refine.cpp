@@ -10,6 +10,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "cancel.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "operators/folded_input.h"
@@ -73,8 +74,10 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const Target& target,
         const CellTraits& t = traits(b.type);
         if (t.dimension < 2) continue;
         std::vector<Index> unsupported;
+        SparseCheck check(256);
         const Index* n = b.connectivity.data();
         for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
+            check();
             const bool is_long = std::ranges::any_of(t.edges, [&](const auto& e) {
                 return target.exceeded(mesh.points[n[e[0]]], mesh.points[n[e[1]]], distance[n[e[0]]], distance[n[e[1]]]);
             });
@@ -119,9 +122,10 @@ public:
             const int a = static_cast<int>(key >> 32), b = static_cast<int>(key & 0xffffffffu);
             mids_[key] = (input(a) + input(b)) / 2 + mids.bulge(a, b);
         }
+        SparseCheck check;
         const auto look = [&](const auto& list, std::vector<char>& curved) {
             curved.assign(static_cast<std::size_t>(list.size()), 0);
-            for (int s = 0; s < list.size(); ++s)
+            for (int s = 0; s < list.size(); ++s, check())
                 for (std::size_t i = 0; i < list[s].size(); ++i)
                     for (std::size_t j = 0; j < i; ++j) curved[s] = curved[s] || bends(list[s][i], list[s][j]);
         };
@@ -279,8 +283,10 @@ private:
             for (const int w : neighbours)
                 if ((!once || v < w) && is_inside(v, w) && exceeded(v, w) && exists(v, w)) queue.push(edge(v, w));
         };
-        for (int v = 0; v < band_.size(); ++v) gather(v, true);
+        SparseCheck check(64);
+        for (int v = 0; v < band_.size(); ++v, check()) gather(v, true);
         while (!queue.empty()) {
+            check();
             const Edge e = queue.top();
             if (!exists(e.a, e.b)) {
                 queue.pop();
@@ -357,7 +363,8 @@ private:
     /// Relaxes new nodes wherever that changes neither the geometry nor a border.
     void improve() {
         std::vector<int> movable;
-        for (int v = band_.original_nodes(); v < band_.size(); ++v) {
+        SparseCheck check(64);
+        for (int v = band_.original_nodes(); v < band_.size(); ++v, check()) {
             if (band_.nodes[v].global >= 0 || geometry_.is_curved_around(v)) continue;
             const NodeConstraint& c = d_.constraints[v];
             if (c.freedom == NodeFreedom::fixed || (c.freedom == NodeFreedom::surface && !d_.constraints.is_flat(c.shape)) ||
@@ -413,9 +420,12 @@ void describe_quality(const Mesh& mesh, const Interface& f, const Rebuilt& rebui
         if (attached.contains(part.parent)) attached.insert(part.element);
     const auto collect = [&](const Mesh& m, const std::vector<CellRef>& cells) {
         std::vector<ElementQuality> out;
-        for (const CellRef& c : cells)
+        SparseCheck check;
+        for (const CellRef& c : cells) {
+            check();
             if (const Index id = m.block(c.type).ids[c.cell]; traits(c.type).dimension > 1 && !attached.contains(id))
                 out.push_back({id, mean_ratio(m, c.type, c.cell)});
+        }
         return out;
     };
     report.quality_before = summarise(collect(mesh, rebuilt.before));
@@ -447,16 +457,21 @@ DistanceField distance_to(std::vector<Vec3> points) {
 }
 
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
+    Laps seconds;
+    Stopwatch watch(seconds);
     std::vector<Index> on_shortcuts;
     if (std::optional<Result> result = refine_where_needed(input, distance, options, on_shortcuts)) return std::move(*result);
+    watch.lap("locate");
     Result untouched;
     const FamilyTotals totals = family_totals(input);
     untouched.report.operation = "refine";
     untouched.report.method = "bisection";
     untouched.report.groups = compare_groups(input, totals, input, totals);
     for (GroupRecord& r : untouched.report.groups) r.status = "untouched";
-    untouched.report.warnings.push_back("no edge is longer than wanted: nothing was refined");
+    untouched.report.warnings = {"no edge is longer than wanted: nothing was refined"};
     untouched.mesh = input;
+    watch.lap("report");
+    untouched.report.seconds = seconds.list();
     return untouched;
 }
 
@@ -466,17 +481,19 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     Report& report = result.report;
     report.operation = "refine";
     report.method = "bisection";
-    Stopwatch watch(report.seconds);
+    Laps seconds;
+    Stopwatch watch(seconds);
     const Target target(distance, options);
     std::vector<double> distances(input.points.size());
-    for (std::size_t n = 0; n < distances.size(); ++n) distances[n] = target.distance(input.points[n]);
+    SparseCheck check(256);
+    for (std::size_t n = 0; n < distances.size(); ++n, check()) distances[n] = target.distance(input.points[n]);
     const std::vector<std::int8_t> core = find_long_edges(input, target, distances);
     watch.lap("locate");
     if (std::ranges::find(core, 0) == core.end()) return {};
     const DeckMarks marks = mark_deck(input);
     const Mesh& mesh = marks.mesh ? *marks.mesh : input;
     if (input.solver_input) watch.lap("mark deck");
-    auto copy = std::async(std::launch::async, [&mesh] { return std::pair(std::make_unique<Mesh>(mesh), family_totals(mesh)); });
+    auto copy = async_obeying(std::launch::async, [&mesh] { return std::pair(std::make_unique<Mesh>(mesh), family_totals(mesh)); });
 
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options.feature_angle;
@@ -507,7 +524,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     if (!f->folded_input.empty()) check_folded_input(*f, newly_folded(*f, folded_elements(*f, 0)));
     put_back_middles(*f, mesh);
     f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
-    auto [output, totals] = copy.get();
+    auto [output, totals] = await(copy);
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
     if (!marks.surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
     watch.lap("rebuild");
@@ -532,8 +549,9 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     report.groups = compare_groups(mesh, totals, rebuilt.mesh, after);
     for (GroupRecord& r : report.groups)
         if (r.status == "kept" && r.count_before == r.count_after) r.status = "untouched";
-    watch.lap("report");
     remove_marks(rebuilt.mesh);
+    watch.lap("report");
+    report.seconds = seconds.list();
     result.mesh = std::move(rebuilt.mesh);
     return result;
 }

@@ -11,8 +11,23 @@ namespace {
 /// Longest edge near a tool, in its smallest radius of curvature: chords are off the tool by at most 3 % of the radius then.
 constexpr double edge_per_radius = 0.5;
 
+/// How much longer edges may be per unit of distance from the tool. Bisection keeps shapes sound at any; beyond this, little is saved.
+constexpr double steepest_gradation = 1;
+
 /// What refining on its own account may make of a mesh.
 constexpr Index most_elements = 2'000'000;
+
+/// A refinement of its own account that makes more elements than a mesh had, and so many more, is worth a word.
+constexpr Index many_elements = 2000;
+
+bool is_much(const Refinement& r) { return r.elements_after > 2 * r.elements_before && r.elements_after - r.elements_before > many_elements; }
+
+std::string describe(const Refinement& r) {
+    std::ostringstream text;
+    text << "the tool is finer than the mesh, which was refined first, to edges of " << r.size << " near the tool: from " << r.elements_before << " to "
+         << r.elements_after << " elements. refine=" << 2 * r.size << " makes fewer, refine=False none, but then a coarser wall or front";
+    return text.str();
+}
 
 double checked(double size) {
     if (std::isfinite(size) && size > 0) return size;
@@ -71,7 +86,10 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     o.feature_angle = options.feature_angle;
     o.strict = options.strict;
     o.skin = options.skin;
-    if (!asked) o.max_elements = most_elements;
+    if (!asked) {
+        o.max_elements = most_elements;
+        o.gradation = steepest_gradation;
+    }
     Refined out;
     try {
         std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.on_shortcuts);
@@ -87,6 +105,7 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     }
     out.summary = {o.size, mesh.cell_count(), out.mesh.cell_count()};
     out.numbering = next_numbers(mesh);
+    if (!asked && is_much(out.summary)) out.report.warnings.push_back(describe(out.summary));
     return out;
 }
 

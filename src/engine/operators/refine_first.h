@@ -24,6 +24,7 @@ struct Refined {
     Refinement summary;
     Numbering numbering;       ///< nodes and elements from these numbers on are not the input's
     std::vector<Index> on_shortcuts;  ///< see refine_where_needed()
+    double seconds = 0;        ///< of the call so far
     bool tried_in_vain = false;  ///< `report` has but a warning that says why, and `mesh` is empty
 
     /// What the operation works on, and what is known of it.

@@ -2,12 +2,16 @@
 #include "operators/removal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include "cancel.h"
+#include "deformation/curved_shape.h"
 #include "error.h"
+#include "mesh/quality.h"
 
 namespace femscalpel {
 namespace {
@@ -15,6 +19,16 @@ namespace {
 constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
+
+/// Area or volume of a triangle or tetrahedron of the band as it is.
+double measure_now(const Deformable& d, const auto& corners, CellType type) {
+    std::array<Vec3, 10> nodes;
+    std::size_t count = 0;
+    for (const int v : corners) nodes[count++] = d.band.nodes[v].at;
+    if (const CellTraits& t = traits(type); t.quadratic)
+        for (const auto& e : t.edges) nodes[count++] = mid_side(d, corners[e[0]], corners[e[1]]).at;
+    return cell_measure(type, {nodes.data(), count});
+}
 
 class Remover {
 public:
@@ -25,6 +39,7 @@ public:
     }
 
     int run() {
+        check_cancelled();
         std::vector<int> tetras, shells;
         for (int t = 0; t < band_.tetras.size(); ++t)
             if (band_.tetras.alive(t) && is_inside(band_.tetras[t])) tetras.push_back(t);
@@ -33,8 +48,8 @@ public:
         drop_tags(band_.cut_faces);
         drop_tags(band_.cut_edges);
         make_walls(tetras, shells);
-        for (const int t : tetras) take(band_.tetras, t);
-        for (const int t : shells) take(band_.triangles, t);
+        for (const int t : tetras) take(band_.tetras, band_.tetra_cells, t);
+        for (const int t : shells) take(band_.triangles, band_.triangle_cells, t);
         take_what_they_carried();
         return static_cast<int>(tetras.size() + shells.size());
     }
@@ -88,8 +103,10 @@ private:
 
     void make_walls(const std::vector<int>& tetras, const std::vector<int>& shells) {
         const std::set<int> out(tetras.begin(), tetras.end()), shells_out(shells.begin(), shells.end());
+        SparseCheck check(64);
         for (const int t : tetras)
             for (const auto& face : outward_faces) {
+                check();
                 const auto& n = band_.tetras[t];
                 // Turned round: out of the material that stays.
                 const std::array<int, 3> nodes{n[face[0]], n[face[2]], n[face[1]]};
@@ -110,7 +127,8 @@ private:
     }
 
     template <std::size_t N>
-    void take(SimplexList<N>& list, int s) {
+    void take(SimplexList<N>& list, const std::vector<CellRef>& cells, int s) {
+        f_.taken.push_back({cells[list.origin(s)], measure_now(f_.d, list[s], cells[list.origin(s)].type)});
         touched_.insert(list[s].begin(), list[s].end());
         list.remove(s);
     }
@@ -128,7 +146,9 @@ private:
     /// Removes those of `list` at touched nodes that `goes` picks.
     template <std::size_t N>
     void drop(SimplexList<N>& list, auto goes) {
+        SparseCheck check(64);
         for (const int v : touched_) {
+            check();
             const auto slots = list.around(v);
             for (const int s : std::vector<int>(slots.begin(), slots.end()))
                 if (goes(s)) list.remove(s);
@@ -198,6 +218,31 @@ std::array<int, N> sorted(std::array<int, N> nodes) {
 
 }  // namespace
 
+void note_slivers(Interface& f, std::span<const Tool* const> tool_of_tag, int sign) {
+    const BandMesh& band = f.d.band;
+    const auto look = [&](const auto& walls, const auto& hosts, const std::vector<CellRef>& cells, auto size, double share) {
+        for (int s = 0; s < walls.size(); ++s) {
+            if (!walls.alive(s)) continue;
+            const Tool& tool = *tool_of_tag[walls.tag(s)];
+            const auto& nodes = walls[s];
+            const auto around = hosts.around(nodes[0]);
+            const auto host = std::ranges::find_if(around, [&](int t) { return std::ranges::all_of(nodes, [&](int v) { return holds(hosts[t], v); }); });
+            if (!std::isfinite(tool.feature_size()) || host == around.end()) continue;
+            const CellRef& cell = cells[hosts.origin(*host)];
+            if (traits(cell.type).quadratic) continue;  // its faces are as curved as the tool
+            // Distances grow as squares from the nodes, which are on the tool: their mean over a face is that at its edges' middles.
+            double depth = 0;
+            int edges = 0;
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j, ++edges) depth -= tool.distance((band.nodes[nodes[i]].at + band.nodes[nodes[j]].at) / 2);
+            f.taken.push_back({cell, sign * share * size(nodes) * depth / edges});
+        }
+    };
+    const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
+    look(band.cut_faces, band.tetras, band.tetra_cells, [&](const auto& n) { return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2; }, 1);
+    look(band.cut_edges, band.triangles, band.triangle_cells, [&](const auto& n) { return (at(n[1]) - at(n[0])).norm(); }, 2.0 / 3);
+}
+
 int remove_inside(Interface& f, std::span<const Tool* const> tools, int first_tag) { return Remover(f, tools, first_tag).run(); }
 
 void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_tag) {
@@ -216,6 +261,7 @@ void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_ta
 }
 
 Lips open_walls(const Interface& f) {
+    check_cancelled();
     const BandMesh& band = f.d.band;
     Lips out;
     out.removes = true;
@@ -233,11 +279,13 @@ Lips open_walls(const Interface& f) {
         if (band.cut_edges.alive(s))
             for (const int l : band.lines.around(band.cut_edges[s][0])) line_at.emplace(sorted(band.lines[l]), l);
     std::set<int> nodes;
+    SparseCheck check(64);
     for (int s = 0; s < band.cut_faces.size(); ++s) {
         if (!band.cut_faces.alive(s)) continue;
         auto face = band.cut_faces[s];
         const auto around = band.tetras.around(face[0]);
         const auto host = std::ranges::find_if(around, [&](int t) { return holds(band.tetras[t], face[1]) && holds(band.tetras[t], face[2]); });
+        check();
         // Merging nodes may have turned it over.
         for (const auto& f : outward_faces) {
             const auto& n = band.tetras[*host];
@@ -270,7 +318,8 @@ std::vector<CellRef> deep_inside(const Mesh& mesh, const std::vector<std::int8_t
     std::vector<char> in(mesh.points.size());
     for (const auto& depth : depths) {
         bool any = false;
-        for (std::size_t n = 0; n < in.size(); ++n) {
+        SparseCheck check(256);
+        for (std::size_t n = 0; n < in.size(); ++n, check()) {
             in[n] = level[n] < 0 && depth(mesh.points[n]) < 0;
             any = any || in[n];
         }

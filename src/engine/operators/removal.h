@@ -19,6 +19,9 @@ int remove_inside(Interface& interface, std::span<const Tool* const> tools, int 
 /// Nodes keep contact only with the tools of the walls they are on.
 void release_all_but_walls(Interface& interface, std::span<const Tool* const> tool_of_tag);
 
+/// Adds what lies between flat wall faces and their curved tools to Interface::taken, times `sign`.
+void note_slivers(Interface& interface, std::span<const Tool* const> tool_of_tag, int sign);
+
 /// The walls as faces without copies; group: the tag.
 Lips open_walls(const Interface& interface);
 

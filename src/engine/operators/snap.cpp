@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "mesh/quality.h"
@@ -95,11 +96,12 @@ public:
         std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) {
             return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node);
         });
-        for (const Candidate& c : candidates)
-            if (crosses(c.node) && !snap(c.node, c.length) && is_beside(f_, value_[c.node], reach_beyond(c.node))) {
-                d_.hold_beside(c.node, d_.contact[c.node].with(&tool_));
-                value_[c.node] = 0;
-            }
+        for (const Candidate& c : candidates) {
+            check_cancelled();
+            if (!crosses(c.node) || snap(c.node, c.length) || !is_beside(f_, value_[c.node], reach_beyond(c.node))) continue;
+            d_.hold_beside(c.node, d_.contact[c.node].with(&tool_));
+            value_[c.node] = 0;
+        }
     }
 
     void split_edges() {
@@ -119,8 +121,10 @@ public:
             bool parted() const { return positive + negative + flat > 1; }
         };
         std::map<std::array<int, 2>, Shells> shells_at;
+        SparseCheck check(64);
         for (int v = 0; v < band_.size(); ++v) {
             if (!touches(v)) continue;
+            check();
             for (const int t : band_.tetras.around(v)) {
                 const auto& n = band_.tetras[t];
                 for (const auto& f : faces) {
@@ -175,6 +179,7 @@ private:
 
     /// The elements in which the blade is wanted.
     void find_region() {
+        check_cancelled();
         everywhere_ = !blade_.bound && blade_.inside.empty();
         if (everywhere_) return;
         std::vector<double> bound(static_cast<std::size_t>(band_.size()), -std::numeric_limits<double>::infinity());
@@ -386,9 +391,11 @@ Slots misfits(const Interface& f) {
 double poorest(const Interface& f, double limit, Slots& poor) {
     const BandMesh& band = f.d.band;
     double worst = 1;
+    SparseCheck check;
     const auto look = [&](const auto& list, std::vector<int>& origins, auto quality_of) {
         for (int s = 0; s < list.size(); ++s) {
             if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
+            check();
             const double quality = quality_of(s);
             worst = std::min(worst, quality);
             if (quality >= limit) continue;
@@ -513,6 +520,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
     bool tried_wide = false;
     for (int attempt = 1, polished = 0;; ++attempt) {
+        check_cancelled();
         cut(f);
         Slots bad = misfits(f);
         // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
@@ -550,9 +558,7 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
             refine(start, bad, most_nodes);
             std::ranges::fill(off_tool, 0);
         }
-        const auto seconds = f.seconds;
         f = start;
-        f.seconds = seconds;
     }
     f = std::move(*best);
     if (best_quality >= poor_quality || plain) return;

@@ -8,6 +8,7 @@
 #include <set>
 #include <unordered_set>
 
+#include "cancel.h"
 #include "groups/group_report.h"
 #include "mesh/quality.h"
 #include "semantics/card_edits.h"
@@ -126,8 +127,9 @@ private:
                 any = true;
             }
         if (!any) return;
+        SparseCheck check;
         for (const CellBlock& b : after_.blocks())
-            for (Index c = 0; c < b.size(); ++c)
+            for (Index c = 0; c < b.size(); ++c, check())
                 for (const GroupIndex g : after_.families.groups(b.families[c]))
                     if (of_group[g]) of_group[g]->push_back({b.ids[c], 0});
         for (const Facet& f : after_.facets)
@@ -143,8 +145,9 @@ private:
             for (const Facet& f : mesh.facets)
                 if (mesh.families.contains(f.family, *g)) sum += facet_measure(mesh, f);
         } else if (const auto e = mesh.find_group(name, GroupKind::element, true)) {
+            SparseCheck check;
             for (const CellBlock& b : mesh.blocks())
-                for (Index c = 0; c < b.size(); ++c)
+                for (Index c = 0; c < b.size(); ++c, check())
                     if (mesh.families.contains(b.families[c], *e)) sum += cell_measure(mesh, b.type, c);
         }
         return sum;
@@ -264,6 +267,7 @@ private:
     // --- cards -------------------------------------------------------------------------------------
 
     void carry_card(std::size_t c) {
+        check_cancelled();
         const Card& card = input_.cards()[c];
         check_references(c, card);
         const auto content = card_content(card);
@@ -881,6 +885,7 @@ private:
         const Card& card = input_.cards()[c];
         const CardContent content = *card_content(card);
         for (std::size_t k = 0; k < origins_.nodes().size(); ++k) {
+            check_cancelled();
             const NodeOrigins::Node& node = origins_.nodes()[k];
             const Values wanted = wanted_values(pool, k);
             if (wanted.empty()) continue;

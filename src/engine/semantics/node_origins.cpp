@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cancel.h"
+
 namespace femscalpel {
 namespace {
 
@@ -70,7 +72,8 @@ void NodeOrigins::find_elements() const {
     for (const CellBlock& b : before_.blocks()) {
         const CellTraits& t = traits(b.type);
         if (!t.simplex || t.dimension == 0 || (t.dimension == 1 && dimension > 1)) continue;
-        for (Index c = 0; c < b.size(); ++c)
+        SparseCheck check(1 << 12);
+        for (Index c = 0; c < b.size(); ++c, check())
             for (const Index n : b.nodes(c))
                 if (wanted[n]) elements_[n].push_back({b.type, c});
     }

@@ -137,6 +137,7 @@ Index SolverInput::largest_other_element() const {
 }
 
 bool CardReader::next_line() {
+    check_();
     while (piece_ < card_->text.size()) {
         const std::string_view text = card_->text[piece_].text;
         const char* const text_end = text.data() + text.size();

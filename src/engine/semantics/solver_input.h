@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cancel.h"
 #include "mesh/mesh.h"
 
 namespace femscalpel {
@@ -168,6 +169,7 @@ private:
     const char* next_ = nullptr;   // start of the next line
     bool is_data_ = false;
     bool fits_ = true;
+    SparseCheck check_{256};
 };
 
 }  // namespace femscalpel

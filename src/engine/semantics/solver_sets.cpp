@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "cancel.h"
 #include "semantics/solver_element.h"
 
 namespace femscalpel {
@@ -199,7 +200,8 @@ private:
             const Index wanted = (last - first) / step + 1;
             Index found = 0;
             if (wanted <= (node ? mesh_.node_count() : mesh_.cell_count())) {
-                for (Index id = first; id <= last; id += step)
+                SparseCheck check(1 << 12);
+                for (Index id = first; id <= last; id += step, check())
                     if (exists(node, id)) {
                         sets_[s].add(id);
                         ++found;
@@ -360,10 +362,11 @@ std::vector<std::vector<Index>> members_by_card(const Mesh& mesh, const SolverIn
                 cards_of_family[static_cast<std::size_t>(f)].push_back(it->second);
         }
     std::vector<std::vector<Index>> out(input.cards().size());
-    for (Index i = 0; i < mesh.node_count(); ++i)
+    SparseCheck check(1 << 14);
+    for (Index i = 0; i < mesh.node_count(); ++i, check())
         for (std::size_t c : cards_of_family[mesh.node_families[i]]) out[c].push_back(mesh.node_ids[i]);
     for (const CellBlock& b : mesh.blocks())
-        for (Index i = 0; i < b.size(); ++i)
+        for (Index i = 0; i < b.size(); ++i, check())
             for (std::size_t c : cards_of_family[b.families[i]]) out[c].push_back(b.ids[i]);
     return out;
 }

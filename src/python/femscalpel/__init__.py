@@ -9,10 +9,11 @@
     fs.write(result.mesh, "cracked.med")
 
 Lengths are in the mesh's own unit. The input mesh is never changed: an operator returns a new, valid mesh
-or raises an error of class :class:`Error`.
+or raises an error of class :class:`Error`. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
 """
 
-from ._engine import Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
+from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
+from .cancel import CancelToken
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
@@ -28,6 +29,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "BoundaryPart",
+    "CancelToken",
+    "Cancelled",
     "Cone",
     "Cylinder",
     "CylinderPart",

@@ -56,6 +56,9 @@ _FACES = {
     "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
 }
 
+# Elements worked on at a time.
+_PIECE = 50_000
+
 
 def scaled_jacobian(mesh: Mesh) -> Dict[str, np.ndarray]:
     """Scaled Jacobian of every element by type, in the order of ``mesh.cells``: 1 regular, 0 flat, negative inverted.
@@ -135,7 +138,9 @@ def _by_type(mesh, function, known, otherwise):
     for name, nodes in mesh.cells.items():
         shape = name.rstrip("0123456789")
         if shape in known:
-            out[name] = function(shape, mesh.points[nodes])
+            # In pieces, so that Ctrl-C does not wait for NumPy, and memory stays small.
+            pieces = [function(shape, mesh.points[nodes[k:k + _PIECE]]) for k in range(0, len(nodes), _PIECE)]
+            out[name] = np.concatenate(pieces) if pieces else np.empty(0)
         else:
             out[name] = np.full(len(nodes), otherwise)
     return out

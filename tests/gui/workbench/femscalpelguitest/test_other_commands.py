@@ -436,6 +436,9 @@ class Drill(CylinderTest):
         self.assertGreater(expected.elements_added, 100)
         wait_until(lambda: f" {expected.elements_added} " in widget("status").text(), "the preview")
         screenshot("drill_coarse")
+        self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 0.25)
+        fine = fs.drill(femmesh_bridge.from_femmesh(coarse.FemMesh), fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 0.25)).report.refinement
+        wait_until(lambda: f"from {fine.elements_before} to {fine.elements_after} elements" in widget("status").text(), "what refining makes of the mesh")
 
     def test_through_then_blind(self):
         self.run_command("FemScalpel_Drill")
