@@ -137,7 +137,7 @@ private:
             for (const Index v : n)
                 if (v == n[0] || v == n[1] || v == n[2])
                     for (const auto* w : walls)
-                        if (std::abs(w->distance(at(v))) > 1e-9 * model_.size) say("off the wall", w->group, " node ", after_.node_ids[v], " by ", w->distance(at(v)));
+                        if (std::abs(w->distance(at(v))) > 1e-9 * model_.size + report_.held.largest) say("off the wall", w->group, " node ", after_.node_ids[v], " by ", w->distance(at(v)));
         });
         const std::vector<TetraFace> all = tetra_faces(after_);
         std::size_t met = 0;
@@ -183,7 +183,7 @@ private:
             wall[ascending(Key2{n[0], n[1]})] = walls;
             for (const Index v : n.first(2))
                 for (const auto* w : walls)
-                    if (std::abs(w->distance(at(v))) > 1e-9 * model_.size) say("off the wall", w->group, " node ", after_.node_ids[v], " by ", w->distance(at(v)));
+                    if (std::abs(w->distance(at(v))) > 1e-9 * model_.size + report_.held.largest) say("off the wall", w->group, " node ", after_.node_ids[v], " by ", w->distance(at(v)));
         });
         std::map<Key2, int> count, old_count;
         for_each([](CellType t) { return is_triangle(t); }, [&](const CellBlock&, Index, std::span<const Index> n) {

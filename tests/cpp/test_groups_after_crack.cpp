@@ -586,6 +586,7 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
             }
             const VirtualBoundary boundary = before_finder.find(g);
             if (!zone.empty() || (!node_group && closes(mesh, g, boundary))) continue;
+            if (result.report.held.largest > 1e-9) continue;  // what borders the crack is a little beside the plane
             ++compared;
             const Measures a = measure(mesh, boundary, plane), b = measure(after, after_finder.find(g), plane);
             EXPECT_NEAR(a.enclosed, b.enclosed, 1e-9);

@@ -62,17 +62,17 @@ def test_disk_in_an_open_contact():
 
 def test_plane_on_the_outside():
     text = message(lambda: fs.crack(grid_box(), fs.Plane((6, 0, 0), (1, 0, 0))))
-    assert "lies on the outside of the mesh: all elements there are on its negative side" in text
+    assert "touches the mesh, on its outside: all elements there are on its negative side" in text
     # Faces on both sides of the plane, but nowhere at one place.
     points = two_plates().points.copy()
     points[4:, 0] += 5
     text = message(lambda: fs.crack(fs.Mesh(points, two_plates().cells), fs.Plane((0, 0, 0), (0, 1, 0))))
-    assert "on the outside of the mesh: wherever it does, the elements are on one side of it only" in text
+    assert "touches the mesh, on its outside: wherever it does, the elements are on one side of it only" in text
 
 
 def test_plane_through_a_corner_touches():
     text = message(lambda: fs.crack(fs.Mesh(TETRA, {"tetra": [[0, 1, 2, 3]]}), fs.Plane((1, 0, 0), (1, 0, 0))))
-    assert "touches the mesh in single nodes" in text and "thinner" not in text
+    assert "only touches the mesh, along edges or in single nodes" in text and "thinner" not in text
     text = message(lambda: fs.drill(grid_box(), fs.Cylinder((-1, 2, 0), (0, 0, 1), 1)))
     assert "removes nothing: it touches the mesh from outside" in text
 
@@ -126,7 +126,7 @@ def test_plane_exactly_on_a_border_is_no_wedge():
 
 def test_a_wedge_is_still_warned_of_with_an_angle_one_can_read():
     mesh = plate_with_groups(LEFT=lambda m: m[:, 0] < 3)
-    for off, tilt, said in ((0.05, 0.03, "at 1.7 degrees"), (0.02, 1e-4, "at less than 0.1 degrees")):
+    for off, tilt, said in ((0.05, 0.03, "at 1.7 degrees"), (0.04, 1e-4, "at less than 0.1 degrees")):
         report = fs.crack(mesh, fs.Plane((3 + off, 3, 0), (1, tilt, 0))).report
-        assert report.quality.after.minimum < 0.3
+        assert report.quality.after.minimum < 0.4
         assert any("border line " + said in w for w in report.warnings), report.warnings

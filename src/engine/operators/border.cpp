@@ -168,7 +168,7 @@ private:
             check_cancelled();
             if (!crosses(c.node)) continue;
             const Contact tools = d_.contact[c.node].with(&side_at(band_.nodes[c.node].at));
-            if (snap(c.node, c.length, tools) || !is_beside(f_, value_[c.node], reach_beyond(c.node))) continue;
+            if (snap(c.node, c.length, tools) || !is_beside(value_[c.node], reach_beyond(c.node), f_.part_to_hold(c.node))) continue;
             d_.hold_beside(c.node, tools);
             value_[c.node] = 0;
         }
@@ -413,6 +413,7 @@ void keep_patch(Interface& f, const Patch& patch) {
     for (int v = 0; v < band.size(); ++v)
         if (f.d.contact[v] && band.cut_faces.around(v).empty() && band.cut_edges.around(v).empty()) {
             f.d.contact[v] = {};
+            f.d.held_off[v] = 0;
             released.push_back(v);
         }
     send_home(f, released);

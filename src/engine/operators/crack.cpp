@@ -150,7 +150,7 @@ std::string why_no_lips(const Interface& f, const Lips& lips, const Blade& blade
     if (!lips.faces.empty() || !lips.edges.empty())
         return "the crack along " + tool + " cannot open: all its nodes are on its front. Refine the mesh there first";
     if (!crossed)
-        return why_nothing_parts(f, blade, tool + " touches the mesh in single nodes, but passes through no element and along no face. Move " + tool + " into the material");
+        return why_nothing_parts(f, blade, tool + " only touches the mesh, along edges or in single nodes: it passes through no element and along no face. Move " + tool + " into the material");
     return tool + " only grazes the mesh: what it would cut off is thinner than the elements there. Move " + tool + " into the material";
 }
 

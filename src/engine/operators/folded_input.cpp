@@ -217,8 +217,8 @@ void find_folded_input(Interface& f, const Mesh& mesh) {
             else f.folded_input[{triangle, s}] = {id, ratio, false};
         }
     if (at_integration_points.empty()) return;
-    throw QualityError("the mesh already has " + std::to_string(at_integration_points.size()) + " second-order element(s) near the tool that are folded where solvers integrate (" +
-                       listed(at_integration_points, "element") + "): move their mid-side nodes nearer to the middle of their edges first");
+    throw QualityError("the mesh already has " + std::to_string(at_integration_points.size()) + " second-order element(s) near the tool that are folded (" +
+                       listed(at_integration_points, "element") + ") where solvers integrate: move their mid-side nodes nearer to the middle of their edges first");
 }
 
 void mend_folded_input(Interface& f) {

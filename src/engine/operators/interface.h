@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -38,6 +39,9 @@ struct Blade {
 /// Elements farther than this from where a blade is wanted, in their longest edges, are not cut by it.
 inline constexpr double blade_margin = 1.5;
 
+/// The part for is_beside() up to which a node is held in any case, as elements between it and the tool could be no better than flat.
+inline constexpr double close_beside = 1e-5;
+
 /// A band in which element faces are being made to lie on tools.
 struct Interface {
     Deformable d;
@@ -56,7 +60,10 @@ struct Interface {
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side = {};
     std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
-    bool holds_wide = false;                 ///< nodes count as on the tool from farther beside it than they do at once: see is_beside()
+    /// By node of the input, not for all: the part for is_beside() where elements came out poor as the node was not held beside the tool.
+    std::vector<double> may_hold = {};
+    double part_to_hold(int node) const { return std::max(close_beside, node < static_cast<int>(may_hold.size()) ? may_hold[node] : 0.0); }
+
     struct FoldedElement {
         Index id;        ///< number in the mesh
         double ratio;    ///< its curved_ratio() there
@@ -83,8 +90,9 @@ void cut_along(Interface& interface, const Blade& blade);
 void put_on_tool(Interface& interface, int node, const Tool& tool);
 
 /// Whether a node is so near a tool, `distance` away, that no element should come to lie between them: then it is on the tool, held beside it where
-/// it cannot be moved there (Deformable::hold_beside()). `reach`: how far the elements around it reach to the tool's other side.
-bool is_beside(const Interface& interface, double distance, double reach);
+/// it cannot be moved there (Deformable::hold_beside()). `reach`: how far the elements around it reach to the tool's other side; up to the
+/// part `part` of that it is.
+inline bool is_beside(double distance, double reach, double part) { return std::abs(distance) <= part * reach; }
 
 /// Collects the node sets, then improves the shape of the band's elements: deform(), improve(), and new nodes brought onto
 /// their curved surfaces.

@@ -192,7 +192,7 @@ std::string why_nothing_parts(const Interface& f, const Blade& blade, const std:
     if (!behind.empty() || !before.empty()) {
         const std::string side = before.empty() ? "all elements there are on its negative side" : behind.empty() ? "all elements there are on its positive side"
                                                                                                                  : "wherever it does, the elements are on one side of it only";
-        return tool + " lies on the outside of the mesh: " + side + ", and there is nothing to part" + advice;
+        return tool + " only touches the mesh, on its outside: " + side + ", and there is nothing to part" + advice;
     }
     return otherwise;
 }

@@ -224,10 +224,13 @@ std::vector<MovedMiddle> moved_middles(const BandMesh& band, const Mesh& before,
 }
 
 /// Adds them to the set of their edge: interface if it lies on a tool, else transition; and to the constraints.
-void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before, const std::array<const char*, 4>& sets, Report& report) {
+void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before, const Rebuilt& rebuilt, const std::array<const char*, 4>& sets,
+                 Report& report) {
     const NodeConstraints& constraints = f.d.constraints;
     for (const MovedMiddle& m : middles) {
-        const Contact tools = f.d.edge_contact(m.a, m.b);
+        Contact tools = f.d.edge_contact(m.a, m.b);
+        // An edge of a curved skin may have but its ends on the tool.
+        if (Deformable::off_tools(tools, rebuilt.mesh.points[rebuilt.kept_node(m.node)], f.d.held_between(m.a, m.b)) > 10 * f.tolerance) tools = {};
         const NodeFreedom freedom = constraints.on_edge(f.d.band, m.a, m.b).freedom;
         report.node_sets[sets[(tools ? 0 : 2) + constraints.is_exterior_edge(f.d.band, m.a, m.b)]].push_back(before.node_ids[m.node]);
         std::set<std::string> kinds;
@@ -628,7 +631,7 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     report_.node_sets[naming.sets[2]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, interior);
     report_.node_sets[naming.sets[3]] = numbers(f.transition, rebuilt.node, rebuilt.mesh, exterior);
     count_constraints(f, blades_, report_);
-    add_middles(moved_middles(f.d.band, mesh(), rebuilt), f, mesh(), naming.sets, report_);
+    add_middles(moved_middles(f.d.band, mesh(), rebuilt), f, mesh(), rebuilt, naming.sets, report_);
     report_.nodes_split = rebuilt.nodes_split;
     report_.nodes_doubled = rebuilt.nodes_doubled;
     report_.nodes_added = rebuilt.nodes_split + rebuilt.nodes_doubled;

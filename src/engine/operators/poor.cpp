@@ -91,10 +91,10 @@ std::vector<PoorElement> elements_below(double limit, const Interface& f, const 
 HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
     HeldNodes out;
     Holders holders;
-    for (const int v : f.nodes) {
-        if (f.d.band.is_new(v) || f.d.held_off[v] == 0) continue;
+    for (int v = 0; v < f.d.band.original_nodes(); ++v) {
+        if (f.d.held_off[v] == 0 || !f.d.band.in_use(v)) continue;
         ++out.count;
-        out.largest = std::max(out.largest, Deformable::off_tools(f.d.contact[v], f.d.band.nodes[v].at, 0));
+        out.largest = std::max(out.largest, f.d.held_off[v]);
         add_holders(f, mesh, v, holders);
     }
     out.groups = listed(holders.groups);
@@ -102,7 +102,7 @@ HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
     if (out.largest <= std::max(f.tolerance, f.d.rounding)) return out;
     std::ostringstream text;
     text << "the " << f.tool->kind() << " passes " << out.count << " node(s), held by " << describe(holders) << ", at up to " << out.largest
-         << ": it goes through them where they are, as elements in between would be too flat";
+         << ": it goes through them where they are, or ends there, as elements in between would be too flat";
     f.warnings.push_back(text.str());
     return out;
 }

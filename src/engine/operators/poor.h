@@ -6,7 +6,7 @@
 
 namespace femscalpel {
 
-/// Nodes of the interface that count as on the tool though something holds them a little beside it (Deformable::hold_beside()); with a
+/// Nodes that count as on the tool though something holds them a little beside it (Deformable::hold_beside()); with a
 /// warning in the interface that names what does.
 HeldNodes find_held_nodes(Interface& interface, const Mesh& mesh);
 

@@ -257,6 +257,7 @@ void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_ta
         meet(band.cut_faces);
         meet(band.cut_edges);
         f.d.contact[v] = on;
+        if (!on) f.d.held_off[v] = 0;
     }
 }
 

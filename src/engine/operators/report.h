@@ -41,7 +41,7 @@ struct Refinement {
     Index elements_after = 0;   ///< by refining alone
 };
 
-/// Nodes of the interface that something holds a little beside the tool: it goes through them where they are.
+/// Nodes that something holds a little beside the tool: it goes through them where they are, or ends there.
 struct HeldNodes {
     Index count = 0;
     double largest = 0;                 ///< how far they are off the tool, in the mesh's unit

@@ -25,9 +25,11 @@ constexpr double snap_reach = 0.45;
 constexpr double snap_slide = 1.0;
 /// Elements worse than this after relaxation are worked on further.
 constexpr double improvement_goal = 0.45;
-/// A node that cannot be moved counts as on the tool up to this part of how far elements reach beyond it: an element between the
-/// two would be as flat. Up to the first at once; up to the second where elements came out poor, as they would be between it and the tool.
-constexpr double close_beside = 1e-5, wide_beside = 0.025;
+/// Parts for is_beside(): where the tool runs along a surface that holds the node, or elements came out so poor that they would be an error
+/// (or poor enough to try again, along a line); and where they came out poor enough to try again.
+constexpr double along_beside = 0.025, poor_beside = 2e-3;
+/// Sine of the angle between the tool and a surface (line) up to which it runs along that.
+constexpr double along = 2e-3;
 /// Going onto the tool, a node may slide so many times its distance along what holds it before it is rather put there straight.
 constexpr double steep = 4;
 /// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
@@ -39,10 +41,14 @@ constexpr double largest_misfit = 5e-4;
 constexpr double poor_quality = 0.1;
 /// The same in second-order meshes, where mending curved elements costs their corners' shape.
 constexpr double second_order_quality = 0.27;
+/// Elements below this would be an error, or need one's attention: poor.h. Their nodes are rather held beside the tool.
+constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
-/// A band that has grown to so many times its nodes is not refined again: it would grow for ever along a wall too thin for elements.
-constexpr double largest_growth = 3;
+/// A band is refined to so many times its elements at most: it would grow for ever along a wall too thin for elements.
+constexpr double largest_growth = 2.5;
+/// All tries together may work on so many times the elements of the band.
+constexpr double most_work = 10;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -98,10 +104,12 @@ public:
         });
         for (const Candidate& c : candidates) {
             check_cancelled();
-            if (!crosses(c.node) || snap(c.node, c.length) || !is_beside(f_, value_[c.node], reach_beyond(c.node))) continue;
-            d_.hold_beside(c.node, d_.contact[c.node].with(&tool_));
-            value_[c.node] = 0;
+            if (crosses(c.node) && !snap(c.node, c.length)) hold_if_beside(c.node, part_to_hold(c.node));
         }
+        // The ends of a row that is held.
+        for (const Candidate& c : candidates)
+            if (value_[c.node] != 0 && any_around(c.node, [&](const auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return d_.held_off[v] > 0; }); }))
+                hold_if_beside(c.node, d_.constraints[c.node].freedom == NodeFreedom::fixed ? along_beside : close_beside);
     }
 
     void split_edges() {
@@ -223,6 +231,23 @@ private:
         return any_around(v, [&](const auto& nodes) {
             return std::ranges::any_of(nodes, [&](int w) { return value_[w] * side < 0; });
         });
+    }
+
+    /// The part for is_beside(), of a node that could not be moved onto the tool.
+    double part_to_hold(int v) const {
+        const double part = f_.part_to_hold(v);
+        const NodeFreedom freedom = d_.constraints[v].freedom;
+        // Beyond a line there may be room for small elements of good shape.
+        if (freedom != NodeFreedom::surface && (freedom != NodeFreedom::curve || part == close_beside)) return part;
+        Eigen::Matrix3d tangents;
+        const int count = d_.constraints.tangents(v, {}, band_.nodes[v].at, tangents);
+        return (tangents.leftCols(count).transpose() * tool_.normal(band_.nodes[v].at)).norm() < along ? along_beside : part;
+    }
+
+    void hold_if_beside(int v, double part) {
+        if (!is_beside(value_[v], reach_beyond(v), part)) return;
+        d_.hold_beside(v, d_.contact[v].with(&tool_));
+        value_[v] = 0;
     }
 
     /// How far the elements around a node reach to the other side of the tool.
@@ -420,9 +445,11 @@ void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
     look(band.triangles, slots.triangles);
 }
 
+int element_count(const BandMesh& band) { return band.tetras.size() + band.triangles.size(); }
+
 /// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves bulge a quarter as far, so that a tool finds room between a
-/// curved skin and its chords where it found none. The band grows to `most_nodes` at most.
-void refine(Interface& f, const Slots& slots, double most_nodes) {
+/// curved skin and its chords where it found none. The band grows to about `most_elements`.
+void refine(Interface& f, const Slots& slots, double most_elements) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
     for_parts(band, slots, [&](const auto& nodes) {
@@ -439,7 +466,7 @@ void refine(Interface& f, const Slots& slots, double most_nodes) {
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (const auto& [length, a, b] : edges) {
-        if (band.size() >= most_nodes) break;
+        if (element_count(band) >= most_elements) break;
         // With both ends on the tool the halves would have to be, too.
         if (f.d.contact[a].common(f.d.contact[b]) || f.d.constraints.has_fixed_middle(a, b)) continue;
         const Deformable::SplitPoint point = f.d.fitted_split(a, b, f.d.along_edge(a, b, 0.5), {});
@@ -478,8 +505,6 @@ void put_on_tool(Interface& f, int v, const Tool& tool) {
     if (Deformable::off_tools(tools, node.at, 0) > f.tolerance) d.hold_beside(v, tools);
 }
 
-bool is_beside(const Interface& f, double distance, double reach) { return std::abs(distance) <= (f.holds_wide ? wide_beside : close_beside) * reach; }
-
 void cut_along(Interface& f, const Blade& blade) {
     Stopwatch watch(f.seconds);
     std::vector<double> own;
@@ -515,13 +540,15 @@ void relax_band(Interface& f) {
 void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_tool) {
     const bool plain = whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
-    const double most_nodes = largest_growth * start.d.band.size();
+    const double elements = element_count(start.d.band), most_elements = largest_growth * elements;
     std::optional<Interface> best;
     double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
-    bool tried_wide = false;
+    bool tried_to_hold = false;
+    double work = 0;
     for (int attempt = 1, polished = 0;; ++attempt) {
         check_cancelled();
         cut(f);
+        work += element_count(f.d.band);
         Slots bad = misfits(f);
         // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
         if (attempt > 1) check_folded_input(f, newly_folded(f, folded_elements(f, least_curved)));
@@ -535,27 +562,33 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
                 best_quality = quality;
                 best = f;
             } else {
-                start.holds_wide = false;
+                start.may_hold.clear();
             }
             // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
-            if (plain && (tried_wide || quality >= poor_quality)) break;
+            if (plain && (tried_to_hold || quality >= poor_quality)) break;
             if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
         }
-        if (attempt == attempts || start.d.band.size() >= most_nodes) {
+        if (attempt == attempts || element_count(start.d.band) >= most_elements || work >= most_work * elements) {
             if (!best) fail_at(f, bad);
             break;
         }
         // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would get
         // farther into elements whose nodes are not put on it.
         std::vector<char>& off_tool = start.d.off_tool;
-        if (polish && !tried_wide && best_quality < poor_quality) {
-            start.holds_wide = tried_wide = true;
+        if (polish && !tried_to_hold && best_quality < poor_quality) {
+            tried_to_hold = true;
+            Slots worst;
+            poorest(f, poor_quality, worst);
+            start.may_hold.assign(static_cast<std::size_t>(start.d.band.size()), 0);
+            for_parts(start.d.band, worst, [&](const auto& nodes) {
+                for (const int v : nodes) start.may_hold[v] = best_quality < hold_quality ? along_beside : poor_beside;
+            });
         } else if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
             for_parts(start.d.band, bad, [&](const auto& nodes) {
                 for (const int v : nodes) off_tool[v] = 1;
             });
         } else {
-            refine(start, bad, most_nodes);
+            refine(start, bad, most_elements);
             std::ranges::fill(off_tool, 0);
         }
         f = start;

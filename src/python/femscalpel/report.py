@@ -74,7 +74,7 @@ class GroupRecord:
 
 @dataclass(frozen=True)
 class HeldNodes:
-    """Nodes of the interface that something holds a little beside the tool: it goes through them where they are."""
+    """Nodes that something holds a little beside the tool: it goes through them where they are, or ends there."""
 
     count: int
     largest: float  #: how far they are off the tool, in the mesh's unit
