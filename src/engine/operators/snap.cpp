@@ -46,7 +46,7 @@ constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
 /// A band is refined to so many times its elements at most: it would grow for ever along a wall too thin for elements.
-constexpr double largest_growth = 2.5;
+constexpr double largest_growth = 2;
 /// All tries together may work on so many times the elements of the band.
 constexpr double most_work = 10;
 /// A curved mesh with elements below this is not returned.

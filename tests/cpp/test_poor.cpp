@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "operators/poor.h"
+#include "simple_meshes.h"
+#include "tools/plane.h"
+
+namespace femscalpel {
+namespace {
+
+/// A cube of 4 x 4 x 4 cells with all nodes in the band, and a plane just above its middle.
+struct PoorTest : testing::Test {
+    Mesh mesh = checks::grid(4, 4, 4);
+    Plane plane{{2, 2, 2.5}, {0, 0, 1}};
+
+    Interface interface() const {
+        const std::vector<std::int8_t> level(mesh.points.size(), 0);
+        Interface f{.d = Deformable(extract_band(mesh, level), mesh, {}), .tool = &plane, .tolerance = 1e-9};
+        f.distance.assign(static_cast<std::size_t>(f.d.band.size()), 1);
+        return f;
+    }
+
+    static int node_at(const Interface& f, const Vec3& x) {
+        for (int v = 0; v < f.d.band.size(); ++v)
+            if ((f.d.band.nodes[v].at - x).norm() < 1e-9) return v;
+        return -1;
+    }
+};
+
+TEST_F(PoorTest, NothingIsSaidOfGoodElements) {
+    Interface f = interface();
+    EXPECT_TRUE(find_poor_places(f, mesh, 1).empty());
+    EXPECT_TRUE(f.warnings.empty());
+}
+
+TEST_F(PoorTest, WhatHoldsIsNamed) {
+    const GroupIndex top = mesh.add_group("TOP", GroupKind::element);
+    for (Index c = 0; c < mesh.block(CellType::tetra).size(); ++c) {
+        double z = 0;
+        for (const Index n : mesh.block(CellType::tetra).nodes(c)) z += mesh.points[n].z() / 4;
+        if (z > 3) mesh.block(CellType::tetra).families[c] = mesh.families.with(mesh.block(CellType::tetra).families[c], top);
+    }
+    Interface f = interface();
+    // Nearly onto the border of TOP, which is at z = 3.
+    f.d.band.nodes[node_at(f, {2, 2, 2})].at.z() = 3 - 1e-4;
+    const std::vector<PoorPlace> places = find_poor_places(f, mesh, 0.7);
+    ASSERT_FALSE(places.empty());
+    EXPECT_LT(places[0].mean_ratio, 0.02);
+    EXPECT_THAT(places[0].groups, testing::ElementsAre("TOP"));
+    EXPECT_FALSE(places[0].elements.empty());
+    EXPECT_NEAR(places[0].gap, 0.5, 1e-3);
+    EXPECT_NEAR(places[0].place.z(), 2.75, 0.3);
+    ASSERT_EQ(f.warnings.size(), places.size());
+    EXPECT_THAT(f.warnings[0], testing::AllOf(testing::HasSubstr("'TOP'"), testing::HasSubstr("preserve"), testing::HasSubstr("plane")));
+}
+
+TEST_F(PoorTest, ATenthOfTheInputsWorstIsAllowed) {
+    Interface f = interface();
+    f.d.band.nodes[node_at(f, {2, 2, 2})].at.z() = 3 - 1e-3;
+    EXPECT_TRUE(find_poor_places(f, mesh, 1e-4).empty());
+}
+
+TEST_F(PoorTest, WhereNothingHoldsItIsAnError) {
+    mesh = checks::grid(6, 6, 6);
+    Interface f = interface();
+    f.d.band.nodes[node_at(f, {3, 3, 3})].at.z() = 4 - 1e-4;
+    EXPECT_THROW(find_poor_places(f, mesh, 0.7), QualityError);
+}
+
+TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
+    Interface f = interface();
+    EXPECT_EQ(find_held_nodes(f, mesh).count, 0);
+    f.d.hold_beside(node_at(f, {0, 2, 2}), &plane);
+    const HeldNodes held = find_held_nodes(f, mesh);
+    EXPECT_EQ(held.count, 1);
+    EXPECT_DOUBLE_EQ(held.largest, 0.5);
+    EXPECT_THAT(held.features, testing::ElementsAre("the skin"));
+    EXPECT_THAT(f.warnings, testing::ElementsAre(testing::HasSubstr("held by the skin")));
+}
+
+}  // namespace
+}  // namespace femscalpel

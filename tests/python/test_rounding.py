@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rounding is not geometry: tools within rounding of nodes, or a little beside what holds them."""
+import os
+
+import femscalpel as fs
+import numpy as np
+import pytest
+import rounding_cases as cases
+
+#: How many random cases; 3000 take some minutes.
+COUNT = int(os.environ.get("FEMSCALPEL_ROUNDING_CASES", 150))
+
+
+def test_random_tools_beside_nodes_give_good_meshes():
+    outcomes = cases.run_many(range(COUNT))
+    figures = cases.summary(outcomes)
+    print("\n" + cases.line("all", outcomes))
+    told = [str(o.case) + ": " + o.text for o in outcomes if o.verdict in ("poor", "wrong")]
+    assert not told, told[:5]
+    assert figures["refused"] <= max(1, 0.01 * figures["cases"])
+    assert figures["good"] >= 0.97 * figures["cases"] - 1
+    assert figures["growth"] <= 4
+
+
+def two_materials(points, kind, cells):
+    left = points[cells].mean(axis=1)[:, 0] < points[:, 0].mean()
+    ids = np.arange(1, len(cells) + 1)
+    return fs.Mesh(points, {kind: cells}, groups={"LEFT": ("element", ids[left]), "RIGHT": ("element", ids[~left])})
+
+
+@pytest.mark.parametrize("noise", [0, 1e-8, 1e-6])
+@pytest.mark.parametrize("offset", [0, 1e-9, 1e-7, 1e-6, 1e-4, 1e-3])
+@pytest.mark.parametrize("make", [cases._grid_plate, cases._grid_box], ids=["plate", "box"])
+def test_plane_beside_the_border_of_two_materials(make, offset, noise):
+    """The border's nodes are the crack's: no sliver comes to lie between the two."""
+    points, kind, cells = make()
+    middle, edge = points[:, 0].mean(), np.ptp(points[:, 0]) / (12 if kind == "triangle" else 6)
+    row = abs(points[:, 0] - middle) < 1e-9
+    points[row, 0] += np.random.default_rng(1).uniform(-noise, noise, row.sum())
+    mesh = two_materials(points, kind, cells)
+    result = fs.crack(mesh, fs.Plane((middle + offset * edge, 0, 0), (1, 0, 0)))
+    assert result.report.quality.after.minimum == pytest.approx(result.report.quality.before.minimum, rel=1e-3)
+    assert result.report.nodes_doubled == row.sum() and result.mesh.cells[kind].shape == mesh.cells[kind].shape
+    for group in result.report.groups:
+        if group.name in ("LEFT", "RIGHT"):
+            assert group.measure_after == pytest.approx(group.measure_before, rel=1e-9)
+    held = result.report.held
+    if offset * edge > 10 * noise + 1e-9:
+        assert held.count == row.sum() and held.largest == pytest.approx(offset * edge, abs=2 * noise + 1e-12) and set(held.groups) == {"LEFT", "RIGHT"}
+    said = [w for w in result.report.warnings if "held by" in w]
+    assert bool(said) == (held.largest > 1e-9)
+
+
+def test_nodes_of_a_rounded_file_are_put_onto_the_tool():
+    rng = np.random.default_rng(5)
+    points, kind, cells = cases._jittered(*cases._grid_box(), 0.02, 3)
+    points = np.array([float(f"{x:.5e}") for x in (points + 1.2345678 / 3).ravel()]).reshape(-1, 3)
+    mesh = fs.Mesh(points, {kind: cells})
+    node = rng.choice(np.nonzero(np.ptp(np.sort(points, axis=1), axis=1))[0])
+    plane = fs.Plane(points[node] + 1e-7, (0.3, 0.9, 0.2))  # beside it by less than the last digit
+    result = fs.crack(mesh, plane)
+    assert abs(plane.distance(result.mesh.points[node])) < 1e-12
+    assert result.report.quality.after.minimum > 0.2
+
+
+def named_middle_mesh():
+    points, kind, cells = cases._second_order(*cases._grid_box(4, 0.4))
+    inner = [n for n in np.unique(cells[:, 4:]) if 0.1 < points[n, 0] < 0.3 and 0 < points[n, 1] < 0.4 and 0 < points[n, 2] < 0.4]
+    return fs.Mesh(points, {kind: cells}, groups={"GAUGE": ("node", [inner[0] + 1])}), points[inner[0]]
+
+
+@pytest.mark.parametrize("offset", [1e-10, 2.5e-8, 1e-6, 1e-4])
+def test_plane_beside_a_named_mid_side_node(offset):
+    mesh, place = named_middle_mesh()
+    result = fs.crack(mesh, fs.Plane(place + (offset * 0.1, 0, 0), (1, 0, 0)))
+    assert result.mesh.cell_count < 2 * mesh.cell_count and result.report.quality.after.minimum > 0.2
+    gauges = result.mesh.groups["GAUGE", "node"].ids
+    assert np.allclose(points_of(result.mesh, gauges), place, atol=1e-12)
+    assert not any(g.name == "CRACK_FRONT" for g in result.mesh.groups.all())
+
+
+def points_of(mesh, ids):
+    return mesh.points[np.isin(mesh.node_ids, ids)]
