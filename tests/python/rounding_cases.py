@@ -137,6 +137,9 @@ def rounded(mesh, how):
 
 ROUNDINGS = ("as they are", "single", 6)
 
+#: Those whose surfaces are all flat.
+FLAT = {"plate", "uneven plate", "plate, second order", "box", "uneven box", "box, second order", "two_boxes", "l_shape", "caisson_shell"}
+
 
 class Subject:
     """A mesh and what is known of it for making cases and judging results."""
@@ -334,7 +337,7 @@ def faults(s, case, result):
 
 def run(case):
     s = subject(case.subject, case.rounding)
-    s.flat = case.subject not in ("flanged_cylinder", "quadratic_elbow")
+    s.flat = case.subject in FLAT
     s.slack = {"as they are": 1e-9, "single": 3e-6, 6: 3e-5}[case.rounding]
     if case.subject == "caisson_shell":  # it has round holes, whose rims bend
         s.slack = 1e-3
@@ -420,10 +423,14 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--limit", type=float, default=30, help="seconds after which a case counts as endless")
     parser.add_argument("--mesh", action="append", choices=list(SUBJECTS), help="this mesh only; may be given several times")
+    parser.add_argument("--file", action="append", default=[], help="a mesh of your own instead; may be given several times")
     parser.add_argument("--shifted", action="store_true", help="also the same tools a tenth of an edge off and at 1e-9, to compare")
     parser.add_argument("--quiet", action="store_true", help="figures only")
     a = parser.parse_args()
     numbers = range(a.first, a.first + a.cases)
+    for path in a.file:
+        SUBJECTS[path] = (lambda path=path: fs.read(path), 1)
+    a.mesh = (a.mesh or []) + a.file or None
 
     def tell(o):
         if not a.quiet and (o.verdict not in ("good", "misses") or o.seconds > 2 or o.growth > 4):

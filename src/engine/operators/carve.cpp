@@ -208,7 +208,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
         note_slivers(g, tool_of_tag, 1);
         if (options.method == Method::snap) relax_band(g);
     };
-    if (options.method == Method::snap) cut_soundly(f, carve_once, carve_attempts);
+    if (options.method == Method::snap) cut_soundly(f, carve_once, operation.whole().cell_count(), carve_attempts);
     else carve_once(f);
     operation.take_laps(f.seconds);
     check_resolution(f, bodies);

@@ -185,12 +185,12 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut along.
     const std::optional<Interface> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
     if (patch) {
-        cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
+        cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
     } else if (operation.location().crossed > 0) {
         if (tool.bounded()) {
             cut_along(f, blade);
             relax_band(f);
-        } else if (options.method == Method::snap) snap_to_tool(f, blade);
+        } else if (options.method == Method::snap) snap_to_tool(f, blade, operation.whole().cell_count());
         else deform_to_tool(f, tool, operation.mesh());
     }
     check_cancelled();
@@ -203,7 +203,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
             blade.bound = patch->distance;
             blade.tag = whole_tool;
             f = *start;
-            cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); });
+            cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
             lips.reset();
         }
     }

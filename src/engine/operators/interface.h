@@ -100,16 +100,16 @@ void relax_band(Interface& interface);
 
 /// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out: where new nodes could not be brought onto the skin
 /// or line they were born on and their tools, or second-order elements came out folded, it starts again with other
-/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times at most. Poor elements are a reason,
-/// too, but for a whole plane through flat surfaces: there geometry alone limits the quality. `whole_tool`: it cuts all of the mesh it
-/// meets and takes nothing away; otherwise refining ends where the band has grown fourfold.
+/// choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times at most, and within bounds on the
+/// band's growth, also against the mesh's `mesh_elements`, and on the work of all tries. Poor elements are a reason, too: first to hold nodes
+/// beside the tool that it passes closely, then, but for a whole plane through flat surfaces (`whole_tool`), to refine.
 ///
 /// Throws QualityError naming the place when nothing helps.
-void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, int attempts = 12, bool whole_tool = false);
+void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, Index mesh_elements, int attempts = 12, bool whole_tool = false);
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.
-void snap_to_tool(Interface& interface, const Blade& blade);
+void snap_to_tool(Interface& interface, const Blade& blade, Index mesh_elements);
 
 /// Collects `nodes` (all with contact) and `transition` anew.
 void find_node_sets(Interface& interface);

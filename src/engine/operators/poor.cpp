@@ -15,6 +15,9 @@ constexpr double poor_limit = 0.02, part_of_worst = 0.1;
 /// Elements between the tool and what is so many edge lengths away have no reason to be poor.
 constexpr double roomy = 0.15;
 
+/// A node that is held this far beside the tool, in edge lengths, is worth a warning.
+constexpr double worth_a_word = 1e-5;
+
 /// So many elements and groups are named.
 constexpr std::size_t named = 5;
 
@@ -91,15 +94,17 @@ std::vector<PoorElement> elements_below(double limit, const Interface& f, const 
 HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
     HeldNodes out;
     Holders holders;
+    bool seen = false;
     for (int v = 0; v < f.d.band.original_nodes(); ++v) {
         if (f.d.held_off[v] == 0 || !f.d.band.in_use(v)) continue;
         ++out.count;
         out.largest = std::max(out.largest, f.d.held_off[v]);
+        seen = seen || f.d.held_off[v] > worth_a_word * f.d.band.mean_edge_length(v);
         add_holders(f, mesh, v, holders);
     }
     out.groups = listed(holders.groups);
     out.features = listed(holders.features);
-    if (out.largest <= std::max(f.tolerance, f.d.rounding)) return out;
+    if (out.largest <= std::max(f.tolerance, f.d.rounding) || !seen) return out;
     std::ostringstream text;
     text << "the " << f.tool->kind() << " passes " << out.count << " node(s), held by " << describe(holders) << ", at up to " << out.largest
          << ": it goes through them where they are, or ends there, as elements in between would be too flat";

@@ -45,10 +45,11 @@ constexpr double second_order_quality = 0.27;
 constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 3, hard_polishings = 6;
-/// A band is refined to so many times its elements at most: it would grow for ever along a wall too thin for elements.
-constexpr double largest_growth = 2;
+/// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever along a wall too thin for
+/// elements, and what is cut in the end should not be another mesh.
+constexpr double largest_growth = 4, largest_part = 1.4;
 /// All tries together may work on so many times the elements of the band.
-constexpr double most_work = 10;
+constexpr double most_work = 16;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -537,10 +538,10 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int attempts, bool whole_tool) {
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index mesh_elements, int attempts, bool whole_tool) {
     const bool plain = whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
-    const double elements = element_count(start.d.band), most_elements = largest_growth * elements;
+    const double elements = element_count(start.d.band), most_elements = std::min(largest_growth * elements, elements + largest_part * static_cast<double>(mesh_elements));
     std::optional<Interface> best;
     double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
     bool tried_to_hold = false;
@@ -602,14 +603,14 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, int a
     f.warnings.push_back(text.str());
 }
 
-void snap_to_tool(Interface& f, const Blade& blade) {
+void snap_to_tool(Interface& f, const Blade& blade, Index mesh_elements) {
     cut_soundly(f, [&blade](Interface& g) {
         cut_along(g, blade);
         g.d.barrier = blade.tool;
         for (int v = 0; v < g.d.band.size(); ++v)
             g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
         relax_band(g);
-    }, 12, true);
+    }, mesh_elements, 12, true);
 }
 
 }  // namespace femscalpel
