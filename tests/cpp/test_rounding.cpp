@@ -34,6 +34,8 @@ TEST(CoordinateRounding, IsNothingOnSimpleGrids) {
     for (int i = 0; i <= 12; ++i)
         for (int j = 0; j <= 12; ++j) grid.emplace_back(i * 0.075, j * 0.075, 0);
     EXPECT_EQ(coordinate_rounding(grid), 0);
+    for (Vec3& x : grid) x.x() += 6000;  // far from the origin they have more digits, but are no less simple
+    EXPECT_EQ(coordinate_rounding(grid), 0);
     EXPECT_EQ(coordinate_rounding({}), 0);
     EXPECT_EQ(coordinate_rounding(std::vector<Vec3>(4, Vec3::Zero())), 0);
 }

@@ -323,7 +323,8 @@ def faults(s, case, result):
     # A mid-side node may be one of an edge along the front.
     along = [c[:, CORNERS[t] + k] for t, c in mesh.cells.items() if t in MIDDLES for k, (a, b) in enumerate(MIDDLES[t])
              for c in [c[np.isin(c[:, a], front) & np.isin(c[:, b], front)]]]
-    lost = np.setdiff1d(lost, np.setdiff1d(np.concatenate(along), corners)) if along else lost
+    if along and not any(g.name == name + "_FRONT" for g in mesh.groups.all("element")):  # whose segments name theirs
+        lost = np.setdiff1d(lost, np.setdiff1d(np.concatenate(along), corners))
     if len(lost):
         found.append(f"{len(lost)} nodes join the lips and are in no front")
     # Volumes and areas of groups survive where all is flat.

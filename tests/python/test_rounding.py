@@ -85,3 +85,42 @@ def test_plane_beside_a_named_mid_side_node(offset):
 
 def points_of(mesh, ids):
     return mesh.points[np.isin(mesh.node_ids, ids)]
+
+
+@pytest.mark.parametrize("away", [0, 6e2, 6e3, 6e5])
+@pytest.mark.parametrize("order", [1, 2])
+def test_far_from_the_origin_flat_stays_flat(away, order):
+    """A simple grid moved away has more digits, but is not rounded to them."""
+    made = cases._jittered(*cases._grid_box(), 0.02, 6)
+    points, kind, cells = cases._second_order(*made) if order == 2 else made
+    mesh = two_materials(points + (away, 0, 0), kind, cells)
+    result = fs.crack(mesh, fs.Plane((away + 0.31, 0.27, 0.3), (1, 0.3, 0.2)))
+    assert result.report.warnings == [] and result.report.held.count == 0
+    for group in result.report.groups:
+        if group.name in ("LEFT", "RIGHT"):
+            assert group.measure_after == pytest.approx(group.measure_before, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_no_edge_inside_a_crack_joins_its_lips(order):
+    """From a node of the front to another: along it the lips would hang together."""
+    made = cases._grid_box(4, 0.4)
+    points, kind, cells = cases._second_order(*made) if order == 2 else made
+    mesh, edge, made = fs.Mesh(points, {kind: cells}), 0.107, 0
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        at, normal = points[rng.integers(len(points))], np.eye(3)[rng.integers(3)]
+        a = np.cross(normal, rng.normal(size=3))
+        a *= 2 * edge / np.linalg.norm(a)
+        b = np.cross(normal, a)
+        try:
+            result = fs.crack(mesh, fs.Plane(at, normal), within=fs.Polygon([at, at + a, at + a + b, at + 0.3 * (a + b), at + b]), refine=False)
+        except fs.Error:
+            continue
+        made += 1
+        lips = {side: result.mesh.groups["CRACK_" + side, "element"].ids for side in "PN"}
+        lips = {side: {int(n) for t, c in result.mesh.cells.items() for row in c[np.isin(result.mesh.cell_ids[t], ids)] for n in row} for side, ids in lips.items()}
+        front = result.mesh.groups["CRACK_FRONT", "element"].ids
+        front = {int(n) for t, c in result.mesh.cells.items() for row in c[np.isin(result.mesh.cell_ids[t], front)] for n in row}
+        assert lips["P"] & lips["N"] <= front
+    assert made >= 5

@@ -14,7 +14,8 @@ namespace {
 /// Coordinates that are looked at, at most.
 constexpr std::size_t sample = 6000;
 
-/// A coordinate with fewer significant digits is simple: it says nothing about how the others were rounded.
+/// A coordinate with fewer digits below the size of the mesh is simple, however far from the origin: it says nothing about how the others
+/// were rounded.
 constexpr int fewest_digits = 5;
 /// One with more was not rounded to decimals.
 constexpr int most_digits = 11;
@@ -25,7 +26,7 @@ constexpr int digits_of_single = 8;
 /// file's (one in ten ends in a zero).
 constexpr double noticed = 0.05, typical = 0.15;
 
-/// The files meant have six digits or more.
+/// The files meant have six digits or more; in sizes of the mesh.
 constexpr double coarsest = 1e-5;
 
 struct Decimal {
@@ -51,8 +52,15 @@ Decimal shortest(double x) {
 }  // namespace
 
 double coordinate_rounding(std::span<const Vec3> points) {
-    double largest = 0;
-    for (const Vec3& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    if (points.empty()) return 0;
+    Vec3 low = points[0], high = low;
+    for (const Vec3& x : points) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const double largest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()), size = (high - low).maxCoeff();
+    if (!(size > 0)) return 0;
+    const int first_digit = static_cast<int>(std::floor(std::log10(size)));
     const std::size_t stride = std::max<std::size_t>(1, points.size() * 3 / sample);
     int telling = 0, singles = 0, decimals = 0;
     std::map<int, int> last_digits;
@@ -62,7 +70,7 @@ double coordinate_rounding(std::span<const Vec3> points) {
             // Small ones have digits that the large ones lack.
             if (!(std::abs(x) >= 0.1 * largest) || x == 0) continue;
             const Decimal d = shortest(x);
-            if (d.digits < fewest_digits) continue;
+            if (std::min(d.digits, first_digit - d.last + 1) < fewest_digits) continue;
             ++telling;
             if (d.digits >= digits_of_single && static_cast<double>(static_cast<float>(x)) == x) ++singles;
             if (d.digits > most_digits) continue;
@@ -74,7 +82,7 @@ double coordinate_rounding(std::span<const Vec3> points) {
     if (decimals > noticed * telling)
         for (const auto& [last, count] : last_digits)
             if (count > typical * decimals) rounding = std::max(rounding, 0.5 * std::pow(10.0, last));
-    return std::min(rounding, coarsest * largest);
+    return std::min(rounding, coarsest * size);
 }
 
 }  // namespace femscalpel

@@ -353,6 +353,12 @@ bool part_closed_faces(Interface& f, const Patch& patch) {
             if (!on_front(a) || !on_front(b) || !band.is_cut_border(a, b) || !f.d.constraints.is_skin_edge(band, a, b)) continue;
             if (patch.distance((band.nodes[a].at + band.nodes[b].at) / 2) < -10 * f.tolerance) split(a, b);
         }
+    // An edge inside the crack from one node of the front to another would join the lips along it.
+    for (int s = 0; s < band.cut_faces.size(); ++s)
+        for (int k = 0; k < 3 && band.cut_faces.alive(s); ++k) {
+            const int a = band.cut_faces[s][k], b = band.cut_faces[s][(k + 1) % 3];
+            if (on_front(a) && on_front(b) && !band.is_cut_border(a, b)) split(a, b);
+        }
     for (int s = 0; s < band.cut_edges.size(); ++s)
         if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front)) split(band.cut_edges[s][0], band.cut_edges[s][1]);
     return f.d.band.size() > before;
@@ -376,7 +382,7 @@ void keep_patch(Interface& f, const Patch& patch) {
     };
     if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges)) {
         if (meets_material(band, patch)) too_coarse("no element face fits in it");
-        throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}}, "the crack lies outside the part: there is no material within its front. Move it, or make it larger"));
+        throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}}, "the crack lies outside the part, or is far smaller than the elements there: no material was found within its front. Move it, or make it larger"));
     }
     const auto drop = [&](auto& list) {
         for (int s = 0; s < list.size(); ++s)

@@ -19,7 +19,7 @@ void keep_patch(Interface& interface, const Patch& patch);
 
 /// A face of the crack all of whose nodes are on the front would stay closed: its longest edge inside the crack, or on the
 /// skin, gets a node in between. So does an edge of the skin that joins two nodes of the front across the crack's mouth, and an edge
-/// of a shell's crack between two tips. True if there was any.
+/// of a shell's crack between two tips, and an edge inside the crack from front to front, along which the lips would hang together. True if there was any.
 bool part_closed_faces(Interface& interface, const Patch& patch);
 
 }  // namespace femscalpel

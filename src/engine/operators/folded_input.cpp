@@ -276,7 +276,7 @@ void check_folded_input(const Interface& f, std::span<const BandElement> element
     if (numbers.empty()) return;
     throw QualityError("the mesh already has " + std::to_string(numbers.size()) + " second-order element(s) in the way of the tool that are folded at a corner (" +
                        listed({numbers.begin(), numbers.end()}, "element") +
-                       ") and cannot be changed as they are: move their mid-side nodes nearer to the middle of their edges first, or take them out of the groups and cards that hold them");
+                       ") and cannot be changed as they are: move their mid-side nodes nearer to the middle of their edges first (meshers can: Gmsh calls it high-order optimisation), or take them out of the groups and cards that hold them, if any do");
 }
 
 }  // namespace femscalpel

@@ -80,6 +80,17 @@ public:
         return out;
     }
 
+    /// Whether most elements of the band are worse than `limit`.
+    bool most_below(double limit) const {
+        int below = 0, all = 0;
+        for (int t = 0; t < band_.tetras.size(); ++t)
+            if (band_.tetras.alive(t)) {
+                ++all;
+                below += tetra_is_below(limit, d_, t);
+            }
+        return 2 * below > all;
+    }
+
     /// How much the elements worse than `limit` lack, squared so that the worst weigh most.
     double shortfall(double limit) const {
         double sum = 0;
@@ -242,8 +253,9 @@ private:
 
 void improve(Interface& f, const Tool& tool, double goal) {
     Improver improver(f, tool);
-    // Where borders are everywhere, most elements are too poor ever to be left alone: only what changed can gain.
-    const bool locally = held_inside(f).nearly_all_on_borders();
+    // Where borders are everywhere, or the mesh is thin in one direction, most elements are too poor ever to be left alone: only what
+    // changed can gain.
+    const bool locally = held_inside(f).nearly_all_on_borders() || improver.most_below(goal);
     const auto relax_again = [&] {
         find_node_sets(f);
         const std::vector<int> nodes = movable_nodes(f);

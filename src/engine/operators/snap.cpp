@@ -47,7 +47,7 @@ constexpr double hold_quality = 0.02;
 constexpr int polishings = 3, hard_polishings = 6;
 /// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever along a wall too thin for
 /// elements, and what is cut in the end should not be another mesh.
-constexpr double largest_growth = 4, largest_part = 1.4;
+constexpr double largest_growth = 4, largest_part = 1;
 /// All tries together may work on so many times the elements of the band.
 constexpr double most_work = 16;
 /// A curved mesh with elements below this is not returned.
