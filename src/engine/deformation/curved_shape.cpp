@@ -2,6 +2,8 @@
 #include "deformation/curved_shape.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "mesh/cell_type.h"
 
@@ -16,10 +18,12 @@ struct EdgeShape {
     double held;  ///< how far it may be off the tools, as its ends are: Deformable::held_off
 };
 
+bool is_curved(const Tool* t) { return std::isfinite(t->feature_size()); }
+
 MidSide fit(const Deformable& d, const Vec3& a, const Vec3& b, const EdgeShape& shape) {
     const Vec3 chord = (a + b) / 2;
     MidSide mid{chord + shape.bulge, true};
-    const bool curved_tool = std::ranges::any_of(shape.tools.tools(), [](const Tool* t) { return std::isfinite(t->feature_size()); });
+    const bool curved_tool = std::ranges::any_of(shape.tools.tools(), is_curved);
     if (shape.bulge.isZero(0) && !curved_tool && d.constraints.is_straight(shape.constraint)) return mid;
     const double reach = 0.2 * (b - a).norm();
     Vec3 x = mid.at;
@@ -53,6 +57,23 @@ bool is_between_sides(const Deformable& d, int a, int b) {
 
 EdgeShape shape_of(const Deformable& d, int a, int b) {
     return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b), d.held_between(a, b)};
+}
+
+/// How far the mid-side node of an edge of the band is from the chord wherever the edge's ends are: 0 if the edge is straight, infinity if
+/// that depends on a curved shape or a tool.
+double farthest_bulge(const Deformable& d, int a, int b) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const double bulge = d.mids.may_bulge(a, b) ? d.mids.bulge(a, b).norm() : 0;
+    const auto is_held = [&](int v) { return d.constraints[v].freedom != NodeFreedom::free; };
+    if (is_held(a) && is_held(b)) {
+        const NodeConstraint shape = d.constraints.on_edge(d.band, a, b);
+        if (!d.constraints.is_straight(shape) || (bulge > 0 && shape.freedom != NodeFreedom::free)) return unknown;
+    }
+    if (d.contact[a]) {
+        const Contact tools = d.contact[a].common(d.contact[b]);
+        if ((tools && bulge > 0) || std::ranges::any_of(tools.tools(), is_curved)) return unknown;
+    }
+    return bulge;
 }
 
 /// Edges of a tetrahedron by places of corners; those of a triangle are the first.
@@ -120,30 +141,38 @@ CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {}
 void CurvedStar::gather() {
     gathered_ = true;
     if (!d_.mids.any()) return;
-    std::vector<std::uint64_t> across;
-    const auto place = [](auto& list, const auto& wanted) {
-        const auto it = std::ranges::find(list, wanted);
-        if (it != list.end()) return static_cast<int>(it - list.begin());
-        list.push_back(wanted);
-        return static_cast<int>(list.size()) - 1;
-    };
+    std::vector<std::uint64_t> keys;
     for_second_order_around(d_, node_, [&](BandElement element) {
         const auto nodes = element.nodes(d_.band);
-        const auto edges = edges_of(nodes.size());
-        Element e{nodes.size(), {}, {}};
+        const auto ends = edges_of(nodes.size());
+        Element e{nodes.size(), {}, {}, 0};
         std::ranges::copy(nodes, e.corner.begin());
-        for (std::size_t k = 0; k < edges.size(); ++k) {
-            const int a = e.corner[edges[k][0]], b = e.corner[edges[k][1]];
-            e.mid[k] = a == node_ || b == node_ ? place(spokes_, a == node_ ? b : a) : -1 - place(across, edge_key(a, b));
+        for (std::size_t k = 0; k < ends.size(); ++k) {
+            const int a = e.corner[ends[k][0]], b = e.corner[ends[k][1]];
+            const std::uint64_t key = edge_key(a, b);
+            const auto known = std::ranges::find(keys, key);
+            const auto place = static_cast<std::size_t>(known - keys.begin());
+            if (known == keys.end()) {
+                keys.push_back(key);
+                edges_.push_back({a, b, a == node_ || b == node_, false, farthest_bulge(d_, a, b), {}});
+            }
+            e.edge[k] = static_cast<int>(place);
+            e.bulges += edges_[place].bulge;
         }
-        elements_.push_back(e);
+        if (e.bulges > 0) elements_.push_back(e);
     });
-    mids_.resize(spokes_.size());
-    found_.resize(spokes_.size());
-    for (const std::uint64_t key : across) mids_.push_back(mid_side(d_, static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)));
-    for (Element& e : elements_)
-        for (int& m : e.mid)
-            if (m < 0) m = static_cast<int>(spokes_.size()) - 1 - m;
+}
+
+bool CurvedStar::is_surely_sound(const Element& e, const Vec3& x) const {
+    if (e.corners != 4) return false;
+    const auto at = [&](int k) -> const Vec3& { return e.corner[k] == node_ ? x : d_.band.nodes[e.corner[k]].at; };
+    const Vec3 a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0);
+    const Vec3 bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
+    const double determinant = a.dot(bc);
+    // Bulges times gradients of shape functions, 4 sqrt(3) at most, times the inverse of the straight element's Jacobian.
+    const double inverse = std::sqrt(bc.squaredNorm() + ca.squaredNorm() + ab.squaredNorm());
+    static const double small = (1 - std::cbrt(curved_limit)) / (4 * std::sqrt(3.0));
+    return determinant > 0 && e.bulges * inverse < small * determinant;
 }
 
 double CurvedStar::worst(const Vec3& x, double enough) {
@@ -152,24 +181,28 @@ double CurvedStar::worst(const Vec3& x, double enough) {
     Vec3& at = d_.band.nodes[node_].at;
     const Vec3 home = at;
     at = x;
-    std::ranges::fill(found_, 0);
+    for (Edge& edge : edges_) edge.found = edge.found && !edge.at_node;
     double worst = 1;
+    const bool may_skip = std::isfinite(enough) && enough <= curved_limit;
     for (std::size_t i = 0; i < elements_.size() && worst >= enough; ++i) {
         const Element& e = elements_[i];
+        if (may_skip && is_surely_sound(e, x)) continue;
         const Corners corner(std::span(e.corner).first(e.corners), [&](int v) { return d_.band.nodes[v].at; });
         worst = std::min(worst, ratio(corner, [&](std::size_t k) {
-            const auto m = static_cast<std::size_t>(e.mid[k]);
-            if (m < found_.size() && !found_[m]) {
-                found_[m] = 1;
-                mids_[m] = mid_side(d_, node_, spokes_[m]);
-            }
-            return mids_[m];
+            Edge& edge = edges_[e.edge[k]];
+            if (!std::exchange(edge.found, true)) edge.mid = edge.bulge == 0 ? MidSide{(d_.band.nodes[edge.a].at + d_.band.nodes[edge.b].at) / 2, true} : mid_side(d_, edge.a, edge.b);
+            return edge.mid;
         }));
         // It is likely to be the one that fails at the next place, too.
         if (worst < enough) std::swap(elements_[0], elements_[i]);
     }
     at = home;
     return worst;
+}
+
+void CurvedStar::forget_places() {
+    for (Edge& edge : edges_) edge.found = false;
+    home_.reset();
 }
 
 bool CurvedStar::stays_sound(const Vec3& x) {

@@ -60,7 +60,7 @@ Contact edge_tools(const Deformable& d, int a, int b);
 MidSide mid_side(const Deformable& d, int a, int b);
 
 /// The second-order elements around a node of which several places are to be tried. The mid-side nodes of the edges across
-/// from it are found once, at the first; so nothing else may change from then on.
+/// from it are found once; so nothing else may change from then on.
 class CurvedStar {
 public:
     CurvedStar(Deformable& d, int node);
@@ -68,6 +68,9 @@ public:
     /// Smallest curved_ratio() of the elements, were the node at `x`; 1 if they are straight, -1 if a mid-side node does not
     /// fit. Looks no further once it is below `enough`. Moves the node there and back.
     double worst(const Vec3& x, double enough = -std::numeric_limits<double>::infinity());
+
+    /// Neighbours have moved: their mid-side nodes are to be found anew.
+    void forget_places();
 
     /// Whether the elements stay sound when the node moves to `x` from where it is.
     bool stays_sound(const Vec3& x);
@@ -78,17 +81,25 @@ private:
     struct Element {
         std::size_t corners;
         std::array<int, 4> corner;
-        std::array<int, 6> mid;  // places in mids_
+        std::array<int, 6> edge;  // places in edges_
+        double bulges;            // sum of theirs
     };
+    struct Edge {
+        int a, b;
+        bool at_node;  // its mid-side node moves with the node
+        bool found;    // whether `mid` is that of the place tried
+        double bulge;  // farthest_bulge()
+        MidSide mid;
+    };
+    bool is_surely_sound(const Element& e, const Vec3& x) const;
+
     Deformable& d_;
     int node_;
     bool gathered_ = false;
-    std::vector<Element> elements_;
-    std::vector<int> spokes_;      // the far ends of the edges at the node
-    std::vector<MidSide> mids_;    // of the spokes, then of the edges across
-    std::vector<char> found_;      // which spokes' are those of the place tried
-    std::optional<Vec3> home_;     // for which at_home_ holds
-    double at_home_ = 0;           // worst() where the node is
+    std::vector<Element> elements_;  // but those whose edges are all straight
+    std::vector<Edge> edges_;        // around the node
+    std::optional<Vec3> home_;       // for which at_home_ holds
+    double at_home_ = 0;             // worst() where the node is
 };
 
 /// Where to look at an element's Jacobian: integration_ratio() or curved_ratio().

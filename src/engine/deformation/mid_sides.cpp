@@ -11,7 +11,7 @@ MidSides::MidSides(const BandMesh& band, const Mesh& mesh, double rounding) : an
         const Vec3 &a = band.nodes[static_cast<int>(key >> 32)].at, &b = band.nodes[static_cast<int>(key & 0xffffffffu)].at;
         const Vec3 bulge = mesh.points[mid] - (a + b) / 2;
         // Text files round: what is straight to nine digits is straight.
-        if (bulge.norm() > std::max(1e-8 * (a - b).norm(), rounding)) bulges_.emplace(key, bulge);
+        if (bulge.norm() > std::max(1e-8 * (a - b).norm(), rounding)) set_bulge(static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu), bulge);
     }
 }
 

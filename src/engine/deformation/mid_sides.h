@@ -27,6 +27,9 @@ public:
         return it == bulges_.end() ? Vec3(Vec3::Zero()) : it->second;
     }
 
+    /// Whether the edge a-b may have one: quicker, and true for some straight edges.
+    bool may_bulge(int a, int b) const { return ends_bulge(a) && ends_bulge(b); }
+
     /// Bulges of the edges between node `p`, at the fraction t of the edge a-b, and a third node c of a face a-b-c.
     Vec3 bulge_across(int a, int b, int c, double t) const {
         return (1 - t) * bulge(a, c) + t * bulge(b, c) - t * (1 - t) * bulge(a, b);
@@ -37,7 +40,10 @@ public:
 
     void set_bulge(int a, int b, const Vec3& bulge) {
         if (bulge.isZero(0)) bulges_.erase(edge_key(a, b));
-        else bulges_[edge_key(a, b)] = bulge;
+        else {
+            bulges_[edge_key(a, b)] = bulge;
+            mark_ends(a, b);
+        }
     }
 
     /// Moves the mid-side node of an edge of the input: it is to be written although the edge's ends stay.
@@ -60,7 +66,14 @@ public:
     const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
 
 private:
+    bool ends_bulge(int node) const { return node < static_cast<int>(end_of_bulge_.size()) && end_of_bulge_[node] != 0; }
+    void mark_ends(int a, int b) {
+        end_of_bulge_.resize(std::max(end_of_bulge_.size(), static_cast<std::size_t>(std::max(a, b)) + 1), 0);
+        end_of_bulge_[a] = end_of_bulge_[b] = 1;
+    }
+
     bool any_ = false;
+    std::vector<char> end_of_bulge_;  // by node
     std::unordered_map<std::uint64_t, Vec3> bulges_, mended_;
 };
 

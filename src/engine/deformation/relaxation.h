@@ -24,6 +24,7 @@ struct Deformable {
     std::vector<char> off_tool;        ///< by node: it may slide, but is not to be put on a tool
     double tolerance = 0;              ///< ConstraintOptions::tolerance
     double rounding = 0;               ///< ConstraintOptions::rounding
+    long visits = 0;                   ///< how often relaxation has tried to move a node: a measure of its work that does not depend on the machine
     std::vector<double> held_off;      ///< by node: how far off its tools it may be, as it is held beside them; see hold_beside()
 
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
@@ -94,5 +95,8 @@ struct RelaxationOptions {
 /// Only `movable` nodes move, only near elements worse than the target, and no step makes a node's
 /// objective worse, so nothing inverts. Returns the number of node moves.
 long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options = {});
+
+/// The same after a change: begins at the movable nodes near it and spreads to others as far as nodes move.
+long relax_from(Deformable& d, const std::vector<int>& near, const std::vector<int>& movable, const RelaxationOptions& options = {});
 
 }  // namespace femscalpel

@@ -80,6 +80,24 @@ void BandMesh::neighbours(int node, std::vector<int>& out) const {
     out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
+std::vector<int> BandMesh::nodes_near(std::vector<int> nodes, int rings) const {
+    const auto tidy = [](std::vector<int>& list) {
+        std::ranges::sort(list);
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    std::vector<int> around, all;
+    for (tidy(nodes); rings > 0; --rings) {
+        all = nodes;
+        for (const int v : nodes) {
+            neighbours(v, around);
+            all.insert(all.end(), around.begin(), around.end());
+        }
+        tidy(all);
+        nodes.swap(all);
+    }
+    return nodes;
+}
+
 double BandMesh::mean_edge_length(int node) const {
     // Every edge counts as often as elements hold it: cheaper than finding each once, and as good a scale.
     double sum = 0;

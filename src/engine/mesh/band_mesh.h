@@ -191,6 +191,9 @@ public:
     /// Nodes joined to `node` by an edge of an element (tetrahedron, triangle or segment), each once.
     void neighbours(int node, std::vector<int>& out) const;
 
+    /// The nodes within so many edges of some, ascending.
+    std::vector<int> nodes_near(std::vector<int> nodes, int rings) const;
+
     /// Mean length of the edges at a node.
     double mean_edge_length(int node) const;
 };

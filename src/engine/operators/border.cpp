@@ -168,7 +168,12 @@ private:
             check_cancelled();
             if (!crosses(c.node)) continue;
             const Contact tools = d_.contact[c.node].with(&side_at(band_.nodes[c.node].at));
-            if (snap(c.node, c.length, tools) || !is_beside(value_[c.node], reach_beyond(c.node), f_.part_to_hold(c.node))) continue;
+            if (snap(c.node, c.length, tools)) continue;
+            const double reach = reach_beyond(c.node);
+            if (!is_beside(value_[c.node], reach, f_.part_to_hold(c.node))) {
+                if (is_beside(value_[c.node], reach, along_beside)) f_.passed[c.node] = std::abs(value_[c.node]) / reach;
+                continue;
+            }
             d_.hold_beside(c.node, tools);
             value_[c.node] = 0;
         }

@@ -33,7 +33,7 @@ public:
                 if (target < 0) continue;
                 any = true;
                 touched_.push_back(target);
-                for (const int v : nodes_near({target}, 3)) in_vain[v] = 0;
+                for (const int v : band_.nodes_near({target}, 3)) in_vain[v] = 0;
             }
         return any;
     }
@@ -44,7 +44,7 @@ public:
         std::size_t allowance = 16 + f_.nodes.size() / 8;
         for (const auto& [quality, v] : bad_elements(limit)) {
             check_cancelled();
-            if (allowance-- == 0) break;
+            if (allowance-- == 0 || band_.tetras.size() + band_.triangles.size() >= f_.most_elements) break;
             const int corners = v[3] < 0 ? 3 : 4;
             int a = -1, b = -1;
             double longest = 0;
@@ -72,13 +72,8 @@ public:
         return any;
     }
 
-    /// Of some nodes, those within a few edges of what was merged and born since the last call.
-    std::vector<int> near_changes(const std::vector<int>& nodes) {
-        const std::vector<int> near = nodes_near(std::exchange(touched_, {}), 2);
-        std::vector<int> out;
-        std::ranges::copy_if(nodes, std::back_inserter(out), [&](int v) { return std::ranges::binary_search(near, v); });
-        return out;
-    }
+    /// The nodes that were born, and those that others were merged into, since the last call.
+    std::vector<int> changes() { return std::exchange(touched_, {}); }
 
     /// Whether most elements of the band are worse than `limit`.
     bool most_below(double limit) const {
@@ -201,25 +196,6 @@ private:
         return worst;
     }
 
-    /// The nodes within so many edges of some, ascending.
-    std::vector<int> nodes_near(std::vector<int> near, int rings) const {
-        const auto tidy = [](std::vector<int>& nodes) {
-            std::ranges::sort(nodes);
-            nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        };
-        std::vector<int> around, all;
-        for (tidy(near); rings > 0; --rings) {
-            all = near;
-            for (const int v : near) {
-                band_.neighbours(v, around);
-                all.insert(all.end(), around.begin(), around.end());
-            }
-            tidy(all);
-            near.swap(all);
-        }
-        return near;
-    }
-
     /// Merges p into the neighbour that makes the elements around it best; that neighbour, or -1 if none makes them better.
     int try_merge(int p) {
         check_cancelled();
@@ -256,15 +232,12 @@ void improve(Interface& f, const Tool& tool, double goal) {
     // Where borders are everywhere, or the mesh is thin in one direction, most elements are too poor ever to be left alone: only what
     // changed can gain.
     const bool locally = held_inside(f).nearly_all_on_borders() || improver.most_below(goal);
-    const auto relax_again = [&] {
-        find_node_sets(f);
-        const std::vector<int> nodes = movable_nodes(f);
-        relax(f.d, locally ? improver.near_changes(nodes) : nodes);
-    };
-    for (int round = 0; round < 4 && improver.merge_nodes(goal); ++round) relax_again();
+    const auto relax_again = [&] { relax_near(f, improver.changes(), locally); };
+    const auto may_go_on = [&] { return f.d.visits < f.most_visits; };
+    for (int round = 0; round < 4 && may_go_on() && improver.merge_nodes(goal); ++round) relax_again();
     // Splitting must pay: two rounds without gain end it.
     double best = improver.shortfall(split_below);
-    for (int round = 0, idle = 0; round < split_rounds && idle < 2 && improver.split_long_edges(split_below); ++round) {
+    for (int round = 0, idle = 0; round < split_rounds && idle < 2 && may_go_on() && improver.split_long_edges(split_below); ++round) {
         relax_again();
         if (improver.merge_nodes(goal)) relax_again();
         const double now = improver.shortfall(split_below);

@@ -61,6 +61,14 @@ std::vector<int> movable_nodes(const Interface& f) {
     return out;
 }
 
+void relax_near(Interface& f, const std::vector<int>& changed, bool only_there) {
+    find_node_sets(f);
+    const std::vector<int> movable = movable_nodes(f), all_near = f.d.band.nodes_near(changed, 2);
+    std::vector<int> near;
+    std::ranges::set_intersection(movable, all_near, std::back_inserter(near));
+    relax_from(f.d, near, only_there ? near : movable);
+}
+
 void split_at_fixed_middles(Interface& f, const Blade& blade, const Mesh& mesh) {
     BandMesh& band = f.d.band;
     if (!f.d.constraints.has_fixed_middles()) return;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ inline constexpr double blade_margin = 1.5;
 
 /// The part for is_beside() up to which a node is held in any case, as elements between it and the tool could be no better than flat.
 inline constexpr double close_beside = 1e-5;
+/// The largest there is: where the tool runs along a surface that holds the node, or elements would come out so poor that they were an error.
+inline constexpr double along_beside = 0.025;
 
 /// A band in which element faces are being made to lie on tools.
 struct Interface {
@@ -59,9 +62,12 @@ struct Interface {
     Laps seconds = {};
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().
     std::function<Vec3(int, int)> mid_side = {};
+    long most_visits = std::numeric_limits<long>::max();  ///< Deformable::visits from which on nothing more is tried for better elements
+    double most_elements = std::numeric_limits<double>::infinity();  ///< of the band, from which on none is divided for better ones
     std::vector<int> released = {};          ///< nodes moved onto the tool that are beyond a bounded crack, and could not be put back
     /// By node of the input, not for all: the part for is_beside() where elements came out poor as the node was not held beside the tool.
     std::vector<double> may_hold = {};
+    std::map<int, double> passed = {};       ///< nodes that were not held, and with which `may_hold` they would be
     double part_to_hold(int node) const { return std::max(close_beside, node < static_cast<int>(may_hold.size()) ? may_hold[node] : 0.0); }
 
     struct FoldedElement {
@@ -116,6 +122,10 @@ void find_node_sets(Interface& interface);
 
 /// What relaxation may move: interface and transition nodes, and released ones; ascending.
 std::vector<int> movable_nodes(const Interface& interface);
+
+/// Relaxes anew around nodes that were born or moved since the last relaxation: those within a few edges, and others as far as that moves
+/// them, unless `only_there`. Collects the node sets anew.
+void relax_near(Interface& interface, const std::vector<int>& changed, bool only_there = false);
 
 /// The paper's 3.1.1 and 3.1.2: finds a surface of element faces (edges, for shells) near the tool between a
 /// set T1 and a set T2 of elements, then moves its nodes, the interface nodes (CI), onto the tool.

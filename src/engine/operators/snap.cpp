@@ -25,9 +25,8 @@ constexpr double snap_reach = 0.45;
 constexpr double snap_slide = 1.0;
 /// Elements worse than this after relaxation are worked on further.
 constexpr double improvement_goal = 0.45;
-/// Parts for is_beside(): where the tool runs along a surface that holds the node, or elements came out so poor that they would be an error
-/// (or poor enough to try again, along a line); and where they came out poor enough to try again.
-constexpr double along_beside = 0.025, poor_beside = 2e-3;
+/// The part for is_beside() where elements came out poor enough to try again.
+constexpr double poor_beside = 2e-3;
 /// Sine of the angle between the tool and a surface (line) up to which it runs along that.
 constexpr double along = 2e-3;
 /// Going onto the tool, a node may slide so many times its distance along what holds it before it is rather put there straight.
@@ -44,12 +43,15 @@ constexpr double second_order_quality = 0.27;
 /// Elements below this would be an error, or need one's attention: poor.h. Their nodes are rather held beside the tool.
 constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
-constexpr int polishings = 3, hard_polishings = 6;
+constexpr int polishings = 5, hard_polishings = 8;
 /// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever along a wall too thin for
 /// elements, and what is cut in the end should not be another mesh.
 constexpr double largest_growth = 4, largest_part = 1;
-/// All tries together may work on so many times the elements of the band.
-constexpr double most_work = 16;
+/// The same of dividing elements for better ones after the cut.
+constexpr double largest_part_after = 2.75;
+/// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where second-order elements
+/// make it slow.
+constexpr double fewest_visits = 1.5e5, visits_per_element = 4;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 
@@ -240,13 +242,22 @@ private:
         const NodeFreedom freedom = d_.constraints[v].freedom;
         // Beyond a line there may be room for small elements of good shape.
         if (freedom != NodeFreedom::surface && (freedom != NodeFreedom::curve || part == close_beside)) return part;
+        return runs_along(v) ? along_beside : part;
+    }
+
+    /// Whether the tool runs along what holds a node.
+    bool runs_along(int v) const {
         Eigen::Matrix3d tangents;
         const int count = d_.constraints.tangents(v, {}, band_.nodes[v].at, tangents);
-        return (tangents.leftCols(count).transpose() * tool_.normal(band_.nodes[v].at)).norm() < along ? along_beside : part;
+        return (tangents.leftCols(count).transpose() * tool_.normal(band_.nodes[v].at)).norm() < along;
     }
 
     void hold_if_beside(int v, double part) {
-        if (!is_beside(value_[v], reach_beyond(v), part)) return;
+        const double reach = reach_beyond(v);
+        if (!is_beside(value_[v], reach, part)) {
+            if (is_beside(value_[v], reach, along_beside)) f_.passed[v] = d_.constraints[v].freedom == NodeFreedom::curve && runs_along(v) ? 0 : std::abs(value_[v]) / reach;
+            return;
+        }
         d_.hold_beside(v, d_.contact[v].with(&tool_));
         value_[v] = 0;
     }
@@ -356,19 +367,20 @@ private:
 };
 
 /// Nodes born on a curved skin or tool where the curve would have spoiled an element lie on the chord at first. Now
-/// that the band is relaxed, brings them onto their surface or curve; true if any moved.
-bool fit_to_shapes(const Interface& f, Deformable& d) {
-    bool any = false;
+/// that the band is relaxed, brings them onto their surface or curve; those that moved.
+std::vector<int> fit_to_shapes(Interface& f) {
+    Deformable& d = f.d;
+    std::vector<int> moved;
     for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
         if (!d.band.in_use(v) || (d.constraints[v].freedom == NodeFreedom::free && !d.contact[v])) continue;
         Vec3 x = d.band.nodes[v].at;
-        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && f.d.off_tools(v) <= f.tolerance) continue;
-        if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && d.off_tools(v) <= f.tolerance) continue;
+        if (!d.constraints.project(v, d.contact[v], x) || x == d.band.nodes[v].at || d.is_barred(v, x)) continue;
         if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
-        any = true;
+        moved.push_back(v);
     }
-    return any;
+    return moved;
 }
 
 /// Elements of the input, by slot, and where in them something went wrong.
@@ -477,6 +489,23 @@ void refine(Interface& f, const Slots& slots, double most_elements) {
     }
 }
 
+/// Lets the nodes of poor elements be held where the tool passed them by up to `part`; false if there are none.
+bool allow_to_hold(Interface& start, const Interface& cut, double part) {
+    Slots poor;
+    poorest(cut, poor_quality, poor);
+    start.may_hold.assign(static_cast<std::size_t>(start.d.band.size()), 0);
+    bool any = false;
+    for_parts(start.d.band, poor, [&](const auto& nodes) {
+        for (const int v : nodes) {
+            start.may_hold[v] = part;
+            const auto passed = cut.passed.find(v);
+            any = any || (passed != cut.passed.end() && passed->second <= part);
+        }
+    });
+    if (!any) start.may_hold.clear();
+    return any;
+}
+
 [[noreturn]] void fail_at(const Interface& f, const Slots& slots) {
     std::ostringstream text;
     text << "no sound elements were found where the " << f.tool->kind() << " meets the skin near (";
@@ -530,9 +559,10 @@ void relax_band(Interface& f) {
     if (!f.released.empty()) relax(f.d, movable_nodes(f));
     watch.lap("deform");
     improve(f, *f.tool, improvement_goal);
-    for (int round = 0; round < 3 && fit_to_shapes(f, f.d); ++round) {
-        find_node_sets(f);
-        relax(f.d, movable_nodes(f));
+    for (int round = 0; round < 3; ++round) {
+        const std::vector<int> moved = fit_to_shapes(f);
+        if (moved.empty()) break;
+        relax_near(f, moved);
     }
     mend_curved(f, *f.tool);
     watch.lap("improve");
@@ -545,11 +575,13 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
     std::optional<Interface> best;
     double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
     bool tried_to_hold = false;
-    double work = 0;
+    start.most_elements = f.most_elements = elements + largest_part_after * static_cast<double>(mesh_elements);
+    // Deformable::visits counts on from one try to the next.
+    start.most_visits = f.most_visits = f.d.visits + static_cast<long>(fewest_visits + visits_per_element * elements);
     for (int attempt = 1, polished = 0;; ++attempt) {
         check_cancelled();
         cut(f);
-        work += element_count(f.d.band);
+        start.d.visits = f.d.visits;
         Slots bad = misfits(f);
         // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
         if (attempt > 1) check_folded_input(f, newly_folded(f, folded_elements(f, least_curved)));
@@ -569,21 +601,18 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
             if (plain && (tried_to_hold || quality >= poor_quality)) break;
             if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
         }
-        if (attempt == attempts || element_count(start.d.band) >= most_elements || work >= most_work * elements) {
+        if (attempt == attempts || element_count(start.d.band) >= most_elements || f.d.visits >= f.most_visits) {
             if (!best) fail_at(f, bad);
             break;
         }
         // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would get
         // farther into elements whose nodes are not put on it.
         std::vector<char>& off_tool = start.d.off_tool;
-        if (polish && !tried_to_hold && best_quality < poor_quality) {
+        const bool may_hold = polish && !tried_to_hold && best_quality < poor_quality;
+        if (may_hold && allow_to_hold(start, f, best_quality < hold_quality ? along_beside : poor_beside)) {
             tried_to_hold = true;
-            Slots worst;
-            poorest(f, poor_quality, worst);
-            start.may_hold.assign(static_cast<std::size_t>(start.d.band.size()), 0);
-            for_parts(start.d.band, worst, [&](const auto& nodes) {
-                for (const int v : nodes) start.may_hold[v] = best_quality < hold_quality ? along_beside : poor_beside;
-            });
+        } else if (plain && polish) {
+            break;
         } else if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
             for_parts(start.d.band, bad, [&](const auto& nodes) {
                 for (const int v : nodes) off_tool[v] = 1;
