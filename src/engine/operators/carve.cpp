@@ -72,9 +72,11 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
                 // No deeper than the chords of the wall are, either: what is deeper was to be removed.
                 if (body.depth(middle) >= -std::min(deepest_bulge * radius, longest / (8 * radius))) continue;
                 std::ostringstream message;
+                const double edge = std::sqrt(longest);
                 message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius " << radius << " near (" << middle.transpose()
-                        << "): elements would reach deep into it. Refine the mesh there first, to edges of at most " << radius
-                        << ", or less where the tool would leave only a thin layer of material";
+                        << "): an element with edges of " << edge << " would reach deep into it. Refine the mesh there first, to edges of at most "
+                        << std::min(radius, edge / 2);
+                if (edge <= radius) message << ", or move the tool: it may nearly touch a border or the skin there, and leave only a thin layer of material";
                 throw ToolError(message.str());
             }
         };

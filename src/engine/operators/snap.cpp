@@ -507,13 +507,17 @@ bool allow_to_hold(Interface& start, const Interface& cut, double part) {
 }
 
 [[noreturn]] void fail_at(const Interface& f, const Slots& slots) {
-    std::ostringstream text;
-    text << "no sound elements were found where the " << f.tool->kind() << " meets the skin near (";
-    bool first = true;
+    std::optional<Vec3> place;
+    bool skin = false;
     for_parts(f.d.band, slots, [&](const auto& nodes) {
-        if (std::exchange(first, false)) text << f.d.band.nodes[nodes[0]].start.transpose();
+        if (!place) place = f.d.band.nodes[nodes[0]].start;
+        skin = skin || std::ranges::any_of(nodes, [&](int v) { return f.d.constraints.is_exterior(v); });
     });
-    text << "): the mesh is too coarse there, or only a thin layer of material is left. Move the " << f.tool->kind() << " a little, or refine the mesh";
+    std::ostringstream text;
+    text << "no sound elements were found where the " << f.tool->kind() << (skin ? " meets the skin" : " passes inside the material");
+    if (place) text << " near (" << place->transpose() << ")";
+    text << ": the mesh is too coarse there, or only a thin layer of material is left" << (skin ? "" : " between it and a border") << ". Move the "
+         << f.tool->kind() << " a little, or refine the mesh";
     throw QualityError(text.str());
 }
 
@@ -591,7 +595,8 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
             const double quality = poorest(f, std::max(1.5 * poor_quality, enough), bad);
             if (quality >= enough) return;
             polish = true;
-            if (quality > best_quality) {
+            const bool too_many = element_count(f.d.band) - elements > (largest_growth - 1) * static_cast<double>(mesh_elements);
+            if (quality > best_quality && !(too_many && best && best_quality >= hold_quality)) {
                 best_quality = quality;
                 best = f;
             } else {

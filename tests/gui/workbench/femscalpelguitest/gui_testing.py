@@ -35,10 +35,21 @@ def spin(seconds=0.05):
         time.sleep(0.005)
 
 
+class NotShown(AssertionError):
+    """There is no such widget to be seen, perhaps not yet."""
+
+
 def wait_until(condition, what):
-    """Lets the window work until condition() holds; fails with `what` when it never does."""
+    """Lets the window work until condition() holds; fails with `what` when it never does. A widget that is hidden meanwhile is waited for."""
     end = time.monotonic() + PATIENCE
-    while not condition():
+
+    def holds():
+        try:
+            return condition()
+        except NotShown:
+            return False
+
+    while not holds():
         if time.monotonic() > end:
             raise AssertionError(f"waited in vain for {what}")
         spin(0.01)
@@ -48,7 +59,7 @@ def widget(name, parent=None):
     """The visible widget of that object name."""
     found = [w for w in (parent or FreeCADGui.getMainWindow()).findChildren(QtGui.QWidget, name) if w.isVisible()]
     if not found:
-        raise AssertionError(f"no visible widget '{name}'")
+        raise NotShown(f"no visible widget '{name}'")
     return found[-1]
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The guided tour of resources/docs/tour.md, step by step; its pictures are these screenshots, scaled down."""
 
+import femmesh_bridge
+import femscalpel as fs
 import FreeCADGui
 
 from .gui_testing import *  # noqa: F403
@@ -16,8 +18,10 @@ class Tour(GuiTest):
         FreeCADGui.Selection.clearSelection()
         self.run_command("FemScalpel_Crack")
         self.wait_for_preview()
-        enter_plane((6.2, 2.5, 2.0), (1.0, 0.25, 0.15))
-        wait_until(lambda: points_drawn("FemScalpelMoved") > 0, "the preview of the tilted plane")
+        plane = (6.2, 2.5, 2.0), (1.0, 0.25, 0.15)
+        enter_plane(*plane)
+        moved = fs.crack(femmesh_bridge.from_femmesh(self.doc.Bracket.FemMesh), fs.Plane(*plane)).report.nodes_moved
+        wait_until(lambda: widget("status").text().startswith(f"{moved} ") and points_drawn("FemScalpelMoved") == moved, "the preview of the tilted plane")
         screenshot("tour_2_crack")
         choose("colouring", "groups")
         click_row("groups", "CORE")
