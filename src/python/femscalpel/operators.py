@@ -346,7 +346,8 @@ def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: floa
 def _near(near) -> tuple:
     """(tools, points) of refine()'s parameter."""
     none = np.empty((0, 3))
-    message = f"near must be a tool, a sequence of tools or an array of points of shape (n, 3), not {_arguments.describe(near)}"
+    given = _arguments.describe(near)
+    message = f"near must be a tool, a sequence of tools or an array of points of shape (n, 3), not {given}"
     if isinstance(near, Tool):
         return [near], none
     if isinstance(near, (list, tuple)) and any(isinstance(t, Tool) for t in near):

@@ -147,7 +147,8 @@ class Torus(_engine.Torus):
     distance = _distance
 
     def __repr__(self) -> str:
-        return f"Torus(center={self.center}, axis={self.axis}, major_radius={self.major_radius}, minor_radius={self.minor_radius})"
+        radii = f"major_radius={self.major_radius}, minor_radius={self.minor_radius}"
+        return f"Torus(center={self.center}, axis={self.axis}, {radii})"
 
 
 class Cone(_engine.Cone):
