@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What in a document uses the groups of a mesh."""
 
-# FreeCAD's solver writers take a mesh's group for an object of the analysis when it is called like the object with one of these.
+# FreeCAD's solver writers take a mesh's group for an object of the analysis when it is called like the object with one
+# of these.
 _SUFFIXES = ("_Nodes", "_Edges", "_Faces", "_Volumes")
 
 

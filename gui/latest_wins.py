@@ -9,12 +9,14 @@ from PySide import QtCore
 
 import femscalpel
 
-#: Work that has run so many seconds makes room for newer work; what is quicker is finished, so that something is seen while one drags.
+#: Work that has run so many seconds makes room for newer work; what is quicker is finished, so that something is seen
+#: while one drags.
 PATIENCE = 1.0
 
 
 class LatestWins(QtCore.QObject):
-    """Runs functions off the GUI thread, one at a time; of those that wait, only the newest, for which one that takes long is cancelled.
+    """Runs functions off the GUI thread, one at a time; of those that wait, only the newest, for which one that takes
+    long is cancelled.
 
     Calls finished(ticket, value) or failed(ticket, error) on the GUI thread. `ticket` is what request() returned.
     """
@@ -35,7 +37,8 @@ class LatestWins(QtCore.QObject):
         self._thread.start()
 
     def request(self, function):
-        """Has `function` called without arguments as soon as the thread is free. Returns its ticket, a growing number."""
+        """Has `function` called without arguments as soon as the thread is free. Returns its ticket, a growing
+        number."""
         with self._wake:
             self._last += 1
             self._waiting = (self._last, function)

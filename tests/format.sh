@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Formats the code: clang-format for C++, black for Python (as resources/debian-packages.txt installs them: other versions differ in details).
-# With --check says what is not formatted and what has lines of over 120 columns, and changes nothing. Files may be named; all otherwise.
+# Formats the code: clang-format for C++, black for Python (as resources/debian-packages.txt installs them: other
+# versions differ in details). With --check says what is not formatted and what has lines of over 120 columns, and
+# changes nothing. Files may be named; all otherwise.
 set -eu
 cd "$(dirname "$0")/.."
 check=
@@ -30,5 +31,6 @@ fi
 if [ -n "$python" ]; then
     if [ -n "$check" ]; then black --quiet --check --diff $python || status=1; else black --quiet $python; fi
 fi
-[ -z "$long" ] || awk 'length > 120 { print FILENAME ":" FNR ": " length " columns"; bad = 1 } END { exit bad }' $long || status=1
+[ -z "$long" ] || awk 'length > 120 { print FILENAME ":" FNR ": " length " columns"; bad = 1 }
+    END { exit bad }' $long || status=1
 exit $status

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """FreeCAD runs this file when it starts. It has put this folder on sys.path by then, so that scripts, macros and saved
-documents can import ObjectsFemScalpel, femmesh_bridge and femscalpel; nothing else needs to be set up but FreeCAD's list of
-tests."""
+documents can import ObjectsFemScalpel, femmesh_bridge and femscalpel; nothing else needs to be set up but FreeCAD's
+list of tests."""
 
 import FreeCAD
 

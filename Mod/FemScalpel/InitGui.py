@@ -10,12 +10,14 @@ class FemScalpelWorkbench(FreeCADGui.Workbench):
 
     def __init__(self):
         from femscalpelgui.translate import icon, translate
+
         self.__class__.MenuText = "FemScalpel"
         self.__class__.ToolTip = translate("FemScalpel", "Cracks, drills and cuts FEM meshes and keeps their groups")
         self.__class__.Icon = icon("FemScalpel")
 
     def Initialize(self):
         from femscalpelgui import commands
+
         toolbar, menu = commands.register()
         self.appendToolbar("FemScalpel", toolbar)
         self.appendMenu("&FemScalpel", menu)

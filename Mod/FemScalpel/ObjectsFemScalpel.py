@@ -27,9 +27,24 @@ if FreeCAD.GuiUp:
     from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
 
 
-def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=None, method="snap", transition=0,
-              group_name="CRACK", feature_angle=30.0, preserve=None, patch="Whole", patch_radius=1.0, patch_second_radius=0.5,
-              patch_corners=(), refine=None):
+def makeCrack(
+    doc,
+    source,
+    name="Crack",
+    placement=None,
+    origin=None,
+    normal=None,
+    method="snap",
+    transition=0,
+    group_name="CRACK",
+    feature_angle=30.0,
+    preserve=None,
+    patch="Whole",
+    patch_radius=1.0,
+    patch_second_radius=0.5,
+    patch_corners=(),
+    refine=None,
+):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane or a part of it.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
@@ -58,15 +73,15 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     preserve : names of mesh groups, optional
         The groups whose border keeps its shape; all when not given. Borders of others may drift.
     patch : {"Whole", "Disk", "Ellipse", "Polygon", "HalfPlane"}
-        The part of the plane that cracks; its border is the crack front, group ``group_name_FRONT``. Disk and ellipse have
-        their centre at the placement's origin, the half plane is on the side of the placement's x axis.
+        The part of the plane that cracks; its border is the crack front, group ``group_name_FRONT``. Disk and ellipse
+        have their centre at the placement's origin, the half plane is on the side of the placement's x axis.
     patch_radius, patch_second_radius : float
         Of a disk; of an ellipse along the placement's x and y axis. In mm.
     patch_corners : sequence of App.Vector or (x, y) or (x, y, z)
         Of a polygon, in order around it, in the placement's own axes; z does not count.
     refine : None, False or float
-        Whether elements near the tool are divided first: None: where the tool is finer than the mesh; False: never; a number:
-        where edges are longer than so many mm.
+        Whether elements near the tool are divided first: None: where the tool is finer than the mesh; False: never; a
+        number: where edges are longer than so many mm.
 
     Returns
     -------
@@ -83,48 +98,139 @@ def makeCrack(doc, source, name="Crack", placement=None, origin=None, normal=Non
     _check_source(doc, source)
     plane = _placement(source, placement, origin, normal, "normal")
     corners = [FreeCAD.Vector(*tuple(corner)[:2], 0) for corner in patch_corners]
-    return _make(doc, Crack, source, name, PlanePlacement=plane, Patch=patch, PatchRadius=patch_radius,
-                 PatchSecondRadius=patch_second_radius, PatchCorners=corners, Method=method, Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
+    return _make(
+        doc,
+        Crack,
+        source,
+        name,
+        PlanePlacement=plane,
+        Patch=patch,
+        PatchRadius=patch_radius,
+        PatchSecondRadius=patch_second_radius,
+        PatchCorners=corners,
+        Method=method,
+        Transition=transition,
+        GroupName=group_name,
+        FeatureAngle=feature_angle,
+        PreservedGroups=_preserved(preserve),
+        **_refinement(refine),
+    )
 
 
-def makeCylindricalCrack(doc, source, name="CylindricalCrack", placement=None, origin=None, axis=None, radius=1.0, method="snap",
-                         transition=0, group_name="CRACK", feature_angle=30.0, preserve=None, along=None, angles=(0, 360),
-                         refine=None):
+def makeCylindricalCrack(
+    doc,
+    source,
+    name="CylindricalCrack",
+    placement=None,
+    origin=None,
+    axis=None,
+    radius=1.0,
+    method="snap",
+    transition=0,
+    group_name="CRACK",
+    feature_angle=30.0,
+    preserve=None,
+    along=None,
+    angles=(0, 360),
+    refine=None,
+):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder or a part of it.
 
-    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. With `along`, two
-    numbers, it cracks from there to there on the axis, measured from the placement's origin; then `angles`, in degrees from
-    the placement's x axis, can bound it too. The lip ``_P`` is outside. Everything else is as for makeCrack().
+    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. With `along`,
+    two numbers, it cracks from there to there on the axis, measured from the placement's origin; then `angles`, in
+    degrees from the placement's x axis, can bound it too. The lip ``_P`` is outside. Everything else is as for
+    makeCrack().
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
     low, high = (0, 1) if along is None else along
-    return _make(doc, CylindricalCrack, source, name, AxisPlacement=placement, Radius=radius, Bounded=along is not None, Low=low,
-                 High=high, StartAngle=angles[0], EndAngle=angles[1], Method=method, Transition=transition,
-                 GroupName=group_name, FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
+    return _make(
+        doc,
+        CylindricalCrack,
+        source,
+        name,
+        AxisPlacement=placement,
+        Radius=radius,
+        Bounded=along is not None,
+        Low=low,
+        High=high,
+        StartAngle=angles[0],
+        EndAngle=angles[1],
+        Method=method,
+        Transition=transition,
+        GroupName=group_name,
+        FeatureAngle=feature_angle,
+        PreservedGroups=_preserved(preserve),
+        **_refinement(refine),
+    )
 
 
-def makeCurvedCrack(doc, source, name="CurvedCrack", tool="Sphere", placement=None, origin=None, axis=None, radius=1.0,
-                    tube_radius=0.25, half_angle=30.0, method="snap", transition=0, group_name="CRACK", feature_angle=30.0,
-                    preserve=None, face=None, refine=None):
+def makeCurvedCrack(
+    doc,
+    source,
+    name="CurvedCrack",
+    tool="Sphere",
+    placement=None,
+    origin=None,
+    axis=None,
+    radius=1.0,
+    tube_radius=0.25,
+    half_angle=30.0,
+    method="snap",
+    transition=0,
+    group_name="CRACK",
+    feature_angle=30.0,
+    preserve=None,
+    face=None,
+    refine=None,
+):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a curved tool.
 
-    `tool` is "Cylinder", "Sphere", "Torus", "Cone" or "Face"; see the classes of that name in femscalpel. Its centre and axis
-    are `origin` and `axis`, or origin and z axis of `placement`. `radius` is that of a cylinder or sphere, of a torus' ring,
-    of a cone at its origin; `tube_radius` that of a torus' tube; `half_angle`, in degrees, is a cone's. `face` is for "Face":
-    a document object with a shape, or (object, names of its faces). The lip ``_P`` is outside, or on the side a face's
-    normals point to. Everything else is as for makeCrack().
+    `tool` is "Cylinder", "Sphere", "Torus", "Cone" or "Face"; see the classes of that name in femscalpel. Its centre
+    and axis are `origin` and `axis`, or origin and z axis of `placement`. `radius` is that of a cylinder or sphere, of
+    a torus' ring, of a cone at its origin; `tube_radius` that of a torus' tube; `half_angle`, in degrees, is a cone's.
+    `face` is for "Face": a document object with a shape, or (object, names of its faces). The lip ``_P`` is outside, or
+    on the side a face's normals point to. Everything else is as for makeCrack().
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
-    return _make(doc, CurvedCrack, source, name, ToolShape=tool, ToolFace=_link(face), AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
-                 HalfAngle=half_angle, Method=method, Transition=transition, GroupName=group_name, FeatureAngle=feature_angle,
-                 PreservedGroups=_preserved(preserve), **_refinement(refine))
+    return _make(
+        doc,
+        CurvedCrack,
+        source,
+        name,
+        ToolShape=tool,
+        ToolFace=_link(face),
+        AxisPlacement=placement,
+        Radius=radius,
+        TubeRadius=tube_radius,
+        HalfAngle=half_angle,
+        Method=method,
+        Transition=transition,
+        GroupName=group_name,
+        FeatureAngle=feature_angle,
+        PreservedGroups=_preserved(preserve),
+        **_refinement(refine),
+    )
 
 
-def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None, radius=1.0, depth=None, positions=(),
-              method="snap", transition=0, group_name="HOLE", feature_angle=30.0, preserve=None, refine=None):
+def makeDrill(
+    doc,
+    source,
+    name="Drill",
+    placement=None,
+    origin=None,
+    axis=None,
+    radius=1.0,
+    depth=None,
+    positions=(),
+    method="snap",
+    transition=0,
+    group_name="HOLE",
+    feature_angle=30.0,
+    preserve=None,
+    refine=None,
+):
     """Adds a parametric mesh object to `doc`: the mesh of `source` with one or several parallel holes.
 
     Parameters
@@ -148,14 +254,42 @@ def makeDrill(doc, source, name="Drill", placement=None, origin=None, axis=None,
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
-    return _make(doc, Drill, source, name, AxisPlacement=placement, Radius=radius, Positions=[FreeCAD.Vector(*p) for p in positions],
-                 Through=depth is None, Depth=depth or 0, Method=method, Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
+    return _make(
+        doc,
+        Drill,
+        source,
+        name,
+        AxisPlacement=placement,
+        Radius=radius,
+        Positions=[FreeCAD.Vector(*p) for p in positions],
+        Through=depth is None,
+        Depth=depth or 0,
+        Method=method,
+        Transition=transition,
+        GroupName=group_name,
+        FeatureAngle=feature_angle,
+        PreservedGroups=_preserved(preserve),
+        **_refinement(refine),
+    )
 
 
-def makeCut(doc, source, name="Cut", placement=None, origin=None, normal=None, width=1.0, bottom=None, transition=0, group_name="CUT",
-            feature_angle=30.0, preserve=None, refine=None):
-    """Adds a parametric mesh object to `doc`: the mesh of `source` with a slot, an incision between two parallel planes.
+def makeCut(
+    doc,
+    source,
+    name="Cut",
+    placement=None,
+    origin=None,
+    normal=None,
+    width=1.0,
+    bottom=None,
+    transition=0,
+    group_name="CUT",
+    feature_angle=30.0,
+    preserve=None,
+    refine=None,
+):
+    """Adds a parametric mesh object to `doc`: the mesh of `source` with a slot, an incision between two parallel
+    planes.
 
     Parameters
     ----------
@@ -166,8 +300,8 @@ def makeCut(doc, source, name="Cut", placement=None, origin=None, normal=None, w
     width : float
         Of the slot, in mm.
     bottom : App.Placement, optional
-        The slot ends at the XY plane of this placement, whose z axis points into the material that stays; it goes through
-        the whole part when not given.
+        The slot ends at the XY plane of this placement, whose z axis points into the material that stays; it goes
+        through the whole part when not given.
     group_name : str
         Prefix of the new mesh groups: ``_P`` and ``_N``, the walls, and ``_BOTTOM``; see femscalpel.cut.
 
@@ -175,31 +309,72 @@ def makeCut(doc, source, name="Cut", placement=None, origin=None, normal=None, w
     """
     _check_source(doc, source)
     plane = _placement(source, placement, origin, normal, "normal")
-    return _make(doc, Cut, source, name, PlanePlacement=plane, Width=width, Through=bottom is None,
-                 BottomPlacement=bottom or FreeCAD.Placement(), Transition=transition, GroupName=group_name,
-                 FeatureAngle=feature_angle, PreservedGroups=_preserved(preserve), **_refinement(refine))
+    return _make(
+        doc,
+        Cut,
+        source,
+        name,
+        PlanePlacement=plane,
+        Width=width,
+        Through=bottom is None,
+        BottomPlacement=bottom or FreeCAD.Placement(),
+        Transition=transition,
+        GroupName=group_name,
+        FeatureAngle=feature_angle,
+        PreservedGroups=_preserved(preserve),
+        **_refinement(refine),
+    )
 
 
-def makeRefine(doc, source, name="Refine", tool="Cylinder", placement=None, origin=None, axis=None, radius=1.0, tube_radius=0.25,
-               half_angle=30.0, size=1.0, reach=0.0, gradation=0.5, feature_angle=30.0, face=None):
+def makeRefine(
+    doc,
+    source,
+    name="Refine",
+    tool="Cylinder",
+    placement=None,
+    origin=None,
+    axis=None,
+    radius=1.0,
+    tube_radius=0.25,
+    half_angle=30.0,
+    size=1.0,
+    reach=0.0,
+    gradation=0.5,
+    feature_angle=30.0,
+    face=None,
+):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, with edges no longer than `size` mm around a tool.
 
-    The tool is as for makeCurvedCrack(), or "Plane", with `axis` as its normal. `size` holds up to the distance `reach`;
-    beyond, edges may be longer by `gradation` per unit of distance. See femscalpel.refine.
+    The tool is as for makeCurvedCrack(), or "Plane", with `axis` as its normal. `size` holds up to the distance
+    `reach`; beyond, edges may be longer by `gradation` per unit of distance. See femscalpel.refine.
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
-    return _make(doc, Refine, source, name, ToolShape=tool, ToolFace=_link(face), AxisPlacement=placement, Radius=radius, TubeRadius=tube_radius,
-                 HalfAngle=half_angle, Size=size, Reach=reach, Gradation=gradation, FeatureAngle=feature_angle)
+    return _make(
+        doc,
+        Refine,
+        source,
+        name,
+        ToolShape=tool,
+        ToolFace=_link(face),
+        AxisPlacement=placement,
+        Radius=radius,
+        TubeRadius=tube_radius,
+        HalfAngle=half_angle,
+        Size=size,
+        Reach=reach,
+        Gradation=gradation,
+        FeatureAngle=feature_angle,
+    )
 
 
 def putIntoAnalysis(obj, strict=True):
     """Puts `obj` into the FEM analysis its source mesh is in, in the source's place, and returns the analysis.
 
-    A FreeCAD analysis solves the one mesh it contains. Loads, supports and materials need no change: FreeCAD finds their
-    nodes by mesh group, or by geometry, on which FemScalpel keeps the nodes. For a crack of a crack, the last mesh of the
-    chain that is in an analysis is replaced. Results of the old mesh are removed, or, if FreeCAD's preference is to keep
-    results, renamed. All this is one step to undo.
+    A FreeCAD analysis solves the one mesh it contains. Loads, supports and materials need no change: FreeCAD finds
+    their nodes by mesh group, or by geometry, on which FemScalpel keeps the nodes. For a crack of a crack, the last
+    mesh of the chain that is in an analysis is replaced. Results of the old mesh are removed, or, if FreeCAD's
+    preference is to keep results, renamed. All this is one step to undo.
 
     Raises ValueError, and changes nothing, when there is no such analysis, when `obj` has an error, and, with `strict`,
     when FreeCAD would not find all nodes a load, support or material is meant for; the message says where. With
@@ -209,7 +384,8 @@ def putIntoAnalysis(obj, strict=True):
 
 
 def takeOutOfAnalysis(obj):
-    """Undoes putIntoAnalysis(): the mesh that was replaced takes its place back. Returns the analysis. One step to undo.
+    """Undoes putIntoAnalysis(): the mesh that was replaced takes its place back. Returns the analysis. One step to
+    undo.
 
     Raises ValueError when `obj` is in no analysis.
     """
@@ -219,9 +395,9 @@ def takeOutOfAnalysis(obj):
 def renameGroup(obj, old, new, kind=None):
     """Renames a group of the mesh of `obj`, as one step to undo.
 
-    `kind` is "node" or "element"; needed only when both have the name. An element group of several dimensions is renamed
-    as a whole. Raises ValueError, and changes nothing, when there is no such group, when the new name is empty or taken,
-    or when `obj` is made by FemScalpel: its groups come from its source and from its property GroupName.
+    `kind` is "node" or "element"; needed only when both have the name. An element group of several dimensions is
+    renamed as a whole. Raises ValueError, and changes nothing, when there is no such group, when the new name is empty
+    or taken, or when `obj` is made by FemScalpel: its groups come from its source and from its property GroupName.
     """
     rename_group(obj, old, new, kind)
 
@@ -288,7 +464,8 @@ def _preserved(preserve):
 
 
 def _placement(source, placement, origin, direction, name):
-    """`placement`, or one whose z axis is `direction` through `origin`; `name` is what the caller calls the direction."""
+    """`placement`, or one whose z axis is `direction` through `origin`; `name` is what the caller calls the
+    direction."""
     if placement is not None:
         if origin is not None or direction is not None:
             raise ValueError(f"give placement, or origin and {name}, not both")

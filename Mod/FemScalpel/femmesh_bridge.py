@@ -44,7 +44,9 @@ _CHUNK = 4096
 
 _LARGEST_NUMBER = 2**31 - 1
 
-_TYPE_BY_SHAPE = {(dimension, nodes): name for name, (dimension, nodes, _) in CELL_TYPES.items() if name not in NOT_ADDABLE}
+_TYPE_BY_SHAPE = {
+    (dimension, nodes): name for name, (dimension, nodes, _) in CELL_TYPES.items() if name not in NOT_ADDABLE
+}
 
 
 def from_femmesh(femmesh):
@@ -135,8 +137,8 @@ def _elements(femmesh, dimension, element_ids):
     widths = np.empty(len(ids), np.int64)
     parts = []
     for begin in range(0, len(ids), _CHUNK):
-        rows = list(map(femmesh.getElementNodes, element_ids[begin:begin + _CHUNK]))
-        widths[begin:begin + len(rows)] = np.fromiter(map(len, rows), np.int64, len(rows))
+        rows = list(map(femmesh.getElementNodes, element_ids[begin : begin + _CHUNK]))
+        widths[begin : begin + len(rows)] = np.fromiter(map(len, rows), np.int64, len(rows))
         parts.append(np.fromiter(chain.from_iterable(rows), np.int64))
     flat = np.concatenate(parts)
     starts = np.cumsum(widths) - widths
@@ -145,8 +147,10 @@ def _elements(femmesh, dimension, element_ids):
         name = _TYPE_BY_SHAPE.get((dimension, int(width)))
         if name is None:
             raise femscalpel.ReadError(
-                f"element {ids[chosen][0]} of the FemMesh is of dimension {dimension} with {width} nodes, which femscalpel "
-                "does not have; remesh without polygons, polyhedra or elements with centre nodes")
+                f"element {ids[chosen][0]} of the FemMesh is of dimension {dimension} with {width} nodes, which "
+                f"femscalpel "
+                "does not have; remesh without polygons, polyhedra or elements with centre nodes"
+            )
         if chosen.all():
             yield name, flat.reshape(-1, width), ids
         else:
@@ -189,11 +193,17 @@ def _unused_name(name, group_type, taken):
 def _check_addable(mesh):
     for name, ids in mesh.cell_ids.items():
         if name in NOT_ADDABLE:
-            raise femscalpel.WriteError(f"a FemMesh cannot hold the {len(ids)} {name} elements of the mesh (first: {ids[0]})")
+            raise femscalpel.WriteError(
+                f"a FemMesh cannot hold the {len(ids)} {name} elements of the mesh (first: {ids[0]})"
+            )
         if ids.max() > _LARGEST_NUMBER:
-            raise femscalpel.WriteError(f"element number {ids.max()} is too large for a FemMesh, which ends at {_LARGEST_NUMBER}")
+            raise femscalpel.WriteError(
+                f"element number {ids.max()} is too large for a FemMesh, which ends at {_LARGEST_NUMBER}"
+            )
     if mesh.node_count and mesh.node_ids.max() > _LARGEST_NUMBER:
-        raise femscalpel.WriteError(f"node number {mesh.node_ids.max()} is too large for a FemMesh, which ends at {_LARGEST_NUMBER}")
+        raise femscalpel.WriteError(
+            f"node number {mesh.node_ids.max()} is too large for a FemMesh, which ends at {_LARGEST_NUMBER}"
+        )
 
 
 def _for_each(function, *columns):

@@ -23,4 +23,7 @@ def register():
     """Adds the commands to FreeCAD; returns the names for the toolbar and for the menu, "Separator" between them."""
     for command in filter(None, COMMANDS + IN_MENU):
         FreeCADGui.addCommand(command.NAME, command())
-    return [["Separator" if command is None else command.NAME for command in part] for part in (COMMANDS, COMMANDS + IN_MENU)]
+    return [
+        ["Separator" if command is None else command.NAME for command in part]
+        for part in (COMMANDS, COMMANDS + IN_MENU)
+    ]

@@ -27,7 +27,11 @@ def find_mesh():
         raise Unusable(translate("FemScalpel", "Open a document with a FEM mesh first."))
     meshes = [o for o in document.Objects if is_mesh(o)]
     if not meshes:
-        raise Unusable(translate("FemScalpel", "The document has no FEM mesh. Make one in the FEM workbench, or import a mesh file."))
+        raise Unusable(
+            translate(
+                "FemScalpel", "The document has no FEM mesh. Make one in the FEM workbench, or import a mesh file."
+            )
+        )
     selected = FreeCADGui.Selection.getSelection(document.Name)
     chosen = [o for o in selected if is_mesh(o)]
     for analysis in (o for o in selected if o.isDerivedFrom("Fem::FemAnalysis")):
@@ -35,19 +39,30 @@ def find_mesh():
     if len(chosen) > 1:
         raise Unusable(translate("FemScalpel", "Several FEM meshes are selected. Select one."))
     if not chosen and len(selected) == 1 and not hasattr(selected[0], "Shape"):
-        raise Unusable(translate("FemScalpel", "%1 is not a FEM mesh. Select the mesh in the tree.").replace("%1", selected[0].Label))
+        raise Unusable(
+            translate("FemScalpel", "%1 is not a FEM mesh. Select the mesh in the tree.").replace(
+                "%1", selected[0].Label
+            )
+        )
     if not chosen and len(meshes) > 1:
         # A chain of operations counts as its last link.
         ends = [m for m in meshes if not any(getattr(o, "Source", None) == m for o in meshes)]
         if len(ends) > 1:
-            raise Unusable(translate("FemScalpel", "The document has %1 FEM meshes. Select the one you mean in the tree.")
-                           .replace("%1", str(len(ends))))
+            raise Unusable(
+                translate("FemScalpel", "The document has %1 FEM meshes. Select the one you mean in the tree.").replace(
+                    "%1", str(len(ends))
+                )
+            )
         meshes = ends
     mesh = (chosen or meshes)[0]
     if "Invalid" in mesh.State:
-        raise Unusable(translate("FemScalpel", "%1 has an error. Mend it, or select another mesh.").replace("%1", mesh.Label))
+        raise Unusable(
+            translate("FemScalpel", "%1 has an error. Mend it, or select another mesh.").replace("%1", mesh.Label)
+        )
     if not mesh.FemMesh.NodeCount:
-        raise Unusable(translate("FemScalpel", "%1 has no mesh yet: it is empty. Make the mesh first.").replace("%1", mesh.Label))
+        raise Unusable(
+            translate("FemScalpel", "%1 has no mesh yet: it is empty. Make the mesh first.").replace("%1", mesh.Label)
+        )
     return mesh
 
 
@@ -57,7 +72,8 @@ def has_free_window():
 
 
 class Command:
-    """A command for one FEM mesh. Subclasses set NAME, MENU, TOOLTIP, WHATS_THIS, ACCEL, and PANEL or write run(mesh)."""
+    """A command for one FEM mesh. Subclasses set NAME, MENU, TOOLTIP, WHATS_THIS, ACCEL, and PANEL or write
+    run(mesh)."""
 
     NAME = MENU = TOOLTIP = WHATS_THIS = ACCEL = ICON = ""
     #: The task panel it opens.
@@ -65,9 +81,14 @@ class Command:
     CONTEXT = "FemScalpel"
 
     def GetResources(self):
-        return {"Pixmap": icon(self.ICON or self.NAME), "MenuText": translate(self.CONTEXT, self.MENU),
-                "ToolTip": translate(self.CONTEXT, self.TOOLTIP), "StatusTip": translate(self.CONTEXT, self.TOOLTIP),
-                "WhatsThis": translate(self.CONTEXT, self.WHATS_THIS), "Accel": self.ACCEL}
+        return {
+            "Pixmap": icon(self.ICON or self.NAME),
+            "MenuText": translate(self.CONTEXT, self.MENU),
+            "ToolTip": translate(self.CONTEXT, self.TOOLTIP),
+            "StatusTip": translate(self.CONTEXT, self.TOOLTIP),
+            "WhatsThis": translate(self.CONTEXT, self.WHATS_THIS),
+            "Accel": self.ACCEL,
+        }
 
     def IsActive(self):
         """With a FEM mesh in the active document and no task panel open."""
@@ -82,7 +103,9 @@ class Command:
         try:
             action()
         except Unusable as reason:
-            QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), translate(self.CONTEXT, self.MENU).replace("&", ""), str(reason))
+            QtGui.QMessageBox.warning(
+                FreeCADGui.getMainWindow(), translate(self.CONTEXT, self.MENU).replace("&", ""), str(reason)
+            )
 
     def run(self, mesh):
         """Does it."""

@@ -11,9 +11,13 @@ class Crack(Command):
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Crack")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a plane and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a "
-                      "planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the "
-                      "mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become "
-                      "groups; all other groups keep their meaning.")
+        "FemScalpel",
+        "Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a "
+        "planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview "
+        "shows the "
+        "mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips "
+        "become "
+        "groups; all other groups keep their meaning.",
+    )
     ACCEL = "S, C"
     PANEL = CrackPanel

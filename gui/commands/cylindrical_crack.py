@@ -11,8 +11,12 @@ class CylindricalCrack(Command):
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Cylindrical crack")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a cylinder and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a "
-                      "cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. "
-                      "It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.")
+        "FemScalpel",
+        "Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a "
+        "cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the "
+        "handles. "
+        "It may crack between two heights and two angles only. Elements that are large for the cylinder are divided "
+        "first.",
+    )
     ACCEL = "S, Y"
     PANEL = CylindricalCrackPanel

@@ -11,8 +11,11 @@ class Drill(Command):
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Drill")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Drills a hole into the FEM mesh and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that "
-                      "go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and "
-                      "nothing else, and the report says which.")
+        "FemScalpel",
+        "Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that "
+        "go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away "
+        "and "
+        "nothing else, and the report says which.",
+    )
     ACCEL = "S, D"
     PANEL = DrillPanel

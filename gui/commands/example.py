@@ -11,10 +11,15 @@ from .base import Command, Unusable, has_free_window
 class Example(Command):
     NAME = "FemScalpel_Example"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Example: caisson")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups "
-                      "for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.")
+        "FemScalpel",
+        "Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with "
+        "groups "
+        "for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.",
+    )
     ICON = "FemScalpel"
 
     def IsActive(self):

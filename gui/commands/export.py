@@ -15,24 +15,38 @@ from .base import Command, Unusable
 class Export(Command):
     NAME = "FemScalpel_Export"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Export mesh…")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel", "Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster "
-                      "and SALOME, inp for CalculiX, vtu for ParaView.")
+        "FemScalpel",
+        "Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster "
+        "and SALOME, inp for CalculiX, vtu for ParaView.",
+    )
     ACCEL = "S, E"
 
     def run(self, mesh):
-        filters = ";;".join((translate("FemScalpel", "MED, Code_Aster and SALOME (*.med)"), translate("FemScalpel", "CalculiX (*.inp)"),
-                             translate("FemScalpel", "ParaView (*.vtu)")))
-        path, chosen = QtGui.QFileDialog.getSaveFileName(FreeCADGui.getMainWindow(), translate("FemScalpel", "Export mesh"),
-                                                         mesh.Label + ".med", filters)
+        filters = ";;".join(
+            (
+                translate("FemScalpel", "MED, Code_Aster and SALOME (*.med)"),
+                translate("FemScalpel", "CalculiX (*.inp)"),
+                translate("FemScalpel", "ParaView (*.vtu)"),
+            )
+        )
+        path, chosen = QtGui.QFileDialog.getSaveFileName(
+            FreeCADGui.getMainWindow(), translate("FemScalpel", "Export mesh"), mesh.Label + ".med", filters
+        )
         if path:
-            self.write(mesh, path if "." in path.rsplit("/", 1)[-1] else path + chosen[chosen.index("*") + 1:-1])
+            self.write(mesh, path if "." in path.rsplit("/", 1)[-1] else path + chosen[chosen.index("*") + 1 : -1])
 
     @staticmethod
     def write(mesh, path):
         """Writes the mesh of an object; raises Unusable with the reason when that is not possible."""
-        document = "FreeCAD.ActiveDocument" if mesh.Document == FreeCAD.ActiveDocument else f"FreeCAD.getDocument({mesh.Document.Name!r})"
+        document = (
+            "FreeCAD.ActiveDocument"
+            if mesh.Document == FreeCAD.ActiveDocument
+            else f"FreeCAD.getDocument({mesh.Document.Name!r})"
+        )
         record_import()
         try:
             FreeCADGui.doCommand(f"ObjectsFemScalpel.exportMesh({document}.getObject({mesh.Name!r}), {path!r})")

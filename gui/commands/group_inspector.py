@@ -11,9 +11,13 @@ class GroupInspector(Command):
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Group inspector")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Shows the groups of a FEM mesh, what they cover and what uses them")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, "
-                      "double-click a name to rename the group and a colour to change it. Elementary groups are the entities "
-                      "that are in exactly the same groups; bounding, linking and isolated entities are what an operation must "
-                      "keep in shape.")
+        "FemScalpel",
+        "Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, "
+        "double-click a name to rename the group and a colour to change it. Elementary groups are the "
+        "entities "
+        "that are in exactly the same groups; bounding, linking and isolated entities are what an "
+        "operation must "
+        "keep in shape.",
+    )
     ACCEL = "S, G"
     PANEL = GroupInspectorPanel

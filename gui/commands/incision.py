@@ -11,9 +11,12 @@ class Incision(Command):
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cuts a slot into the FEM mesh and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, "
-                      "and whether it goes right through or down to the plane's point; the elements that go are shown as "
-                      "ghosts. The faces of the two walls become groups; groups lose what is cut "
-                      "away and nothing else, and the report says which.")
+        "FemScalpel",
+        "Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, "
+        "and whether it goes right through or down to the plane's point; the elements that go are shown "
+        "as "
+        "ghosts. The faces of the two walls become groups; groups lose what is cut "
+        "away and nothing else, and the report says which.",
+    )
     ACCEL = "S, I"
     PANEL = IncisionPanel

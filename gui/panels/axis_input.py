@@ -27,14 +27,19 @@ class AxisInput(GeometryInput):
         self._radius.set(radius)
 
     def error(self):
-        return super().error() or ("" if self.radius() > 0 else translate("FemScalpel", "The radius must be larger than 0."))
+        return super().error() or (
+            "" if self.radius() > 0 else translate("FemScalpel", "The radius must be larger than 0.")
+        )
 
     def _make_handles(self, view):
         return AxisHandles(view, self.size, self._dragged)
 
     def _ask_geometry(self):
-        return translate("FemScalpel", "Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face "
-                                       "(the axis is normal to it). Escape stops.")
+        return translate(
+            "FemScalpel",
+            "Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face "
+            "(the axis is normal to it). Escape stops.",
+        )
 
     def _from_nodes(self, points):
         return picking.axis_through(points)

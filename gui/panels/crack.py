@@ -24,13 +24,22 @@ class CrackPanel(PlanePanel):
     def add_inputs(self):
         self.part = self.insert_form("patch.ui")
         self._corners = []  # of the polygon, in the axes of placement()
-        for text, data in ((translate("FemScalpel", "The whole plane"), "Whole"), (translate("FemScalpel", "A disk"), "Disk"),
-                           (translate("FemScalpel", "An ellipse"), "Ellipse"), (translate("FemScalpel", "A half plane"), "HalfPlane"),
-                           (translate("FemScalpel", "A polygon"), "Polygon")):
+        for text, data in (
+            (translate("FemScalpel", "The whole plane"), "Whole"),
+            (translate("FemScalpel", "A disk"), "Disk"),
+            (translate("FemScalpel", "An ellipse"), "Ellipse"),
+            (translate("FemScalpel", "A half plane"), "HalfPlane"),
+            (translate("FemScalpel", "A polygon"), "Polygon"),
+        ):
             self.part.patch.addItem(text, data)
         self._radius = fields.Number(self.part.patchRadius, self._changed, self.geometry.size / 8)
         self._second = fields.Number(self.part.patchSecondRadius, self._changed, self.geometry.size / 16)
-        self._turn = Turn(self.geometry, lambda: self._patch() in TURNED, fields.Number(self.part.patchTurn, self._changed, 0, 10), self._mirror)
+        self._turn = Turn(
+            self.geometry,
+            lambda: self._patch() in TURNED,
+            fields.Number(self.part.patchTurn, self._changed, 0, 10),
+            self._mirror,
+        )
         self.part.patch.currentIndexChanged.connect(lambda *_: self._choose())
         self.geometry.picked.connect(self._take_outline)
         self._choose()
@@ -38,8 +47,11 @@ class CrackPanel(PlanePanel):
     def _choose(self):
         """Shows the fields that matter to the part chosen."""
         shown, p = self._patch(), self.part
-        for widgets, parts in (((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")), ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),
-                               ((p.turnLabel, p.patchTurn), TURNED)):
+        for widgets, parts in (
+            ((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")),
+            ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),
+            ((p.turnLabel, p.patchTurn), TURNED),
+        ):
             for widget in widgets:
                 widget.setVisible(shown in parts)
         self._changed()
@@ -94,7 +106,11 @@ class CrackPanel(PlanePanel):
             return femscalpel.HalfPlane(placement.Base, along)
         if self._patch() == "Polygon":
             if not self._corners:
-                raise femscalpel.ToolError(translate("FemScalpel", "Pick a sketch with one closed line of straight sides: that is the polygon."))
+                raise femscalpel.ToolError(
+                    translate(
+                        "FemScalpel", "Pick a sketch with one closed line of straight sides: that is the polygon."
+                    )
+                )
             return femscalpel.Polygon([placement.multVec(corner) for corner in self._corners])
         return None
 
@@ -104,7 +120,9 @@ class CrackPanel(PlanePanel):
 
     def read(self, obj):
         super().read(obj)
-        self._turn.set(turn_between(self.geometry.rotation(), obj.PlanePlacement.Rotation))  # the patch is still the whole
+        self._turn.set(
+            turn_between(self.geometry.rotation(), obj.PlanePlacement.Rotation)
+        )  # the patch is still the whole
         self._radius.set(obj.PatchRadius.Value)
         self._second.set(obj.PatchSecondRadius.Value)
         self._corners = [FreeCAD.Vector(c.x, c.y, 0) for c in obj.PatchCorners]
@@ -115,15 +133,27 @@ class CrackPanel(PlanePanel):
         if self._patch() == "Whole":
             return arguments
         del arguments["origin"], arguments["normal"]
-        shape = {"Disk": {"patch_radius": repr(self._radius.value)},
-                 "Ellipse": {"patch_radius": repr(self._radius.value), "patch_second_radius": repr(self._second.value)},
-                 "Polygon": {"patch_corners": repr([(corner.x, corner.y) for corner in self._corners])}}
-        return {"placement": self.placement_text(), "patch": repr(self._patch()), **shape.get(self._patch(), {}), **arguments}
+        shape = {
+            "Disk": {"patch_radius": repr(self._radius.value)},
+            "Ellipse": {"patch_radius": repr(self._radius.value), "patch_second_radius": repr(self._second.value)},
+            "Polygon": {"patch_corners": repr([(corner.x, corner.y) for corner in self._corners])},
+        }
+        return {
+            "placement": self.placement_text(),
+            "patch": repr(self._patch()),
+            **shape.get(self._patch(), {}),
+            **arguments,
+        }
 
     def settings(self):
         corners = ", ".join(f"FreeCAD.Vector({corner.x!r}, {corner.y!r}, 0)" for corner in self._corners)
-        return {**super().settings(), "Patch": repr(self._patch()), "PatchRadius": repr(self._radius.value),
-                "PatchSecondRadius": repr(self._second.value), "PatchCorners": f"[{corners}]"}
+        return {
+            **super().settings(),
+            "Patch": repr(self._patch()),
+            "PatchRadius": repr(self._radius.value),
+            "PatchSecondRadius": repr(self._second.value),
+            "PatchCorners": f"[{corners}]",
+        }
 
     def forget_widgets(self):
         super().forget_widgets()

@@ -24,8 +24,11 @@ class CylinderPanel(ToolPanel):
         self.geometry.set_pose(placement.Base, placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), obj.Radius.Value)
 
     def arguments(self):
-        geometry = {"origin": repr(tuple(self.geometry.origin())), "axis": repr(tuple(self.geometry.direction())),
-                    "radius": repr(self.geometry.radius())}
+        geometry = {
+            "origin": repr(tuple(self.geometry.origin())),
+            "axis": repr(tuple(self.geometry.direction())),
+            "radius": repr(self.geometry.radius()),
+        }
         return {**geometry, **super().arguments()}
 
     def settings(self):

@@ -62,12 +62,22 @@ class CylindricalCrackPanel(CylinderPanel):
         arguments["along"] = repr((self._low.value, self._high.value))
         if self._end.value - self._start.value != 360:
             del arguments["origin"], arguments["axis"]
-            arguments = {"placement": self.placement_text(), **arguments, "angles": repr((self._start.value, self._end.value))}
+            arguments = {
+                "placement": self.placement_text(),
+                **arguments,
+                "angles": repr((self._start.value, self._end.value)),
+            }
         return arguments
 
     def settings(self):
-        return {**super().settings(), "Bounded": repr(self.part.bounded.isChecked()), "Low": repr(self._low.value), "High": repr(self._high.value),
-                "StartAngle": repr(self._start.value), "EndAngle": repr(self._end.value)}
+        return {
+            **super().settings(),
+            "Bounded": repr(self.part.bounded.isChecked()),
+            "Low": repr(self._low.value),
+            "High": repr(self._high.value),
+            "StartAngle": repr(self._start.value),
+            "EndAngle": repr(self._end.value),
+        }
 
     def forget_widgets(self):
         super().forget_widgets()

@@ -63,4 +63,6 @@ class _Hole:
         out = self._cylinder.distance(points)
         if self._depth is None:
             return out
-        return np.maximum(out, (np.asarray(points) - self._cylinder.origin) @ np.array(self._cylinder.axis) - self._depth)
+        return np.maximum(
+            out, (np.asarray(points) - self._cylinder.origin) @ np.array(self._cylinder.axis) - self._depth
+        )

@@ -139,8 +139,11 @@ class GeometryInput(QtCore.QObject):
 
     def _ask(self, kind, found):
         if kind == "nodes":
-            return translate("FemScalpel", "Click node %1 of %2 on the mesh. Escape stops.") \
-                .replace("%1", str(found + 1)).replace("%2", str(self.NODES))
+            return (
+                translate("FemScalpel", "Click node %1 of %2 on the mesh. Escape stops.")
+                .replace("%1", str(found + 1))
+                .replace("%2", str(self.NODES))
+            )
         return self._ask_geometry()
 
     def _ask_geometry(self):

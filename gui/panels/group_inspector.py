@@ -44,12 +44,22 @@ class GroupInspectorPanel(InspectionPanel):
     def set_up(self):
         for text, data in zip((translate("FemScalpel", "Groups"), translate("FemScalpel", "Elementary groups")), WHAT):
             self.panel.what.addItem(text, data)
-        parts = (translate("FemScalpel", "Members"), translate("FemScalpel", "Bounding (BE)"), translate("FemScalpel", "Linking (LE)"),
-                 translate("FemScalpel", "Isolated (IE)"))
+        parts = (
+            translate("FemScalpel", "Members"),
+            translate("FemScalpel", "Bounding (BE)"),
+            translate("FemScalpel", "Linking (LE)"),
+            translate("FemScalpel", "Isolated (IE)"),
+        )
         for text, data in zip(parts, PARTS):
             self.panel.part.addItem(text, data)
-        headers = [translate("FemScalpel", "Group"), "", translate("FemScalpel", "Kind"), translate("FemScalpel", "Size"),
-                   translate("FemScalpel", "Measure"), translate("FemScalpel", "Used by")]
+        headers = [
+            translate("FemScalpel", "Group"),
+            "",
+            translate("FemScalpel", "Kind"),
+            translate("FemScalpel", "Size"),
+            translate("FemScalpel", "Measure"),
+            translate("FemScalpel", "Used by"),
+        ]
         table = self.panel.groups
         table.setColumnCount(len(headers))
         table.setHorizontalHeaderLabels(headers)
@@ -79,7 +89,9 @@ class GroupInspectorPanel(InspectionPanel):
             return
         mesh = self.source.mesh
         if self._elementary():
-            self.entries = [_Entry(" ∩ ".join(g.groups), g.kind, g.dimension, g.ids, g.groups) for g in mesh.elementary_groups()]
+            self.entries = [
+                _Entry(" ∩ ".join(g.groups), g.kind, g.dimension, g.ids, g.groups) for g in mesh.elementary_groups()
+            ]
         else:
             self.entries = [_Entry(g.name, g.kind, None, g.ids, (g.name,)) for g in mesh.groups.all()]
         self._shapes = {}
@@ -90,8 +102,14 @@ class GroupInspectorPanel(InspectionPanel):
         table.setRowCount(len(self.entries))
         for row, entry in enumerate(self.entries):
             dimension, measure = self._dimension_and_measure(entry)
-            cells = (entry.name, "", _kind(entry.kind, dimension), str(len(entry.ids)), measure,
-                     ", ".join(label for name in entry.names for label in users.get(name, ())))
+            cells = (
+                entry.name,
+                "",
+                _kind(entry.kind, dimension),
+                str(len(entry.ids)),
+                measure,
+                ", ".join(label for name in entry.names for label in users.get(name, ())),
+            )
             for column, text in enumerate(cells):
                 item = QtGui.QTableWidgetItem(text)
                 flags = QtCore.Qt.ItemIsEnabled | QtCore.Qt.ItemIsSelectable
@@ -110,8 +128,12 @@ class GroupInspectorPanel(InspectionPanel):
         table.resizeColumnsToContents()
         table.setColumnWidth(_COLOUR, 18)
         table.blockSignals(blocked)
-        self.panel.status.setText(translate("FemScalpel", "%1 groups, %2 nodes, %3 elements.").replace("%1", str(len(self.entries)))
-                               .replace("%2", str(mesh.node_count)).replace("%3", str(mesh.cell_count)))
+        self.panel.status.setText(
+            translate("FemScalpel", "%1 groups, %2 nodes, %3 elements.")
+            .replace("%1", str(len(self.entries)))
+            .replace("%2", str(mesh.node_count))
+            .replace("%3", str(mesh.cell_count))
+        )
         self._draw()
 
     def _colour(self, row):
@@ -157,7 +179,11 @@ class GroupInspectorPanel(InspectionPanel):
 
     def ticked(self):
         """Rows whose box is ticked."""
-        return [row for row in range(self.panel.groups.rowCount()) if self.panel.groups.item(row, _NAME).checkState() == QtCore.Qt.Checked]
+        return [
+            row
+            for row in range(self.panel.groups.rowCount())
+            if self.panel.groups.item(row, _NAME).checkState() == QtCore.Qt.Checked
+        ]
 
     def _changed(self, item):
         if item.column() != _NAME:
@@ -188,11 +214,15 @@ class GroupInspectorPanel(InspectionPanel):
         boundary = femscalpel.virtual_boundary(mesh, entry.name, entry.kind)
         piece = getattr(boundary, part)
         source = self.source
-        faces = [np.column_stack([source.rows(piece.triangles.ravel()).reshape(-1, 3), np.full(len(piece.triangles), -1)]),
-                 source.rows(piece.quads.ravel()).reshape(-1, 4)]
+        faces = [
+            np.column_stack([source.rows(piece.triangles.ravel()).reshape(-1, 3), np.full(len(piece.triangles), -1)]),
+            source.rows(piece.quads.ravel()).reshape(-1, 4),
+        ]
         lines = mesh.points[source.rows(piece.edges.ravel()).reshape(-1, 2)].astype(np.float32)
         nodes = mesh.points[source.rows(piece.nodes)].astype(np.float32)
-        return GroupShape(mesh.points.astype(np.float32), np.concatenate(faces).astype(np.int64), lines.reshape(-1, 2, 3), nodes)
+        return GroupShape(
+            mesh.points.astype(np.float32), np.concatenate(faces).astype(np.int64), lines.reshape(-1, 2, 3), nodes
+        )
 
     def _rename(self, entry, name):
         if self._closed:
@@ -200,16 +230,23 @@ class GroupInspectorPanel(InspectionPanel):
         fields.show_error(self.panel.error, "")
         try:
             record_import()
-            document = "FreeCAD.ActiveDocument" if FreeCAD.ActiveDocument == self.document \
+            document = (
+                "FreeCAD.ActiveDocument"
+                if FreeCAD.ActiveDocument == self.document
                 else f"FreeCAD.getDocument({self.document.Name!r})"
-            FreeCADGui.doCommand(f"ObjectsFemScalpel.renameGroup({document}.getObject({self.source_object.Name!r}), "
-                                 f"{entry.name!r}, {name!r}, kind={entry.kind!r})")
+            )
+            FreeCADGui.doCommand(
+                f"ObjectsFemScalpel.renameGroup({document}.getObject({self.source_object.Name!r}), "
+                f"{entry.name!r}, {name!r}, kind={entry.kind!r})"
+            )
             self.source.mesh.rename_group(entry.name, name, entry.kind)
         except Exception as error:
             fields.show_error(self.panel.error, str(error))
         shown = {self.entries[row].name for row in self.ticked()}
         self._list()
-        self._tick(lambda row: self.entries[row].name in shown or self.entries[row].name == name and entry.name in shown)
+        self._tick(
+            lambda row: self.entries[row].name in shown or self.entries[row].name == name and entry.name in shown
+        )
 
 
 def _qcolour(rgb):
@@ -221,5 +258,10 @@ def _kind(kind, dimension):
         return translate("FemScalpel", "nodes")
     if kind == "facet":
         return translate("FemScalpel", "facets")
-    return {1: translate("FemScalpel", "edges"), 2: translate("FemScalpel", "faces"), 3: translate("FemScalpel", "volumes"),
-            0: translate("FemScalpel", "points"), None: translate("FemScalpel", "empty")}[dimension]
+    return {
+        1: translate("FemScalpel", "edges"),
+        2: translate("FemScalpel", "faces"),
+        3: translate("FemScalpel", "volumes"),
+        0: translate("FemScalpel", "points"),
+        None: translate("FemScalpel", "empty"),
+    }[dimension]

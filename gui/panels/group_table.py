@@ -10,8 +10,14 @@ _UNITS = {1: "mm", 2: "mm²", 3: "mm³"}
 
 def set_up(table):
     """Gives the table its columns."""
-    headers = [translate("FemScalpel", "Group"), translate("FemScalpel", "Kind"), translate("FemScalpel", "Before"),
-               translate("FemScalpel", "After"), translate("FemScalpel", "Change"), translate("FemScalpel", "Status")]
+    headers = [
+        translate("FemScalpel", "Group"),
+        translate("FemScalpel", "Kind"),
+        translate("FemScalpel", "Before"),
+        translate("FemScalpel", "After"),
+        translate("FemScalpel", "Change"),
+        translate("FemScalpel", "Status"),
+    ]
     table.setColumnCount(len(headers))
     table.setHorizontalHeaderLabels(headers)
     table.verticalHeader().hide()
@@ -23,13 +29,21 @@ def set_up(table):
 def fill(table, records):
     """Shows femscalpel.GroupRecord rows, those that changed first; keeps the selected group."""
     chosen = selected(table)
-    order = sorted(records, key=lambda r: ("new", "became empty", "reduced", "changed", "kept", "untouched").index(r.status))
+    order = sorted(
+        records, key=lambda r: ("new", "became empty", "reduced", "changed", "kept", "untouched").index(r.status)
+    )
     blocked = table.blockSignals(True)
     table.clearSelection()
     table.setRowCount(len(order))
     for row, record in enumerate(order):
-        cells = (record.name, _kind(record), str(record.count_before), str(record.count_after), _change(record),
-                 _status(record.status))
+        cells = (
+            record.name,
+            _kind(record),
+            str(record.count_before),
+            str(record.count_after),
+            _change(record),
+            _status(record.status),
+        )
         for column, text in enumerate(cells):
             item = QtGui.QTableWidgetItem(text)
             if column in (2, 3, 4):
@@ -54,15 +68,24 @@ def selected(table):
 
 def _kind(record):
     names = {"node": translate("FemScalpel", "nodes"), "facet": translate("FemScalpel", "facets")}
-    dimensions = {0: translate("FemScalpel", "points"), 1: translate("FemScalpel", "edges"), 2: translate("FemScalpel", "faces"),
-                  3: translate("FemScalpel", "volumes")}
+    dimensions = {
+        0: translate("FemScalpel", "points"),
+        1: translate("FemScalpel", "edges"),
+        2: translate("FemScalpel", "faces"),
+        3: translate("FemScalpel", "volumes"),
+    }
     return names.get(record.kind) or dimensions[record.dimension]
 
 
 def _status(status):
-    return {"new": translate("FemScalpel", "new"), "became empty": translate("FemScalpel", "became empty"),
-            "reduced": translate("FemScalpel", "reduced"), "changed": translate("FemScalpel", "changed"), "kept": translate("FemScalpel", "kept"),
-            "untouched": translate("FemScalpel", "untouched")}[status]
+    return {
+        "new": translate("FemScalpel", "new"),
+        "became empty": translate("FemScalpel", "became empty"),
+        "reduced": translate("FemScalpel", "reduced"),
+        "changed": translate("FemScalpel", "changed"),
+        "kept": translate("FemScalpel", "kept"),
+        "untouched": translate("FemScalpel", "untouched"),
+    }[status]
 
 
 def _change(record):
@@ -73,8 +96,11 @@ def _change(record):
 
 
 def _tip(record):
-    text = translate("FemScalpel", "%1 nodes moved; boundary at most %2 mm from where it was") \
-        .replace("%1", str(record.nodes_moved)).replace("%2", f"{record.boundary_drift:.3g}")
+    text = (
+        translate("FemScalpel", "%1 nodes moved; boundary at most %2 mm from where it was")
+        .replace("%1", str(record.nodes_moved))
+        .replace("%2", f"{record.boundary_drift:.3g}")
+    )
     if record.kind != "node" and record.dimension:
         text = f"{record.measure_before:.6g} → {record.measure_after:.6g} {_UNITS[record.dimension]}; {text}"
     return text

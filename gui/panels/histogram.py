@@ -17,7 +17,11 @@ class Histogram(QtGui.QWidget):
         self.setObjectName("histogram")
         self.before = self.after = None
         self._ends = ("0", "1")
-        self.setToolTip(translate("FemScalpel", "Number of elements by mean ratio (1: equilateral, 0: flat). Bars: after; line: before"))
+        self.setToolTip(
+            translate(
+                "FemScalpel", "Number of elements by mean ratio (1: equilateral, 0: flat). Bars: after; line: before"
+            )
+        )
 
     def show_counts(self, after, before=None, low=0.0, high=1.0, rgb=quality_rgb):
         """Shows counts; `rgb` gives the colours of the bins' middles."""
@@ -44,8 +48,10 @@ class Histogram(QtGui.QWidget):
         for k, (n, rgb) in enumerate(zip(self.after, self._rgb(middles))):
             # A single element must be seen: it may be the one that matters.
             height = max(area.height() * n / top, 2.0 if n else 0.0)
-            painter.fillRect(QtCore.QRectF(area.left() + k * width + 0.5, area.bottom() - height, width - 1, height),
-                             QtGui.QColor.fromRgbF(*[float(c) for c in rgb]))
+            painter.fillRect(
+                QtCore.QRectF(area.left() + k * width + 0.5, area.bottom() - height, width - 1, height),
+                QtGui.QColor.fromRgbF(*[float(c) for c in rgb]),
+            )
         pen = QtGui.QPen(self.palette().color(QtGui.QPalette.Text))
         painter.setPen(pen)
         if self.before is not None:

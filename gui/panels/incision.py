@@ -13,7 +13,8 @@ from .placements import Z, Turn, as_text, turn_between, turned
 
 
 class IncisionPanel(PlanePanel):
-    """Asks for the middle plane and the width of a slot, and where it ends: another bottom that a document object has can stay."""
+    """Asks for the middle plane and the width of a slot, and where it ends: another bottom that a document object has
+    can stay."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
     ICON = "FemScalpel_Incision"
@@ -23,9 +24,14 @@ class IncisionPanel(PlanePanel):
         self.slot = self.insert_form("incision.ui")
         self._width = fields.Number(self.slot.slotWidth, self.update, self.geometry.size / 50)
         self._kept = None  # the bottom of the document object, as a placement
-        for text, data in ((translate("FemScalpel", "Through the whole part"), "Through"), (translate("FemScalpel", "Down to the point"), "Point")):
+        for text, data in (
+            (translate("FemScalpel", "Through the whole part"), "Through"),
+            (translate("FemScalpel", "Down to the point"), "Point"),
+        ):
             self.slot.slotEnd.addItem(text, data)
-        self._turn = Turn(self.geometry, lambda: self._end() == "Point", fields.Number(self.slot.slotTurn, self.update, 0, 10))
+        self._turn = Turn(
+            self.geometry, lambda: self._end() == "Point", fields.Number(self.slot.slotTurn, self.update, 0, 10)
+        )
         self.slot.slotEnd.currentIndexChanged.connect(lambda *_: self._choose())
         self._choose()
         # Two walls are made by moving and splitting only.
@@ -69,8 +75,13 @@ class IncisionPanel(PlanePanel):
         if not obj.Through:
             self._kept = obj.BottomPlacement
             mouth, normal = self._kept.Rotation.multVec(Z).negative(), self.geometry.direction()
-            if self._kept.Base.isEqual(self.geometry.origin(), 1e-9 * self.geometry.size) and abs(mouth.dot(normal)) < 1e-9 * normal.Length:
-                self._turn.set(turn_between(self.geometry.rotation(), FreeCAD.Rotation(mouth, FreeCAD.Vector(), normal, "ZXY")))
+            if (
+                self._kept.Base.isEqual(self.geometry.origin(), 1e-9 * self.geometry.size)
+                and abs(mouth.dot(normal)) < 1e-9 * normal.Length
+            ):
+                self._turn.set(
+                    turn_between(self.geometry.rotation(), FreeCAD.Rotation(mouth, FreeCAD.Vector(), normal, "ZXY"))
+                )
                 end = "Point"
             else:
                 self.slot.slotEnd.addItem(translate("FemScalpel", "At the bottom it has"), "Kept")

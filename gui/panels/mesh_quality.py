@@ -16,8 +16,11 @@ from .histogram import Histogram
 from .inspection_panel import InspectionPanel
 
 #: Measures: name, function, value of the regular element, unit.
-MEASURES = (("mean ratio", femscalpel.mean_ratio, 1.0, ""), ("smallest angle", femscalpel.smallest_angle, 90.0, "°"),
-            ("scaled Jacobian", femscalpel.scaled_jacobian, 1.0, ""))
+MEASURES = (
+    ("mean ratio", femscalpel.mean_ratio, 1.0, ""),
+    ("smallest angle", femscalpel.smallest_angle, 90.0, "°"),
+    ("scaled Jacobian", femscalpel.scaled_jacobian, 1.0, ""),
+)
 _SHOWN = 30
 
 
@@ -28,8 +31,11 @@ class MeshQualityPanel(InspectionPanel):
     ICON, UI = "FemScalpel_MeshQuality", "mesh_quality.ui"
 
     def set_up(self):
-        titles = (translate("FemScalpel", "Mean ratio"), translate("FemScalpel", "Smallest angle (dihedral in solids)"),
-                  translate("FemScalpel", "Scaled Jacobian"))
+        titles = (
+            translate("FemScalpel", "Mean ratio"),
+            translate("FemScalpel", "Smallest angle (dihedral in solids)"),
+            translate("FemScalpel", "Scaled Jacobian"),
+        )
         for title, (name, *_) in zip(titles, MEASURES):
             self.panel.measure.addItem(title, name)
         self.histogram = Histogram()
@@ -37,7 +43,8 @@ class MeshQualityPanel(InspectionPanel):
         self._set_limit()
         self.panel.worst.setColumnCount(3)
         self.panel.worst.setHorizontalHeaderLabels(
-            [translate("FemScalpel", "Element"), translate("FemScalpel", "Type"), translate("FemScalpel", "Value")])
+            [translate("FemScalpel", "Element"), translate("FemScalpel", "Type"), translate("FemScalpel", "Value")]
+        )
         self.panel.worst.verticalHeader().hide()
         self.panel.worst.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
         self.panel.worst.horizontalHeader().setStretchLastSection(True)
@@ -105,7 +112,7 @@ class MeshQualityPanel(InspectionPanel):
             bad = self.values < self.panel.limit.value()
             blocks, first, owners = [], 0, np.flatnonzero(bad)
             for name, nodes in source.cells.blocks:
-                blocks.append((name, nodes[bad[first:first + len(nodes)]]))
+                blocks.append((name, nodes[bad[first : first + len(nodes)]]))
                 first += len(nodes)
             faces, owner = mesh_faces.outer_faces(blocks, source.mesh.node_count)
             values = self.values[owners[owner]]

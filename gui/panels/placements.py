@@ -20,8 +20,8 @@ def turn_between(rotation, other):
 
 
 def carried_turn(old, new, degrees):
-    """`degrees` about the z axis `old`, so that with the z axis `new` the x axis has turned no further than that took; where the z
-    axis is reversed, the x axis stays."""
+    """`degrees` about the z axis `old`, so that with the z axis `new` the x axis has turned no further than that took;
+    where the z axis is reversed, the x axis stays."""
     rotation = FreeCAD.Rotation(Z, old) * FreeCAD.Rotation(Z, degrees)
     if old.getAngle(new) > math.pi - 1e-9:
         carried = FreeCAD.Rotation(rotation.multVec(X), FreeCAD.Vector(), new, "ZXY")
@@ -31,10 +31,11 @@ def carried_turn(old, new, degrees):
 
 
 class Turn:
-    """By how many degrees a tool's x axis is turned about the z axis of a GeometryInput, in a number field or without one.
+    """By how many degrees a tool's x axis is turned about the z axis of a GeometryInput, in a number field or without
+    one.
 
-    Where the x axis matters (`matters()`), it is carried along when the z axis changes; `mirrored()` is called when that is
-    reversed."""
+    Where the x axis matters (`matters()`), it is carried along when the z axis changes; `mirrored()` is called when
+    that is reversed."""
 
     def __init__(self, geometry, matters, field=None, mirrored=None):
         self._geometry, self._matters, self._field, self._mirrored = geometry, matters, field, mirrored

@@ -36,8 +36,8 @@ class PlaneInput(GeometryInput):
         self.set_pose(self.origin(), self.direction().negative())
 
     def show_part(self, movable, radius, turn):
-        """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if any. `turn`
-        says by how many degrees it is turned about the normal."""
+        """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if
+        any. `turn` says by how many degrees it is turned about the normal."""
         self._part_movable, self._part_radius, self._part_turn = movable, radius, turn
         if self.handles is not None:
             self._turn_handles(self.handles)
@@ -64,7 +64,9 @@ class PlaneInput(GeometryInput):
         return handles
 
     def _ask_geometry(self):
-        return translate("FemScalpel", "Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.")
+        return translate(
+            "FemScalpel", "Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops."
+        )
 
     def _from_nodes(self, points):
         return picking.plane_through(points)

@@ -21,7 +21,11 @@ class RefinePanel(CylinderPanel):
 
     def add_inputs(self):
         self.sizes = self.insert_form("refine.ui")
-        texts = (translate("FemScalpel", "Cylinder"), translate("FemScalpel", "Sphere"), translate("FemScalpel", "Plane"))
+        texts = (
+            translate("FemScalpel", "Cylinder"),
+            translate("FemScalpel", "Sphere"),
+            translate("FemScalpel", "Plane"),
+        )
         for text, shape in zip(texts, SHAPES):
             self.sizes.toolShape.addItem(text, shape)
         size = self.geometry.size
@@ -42,12 +46,24 @@ class RefinePanel(CylinderPanel):
         origin, direction, radius = self.geometry.origin(), self.geometry.direction(), self.geometry.radius()
         if self._shape() == "Plane":
             return femscalpel.Plane(origin, direction)
-        return femscalpel.Sphere(origin, radius) if self._shape() == "Sphere" else femscalpel.Cylinder(origin, direction, radius)
+        return (
+            femscalpel.Sphere(origin, radius)
+            if self._shape() == "Sphere"
+            else femscalpel.Cylinder(origin, direction, radius)
+        )
 
     def operation(self, tool, options):
-        size, reach, gradation, angle = self._size.value, self._reach.value, self.sizes.gradation.value(), options["feature_angle"]
-        vain = translate("FemScalpel", "Nothing to refine: the elements that the tool reaches have no edge longer than the size. "
-                                       "Move the tool, give it a larger reach, or choose a smaller size.")
+        size, reach, gradation, angle = (
+            self._size.value,
+            self._reach.value,
+            self.sizes.gradation.value(),
+            options["feature_angle"],
+        )
+        vain = translate(
+            "FemScalpel",
+            "Nothing to refine: the elements that the tool reaches have no edge longer than the size. "
+            "Move the tool, give it a larger reach, or choose a smaller size.",
+        )
 
         def operate(scalpel):
             result = femscalpel.refine(scalpel.mesh, tool, size, gradation=gradation, reach=reach, feature_angle=angle)
@@ -67,14 +83,30 @@ class RefinePanel(CylinderPanel):
         self.geometry.set_pose(placement.Base, placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), obj.Radius.Value)
 
     def _common(self, naming):
-        names = {"tool": "ToolShape", "radius": "Radius", "size": "Size", "reach": "Reach", "gradation": "Gradation",
-                 "feature_angle": "FeatureAngle"}
-        values = {"tool": self._shape(), "radius": self.geometry.radius(), "size": self._size.value, "reach": self._reach.value,
-                  "gradation": self.sizes.gradation.value(), "feature_angle": self._feature_angle.value}
+        names = {
+            "tool": "ToolShape",
+            "radius": "Radius",
+            "size": "Size",
+            "reach": "Reach",
+            "gradation": "Gradation",
+            "feature_angle": "FeatureAngle",
+        }
+        values = {
+            "tool": self._shape(),
+            "radius": self.geometry.radius(),
+            "size": self._size.value,
+            "reach": self._reach.value,
+            "gradation": self.sizes.gradation.value(),
+            "feature_angle": self._feature_angle.value,
+        }
         return {names[k] if naming == "properties" else k: repr(v) for k, v in values.items()}
 
     def arguments(self):
-        return {"origin": repr(tuple(self.geometry.origin())), "axis": repr(tuple(self.geometry.direction())), **self._common("arguments")}
+        return {
+            "origin": repr(tuple(self.geometry.origin())),
+            "axis": repr(tuple(self.geometry.direction())),
+            **self._common("arguments"),
+        }
 
     def settings(self):
         return {"AxisPlacement": self.placement_text(), **self._common("properties")}

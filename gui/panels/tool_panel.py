@@ -78,7 +78,8 @@ class ToolPanel(ViewPanel):
         return tool
 
     def removed_region(self, tool):
-        """Something whose distance(points) is negative where the operator removes material; None when it removes none."""
+        """Something whose distance(points) is negative where the operator removes material; None when it removes
+        none."""
         return None
 
     def operation(self, tool, options):
@@ -100,14 +101,24 @@ class ToolPanel(ViewPanel):
         """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
         options = self.entered()
         refine = {} if options["refine"] is None else {"refine": repr(options["refine"])}
-        return {"method": repr(options["method"]), "transition": repr(options["transition"] or 0),
-                "group_name": repr(options["name"]), "feature_angle": repr(options["feature_angle"]), **refine}
+        return {
+            "method": repr(options["method"]),
+            "transition": repr(options["transition"] or 0),
+            "group_name": repr(options["name"]),
+            "feature_angle": repr(options["feature_angle"]),
+            **refine,
+        }
 
     def settings(self):
         """Properties of the document object as Python text by name."""
         options = self.entered()
-        return {"Method": repr(options["method"]), "Transition": repr(options["transition"] or 0),
-                "GroupName": repr(options["name"]), "FeatureAngle": repr(options["feature_angle"]), **self._refinement()}
+        return {
+            "Method": repr(options["method"]),
+            "Transition": repr(options["transition"] or 0),
+            "GroupName": repr(options["name"]),
+            "FeatureAngle": repr(options["feature_angle"]),
+            **self._refinement(),
+        }
 
     def _refinement(self):
         how = self.options.refine.currentData()
@@ -126,13 +137,21 @@ class ToolPanel(ViewPanel):
     def _set_up_options(self):
         o = self.options
         for name in preferences.METHODS:
-            o.method.addItem({"snap": translate("FemScalpel", "snap: move and split"),
-                              "deform": translate("FemScalpel", "deform: only move nodes")}[name], name)
+            o.method.addItem(
+                {
+                    "snap": translate("FemScalpel", "snap: move and split"),
+                    "deform": translate("FemScalpel", "deform: only move nodes"),
+                }[name],
+                name,
+            )
         o.method.setCurrentIndex(o.method.findData(preferences.method()))
         o.transition.setValue(preferences.transition())
         self._feature_angle = fields.Number(o.featureAngle, self.update, 30)
-        for text, data in ((translate("FemScalpel", "where the tool is finer"), "Automatic"), (translate("FemScalpel", "never"), "Never"),
-                           (translate("FemScalpel", "to an edge length"), "Size")):
+        for text, data in (
+            (translate("FemScalpel", "where the tool is finer"), "Automatic"),
+            (translate("FemScalpel", "never"), "Never"),
+            (translate("FemScalpel", "to an edge length"), "Size"),
+        ):
             o.refine.addItem(text, data)
         self._refine_size = fields.Number(o.refineSize, self.update, self.geometry.size / 50)
         o.refine.currentIndexChanged.connect(lambda *_: self._choose_refinement())
@@ -169,7 +188,11 @@ class ToolPanel(ViewPanel):
 
     def _set_up_result(self):
         r = self.result
-        looks = (translate("FemScalpel", "Cut away"), translate("FemScalpel", "Whole part"), translate("FemScalpel", "Changed part"))
+        looks = (
+            translate("FemScalpel", "Cut away"),
+            translate("FemScalpel", "Whole part"),
+            translate("FemScalpel", "Changed part"),
+        )
         for text, data in zip(looks, preview_scene.LOOKS):
             r.look.addItem(text, data)
         colourings = (translate("FemScalpel", "By quality"), translate("FemScalpel", "By group"))
@@ -200,8 +223,13 @@ class ToolPanel(ViewPanel):
         """What the options say: name, method, transition (None: automatic), feature_angle, refine (None: automatic)."""
         o = self.options
         refine = {"Automatic": None, "Never": False, "Size": self._refine_size.value}[o.refine.currentData()]
-        return {"name": o.groupName.text(), "method": o.method.currentData(), "transition": o.transition.value() or None,
-                "feature_angle": self._feature_angle.value, "refine": refine}
+        return {
+            "name": o.groupName.text(),
+            "method": o.method.currentData(),
+            "transition": o.transition.value() or None,
+            "feature_angle": self._feature_angle.value,
+            "refine": refine,
+        }
 
     def update(self):
         """Asks for a new preview of what is entered now."""
@@ -255,7 +283,12 @@ class ToolPanel(ViewPanel):
 
     def _clear_errors(self):
         self.geometry.show_error("")
-        for label in (self.options.nameError, self.options.methodError, self.options.refineError, self.result.resultError):
+        for label in (
+            self.options.nameError,
+            self.options.methodError,
+            self.options.refineError,
+            self.result.resultError,
+        ):
             fields.show_error(label, "")
 
     def _place_error(self, error):
@@ -318,7 +351,9 @@ class ToolPanel(ViewPanel):
         try:
             obj = self._change_object() if self.edited is not None else self._make_object()
             if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
-                raise femscalpel.Error(translate("FemScalpel", "The object could not be computed; see the report view."))
+                raise femscalpel.Error(
+                    translate("FemScalpel", "The object could not be computed; see the report view.")
+                )
         except Exception as error:
             abort_transaction(self.document)
             fields.show_error(self.result.resultError, _sentence(str(error)))
@@ -341,8 +376,11 @@ class ToolPanel(ViewPanel):
             QtCore.QThread.msleep(5)
 
     def _text_of(self, obj):
-        document = "FreeCAD.ActiveDocument" if FreeCAD.ActiveDocument == self.document \
+        document = (
+            "FreeCAD.ActiveDocument"
+            if FreeCAD.ActiveDocument == self.document
             else f"FreeCAD.getDocument({self.document.Name!r})"
+        )
         return document if obj is None else f"{document}.getObject({obj.Name!r})"
 
     def _make_object(self):
@@ -356,7 +394,9 @@ class ToolPanel(ViewPanel):
         FreeCADGui.doCommand(f"{document}.recompute()")
         if "Invalid" not in obj.State and self.options.intoAnalysis.isChecked():
             FreeCADGui.doCommand(f"ObjectsFemScalpel.putIntoAnalysis({self._text_of(obj)})")
-        FreeCADGui.doCommandGui(f"FreeCADGui.getDocument({self.document.Name!r}).getObject({self.source_object.Name!r}).Visibility = False")
+        FreeCADGui.doCommandGui(
+            f"FreeCADGui.getDocument({self.document.Name!r}).getObject({self.source_object.Name!r}).Visibility = False"
+        )
         return obj
 
     def _change_object(self):
@@ -389,14 +429,27 @@ def _sentence(text):
 
 def _summary(report):
     after = report.quality.after
-    text = translate("FemScalpel", "%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).")
-    numbers = (report.nodes_moved, report.nodes_added, report.elements_added, report.elements_removed, f"{after.minimum:.2f}",
-               f"{report.quality.before.minimum:.2f}")
+    text = translate(
+        "FemScalpel", "%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6)."
+    )
+    numbers = (
+        report.nodes_moved,
+        report.nodes_added,
+        report.elements_added,
+        report.elements_removed,
+        f"{after.minimum:.2f}",
+        f"{report.quality.before.minimum:.2f}",
+    )
     for k, number in enumerate(numbers, 1):
         text = text.replace(f"%{k}", str(number))
     if after.minimum < preferences.quality_threshold():
-        text += " <b style='color:#b3261e'>" + translate("FemScalpel", "Worse than your threshold of %1.") \
-            .replace("%1", f"{preferences.quality_threshold():g}") + "</b>"
+        text += (
+            " <b style='color:#b3261e'>"
+            + translate("FemScalpel", "Worse than your threshold of %1.").replace(
+                "%1", f"{preferences.quality_threshold():g}"
+            )
+            + "</b>"
+        )
     for warning in report.warnings:
         text += f"<br><span style='color:#8a5a00'>{_sentence(warning)}</span>"
     return text

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What all task panels share: a mesh read on another thread, the 3-D view to themselves, and leaving without a trace."""
+"""What all task panels share: a mesh read on another thread, the 3-D view to themselves, and leaving without a
+trace."""
 
 import FreeCAD
 import FreeCADGui

@@ -29,13 +29,13 @@ _EDGES = {
 
 
 def shape_of(cell_type):
-    """"tetra" for "tetra10", and so on."""
+    """ "tetra" for "tetra10", and so on."""
     return cell_type.rstrip("0123456789")
 
 
 def corners(cell_type, connectivity):
     """The corner nodes of elements."""
-    return connectivity[:, :CELL_TYPES[cell_type][2]]
+    return connectivity[:, : CELL_TYPES[cell_type][2]]
 
 
 def faces_of(cell_type, connectivity):

@@ -13,7 +13,8 @@ NAME = "FemScalpelInspector"
 
 
 class GroupScene(Picture):
-    """The nodes under one separator called "FemScalpelInspector": FemScalpelGhost, and one FemScalpelShape for each shape."""
+    """The nodes under one separator called "FemScalpelInspector": FemScalpelGhost, and one FemScalpelShape for each
+    shape."""
 
     def __init__(self, view):
         super().__init__(view, NAME)
@@ -26,7 +27,8 @@ class GroupScene(Picture):
         self.open()
 
     def show(self, shapes):
-        """Shows (GroupShape, colour) pairs, the first at the bottom, and no others. A colour is one, or one per face."""
+        """Shows (GroupShape, colour) pairs, the first at the bottom, and no others. A colour is one, or one per
+        face."""
         self._shapes.removeAllChildren()
         for shape, rgb in shapes:
             single = rgb if np.ndim(rgb) == 1 else colours.NEUTRAL

@@ -65,8 +65,12 @@ def elements_shape(mesh, ids):
 def joined(first, second):
     """Two GroupShapes as one."""
     faces = np.where(second.faces < 0, -1, second.faces + len(first.points))
-    return GroupShape(np.concatenate([first.points, second.points]), np.concatenate([first.faces, faces]),
-                      np.concatenate([first.lines, second.lines]), np.concatenate([first.nodes, second.nodes]))
+    return GroupShape(
+        np.concatenate([first.points, second.points]),
+        np.concatenate([first.faces, faces]),
+        np.concatenate([first.lines, second.lines]),
+        np.concatenate([first.nodes, second.nodes]),
+    )
 
 
 # CalculiX's faces of elements by their corner nodes, in its order; of shells, edges from the third on.

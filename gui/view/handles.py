@@ -95,7 +95,8 @@ def _ball(rgb):
 class Handles(Overlay):
     """Draggers around one pose: a position and a rotation whose z axis is the plane's normal or the cylinder's axis.
 
-    `changed(position, rotation, radius, done)` is called while the mouse drags, and when it lets go; then set_pose() is to follow.
+    `changed(position, rotation, radius, done)` is called while the mouse drags, and when it lets go; then set_pose() is
+    to follow.
     """
 
     def __init__(self, view, size, changed):
@@ -211,8 +212,8 @@ class Handles(Overlay):
 
 
 class PlaneHandles(Handles):
-    """Arrow along the normal, ball to tilt; the plane itself as a pane. For a part of the plane also four arrows to move it in the
-    plane, and where it has a radius, arrows on its border."""
+    """Arrow along the normal, ball to tilt; the plane itself as a pane. For a part of the plane also four arrows to
+    move it in the plane, and where it has a radius, arrows on its border."""
 
     def _add_tool_shape(self, pane):
         half = 0.36 * self._size
@@ -233,19 +234,27 @@ class PlaneHandles(Handles):
     def _make_draggers(self):
         # The ball takes every click within it, so the arrow begins at it.
         ball, arrow = 0.06 * self._size, 0.13 * self._size
-        self._add("move", coin.SoTranslate1Dragger(), arrow, lambda rgb: _arrows(rgb, ((1, 0, 0), ball / arrow, 1)),
-                  (_turned((1, 0, 0), (0, 0, 1)),))
+        self._add(
+            "move",
+            coin.SoTranslate1Dragger(),
+            arrow,
+            lambda rgb: _arrows(rgb, ((1, 0, 0), ball / arrow, 1)),
+            (_turned((1, 0, 0), (0, 0, 1)),),
+        )
         self._add("tilt", coin.SoRotateSphericalDragger(), ball, _ball)
         self._angle, self._border, self._between = coin.SoRotation(), coin.SoTranslation(), coin.SoRotation()
         self._in_plane, cross, radius = FreeCAD.Rotation(), 0.13 * self._size, 0.05 * self._size
         both = ((1, 0, 0), 0.1, 1), ((-1, 0, 0), 0.1, 1)
-        self._add("radius", coin.SoTranslate1Dragger(), radius, lambda rgb: _arrows(rgb, *both), (self._angle, self._border))
+        self._add(
+            "radius", coin.SoTranslate1Dragger(), radius, lambda rgb: _arrows(rgb, *both), (self._angle, self._border)
+        )
         four = [(direction, ball / cross, 1) for direction in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
         self._add("slide", coin.SoTranslate2Dragger(), cross, lambda rgb: _arrows(rgb, *four), (self._between,))
         self.show_part(False)
 
     def show_part(self, movable, turn=0.0):
-        """Whether there is a part of the plane to move; by how many degrees its first axis is turned about the normal."""
+        """Whether there is a part of the plane to move; by how many degrees its first axis is turned about the
+        normal."""
         self._switch("slide", movable)
         self._angle.rotation.setValue(_sb_rotation(FreeCAD.Rotation(_Z, turn)))
         # Between the arrows on the border, which may be as far away.
@@ -265,7 +274,8 @@ class PlaneHandles(Handles):
 
 
 class AxisHandles(Handles):
-    """Four arrows to move the axis sideways, ball to tilt it, arrows on the wall for the radius; the cylinder itself as a pane."""
+    """Four arrows to move the axis sideways, ball to tilt it, arrows on the wall for the radius; the cylinder itself as
+    a pane."""
 
     def _add_tool_shape(self, pane):
         axis = coin.SoSeparator()

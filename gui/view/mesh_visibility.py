@@ -10,8 +10,11 @@ class HiddenMeshes:
 
     def __init__(self, document, source):
         self._document = document
-        self._before = [(o.Name, o.ViewObject.SwitchNode, o.ViewObject.SwitchNode.whichChild.getValue())
-                        for o in document.Objects if o.isDerivedFrom("Fem::FemMeshObject")]
+        self._before = [
+            (o.Name, o.ViewObject.SwitchNode, o.ViewObject.SwitchNode.whichChild.getValue())
+            for o in document.Objects
+            if o.isDerivedFrom("Fem::FemMeshObject")
+        ]
         self._source = source.ViewObject.SwitchNode
         self._mode = self._source.whichChild.getValue()
         if self._mode < 0:

@@ -123,7 +123,9 @@ class FaceNode(Part):
         if self._lines is not None:
             edges, _ = mesh_faces.face_edges(faces)
             edges = mesh_faces.unique_edges(edges, len(points))
-            set_values(self._lines.coordIndex, np.column_stack([edges, np.full(len(edges), -1)]).astype(np.int32).ravel())
+            set_values(
+                self._lines.coordIndex, np.column_stack([edges, np.full(len(edges), -1)]).astype(np.int32).ravel()
+            )
         self.colour(rgb)
         self.reveal()
 

@@ -27,7 +27,8 @@ class Overlay:
 
 
 class Picture(Overlay):
-    """An Overlay that is looked at, not picked: clicks go through to what can be selected. Well lit; ghosts are blended."""
+    """An Overlay that is looked at, not picked: clicks go through to what can be selected. Well lit; ghosts are
+    blended."""
 
     def __init__(self, view, name):
         super().__init__(view, name)

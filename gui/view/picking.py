@@ -31,7 +31,8 @@ class Picked:
 
 @dataclass(frozen=True)
 class Outline:
-    """What a sketch encloses: a polygon with `corners`, an ellipse (a circle) with `radii`, or neither; in the axes of `placement`, z = 0."""
+    """What a sketch encloses: a polygon with `corners`, an ellipse (a circle) with `radii`, or neither; in the axes of
+    `placement`, z = 0."""
 
     placement: FreeCAD.Placement
     corners: tuple = ()
@@ -135,16 +136,22 @@ def axis(click, source):
 
 
 def _pick_plane():
-    return translate("FemScalpel", "Pick a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh.")
+    return translate(
+        "FemScalpel", "Pick a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh."
+    )
 
 
 def _pick_axis():
-    return translate("FemScalpel", "Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.")
+    return translate(
+        "FemScalpel", "Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face."
+    )
 
 
 def _global(obj):
     """Takes what is given in the object's parent's coordinates, as its shape is, to the document's."""
-    return obj.getGlobalPlacement().multiply(obj.Placement.inverse()) if hasattr(obj, "Placement") else FreeCAD.Placement()
+    return (
+        obj.getGlobalPlacement().multiply(obj.Placement.inverse()) if hasattr(obj, "Placement") else FreeCAD.Placement()
+    )
 
 
 def _is_sketch(obj):
@@ -152,7 +159,8 @@ def _is_sketch(obj):
 
 
 def _outline(sketch):
-    """What the lines of a sketch enclose, as Outline; an empty one where they are no closed polygon, circle or ellipse."""
+    """What the lines of a sketch enclose, as Outline; an empty one where they are no closed polygon, circle or
+    ellipse."""
     wires = sketch.Shape.Wires
     if len(wires) != 1 or not wires[0].isClosed():
         return Outline(sketch.getGlobalPlacement())
@@ -176,8 +184,12 @@ def _outline(sketch):
 
 def _datum(obj):
     """Plane or line of a datum object or sketch; None for other objects."""
-    if obj.isDerivedFrom("PartDesign::Plane") or obj.isDerivedFrom("App::Plane") or obj.isDerivedFrom("Sketcher::SketchObject") \
-            or obj.isDerivedFrom("PartDesign::Line"):
+    if (
+        obj.isDerivedFrom("PartDesign::Plane")
+        or obj.isDerivedFrom("App::Plane")
+        or obj.isDerivedFrom("Sketcher::SketchObject")
+        or obj.isDerivedFrom("PartDesign::Line")
+    ):
         direction = _Z
     elif obj.isDerivedFrom("App::Line"):
         direction = FreeCAD.Vector(1, 0, 0)
@@ -189,7 +201,8 @@ def _datum(obj):
 
 
 def _of_document(click, ask):
-    """(what a datum or sketch says, None) or (None, the shape clicked at); PickError with ask() where there is neither."""
+    """(what a datum or sketch says, None) or (None, the shape clicked at); PickError with ask() where there is
+    neither."""
     datum = _datum(click.obj)
     shape = None if datum is not None else _shape(click)
     if datum is None and shape is None:

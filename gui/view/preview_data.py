@@ -233,21 +233,37 @@ def make_preview(source, result, tool, removed_region=None):
     faces, owner, family, lip = faces[shown], owner[shown], family[shown], lip[shown]
 
     positive = (cells.per_cell(lambda nodes: distance[nodes].mean(axis=1)) > 0)[owner]
-    band = tuple(Surface.make(points, faces[side], cells.quality[owner[side]], family[side], lip[side])
-                 for side in (~positive, positive))
+    band = tuple(
+        Surface.make(points, faces[side], cells.quality[owner[side]], family[side], lip[side])
+        for side in (~positive, positive)
+    )
     stays = ~replaced[source.skin_owner]
     beyond = tool.distance(source.skin_centres) > 0
-    rest = tuple(Surface.make(source.points, source.skin[side], source.skin_quality[side], source.skin_family[side])
-                 for side in (stays & ~beyond, stays & beyond))
+    rest = tuple(
+        Surface.make(source.points, source.skin[side], source.skin_quality[side], source.skin_family[side])
+        for side in (stays & ~beyond, stays & beyond)
+    )
 
-    outline, front = _outline(mesh, report, points, number, faces, lip, positive, on_tool=np.abs(distance) <= 1e-7 * source.size)
+    outline, front = _outline(
+        mesh, report, points, number, faces, lip, positive, on_tool=np.abs(distance) <= 1e-7 * source.size
+    )
     worst, centre, ratio = _worst(report, mesh)
     return PreviewData(
-        result=result, rest=rest, band=band, families=list(source.families.names),
+        result=result,
+        rest=rest,
+        band=band,
+        families=list(source.families.names),
         borders=np.concatenate([_kept_borders(source, stays), _band_borders(points, faces, family, lip, total)]),
-        outline=outline, front=front, moved=mesh.points[moved].astype(np.float32),
-        replaced=source.cells.ids[replaced], removed=removed,
-        worst=worst, worst_centre=centre, worst_ratio=ratio, lip_area=int(lip.sum()))
+        outline=outline,
+        front=front,
+        moved=mesh.points[moved].astype(np.float32),
+        replaced=source.cells.ids[replaced],
+        removed=removed,
+        worst=worst,
+        worst_centre=centre,
+        worst_ratio=ratio,
+        lip_area=int(lip.sum()),
+    )
 
 
 def _find(keys, among):
@@ -282,7 +298,7 @@ def _all_corners(faces, mask):
 def _removed(source, gone):
     blocks, first = [], 0
     for cell_type, nodes in source.cells.blocks:
-        blocks.append((cell_type, nodes[gone[first:first + len(nodes)]]))
+        blocks.append((cell_type, nodes[gone[first : first + len(nodes)]]))
         first += len(nodes)
     faces, owner = mesh_faces.outer_faces(blocks, source.mesh.node_count)
     at = np.flatnonzero(gone)
@@ -341,5 +357,9 @@ def _worst(report, mesh):
             nodes = mesh.cells[cell_type][at[0]]
             edges = mesh_faces.edges_of_element(cell_type, nodes)
             corners = mesh_faces.corners(cell_type, nodes[None])[0]
-            return (mesh.points[edges].astype(np.float32), mesh.points[corners].mean(axis=0).astype(np.float32), float(ratio))
+            return (
+                mesh.points[edges].astype(np.float32),
+                mesh.points[corners].mean(axis=0).astype(np.float32),
+                float(ratio),
+            )
     return empty

@@ -47,8 +47,17 @@ class PreviewScene(Picture):
         front = coin.SoAnnotation()
         for part in (self.worst, self.highlight_lines, self.highlight_points):
             front.addChild(part.root)
-        for part in (self.highlight_faces, self.rest, self.band, self.borders, self.outline, self.front, self.moved,
-                     self.removed, self.ghost):
+        for part in (
+            self.highlight_faces,
+            self.rest,
+            self.band,
+            self.borders,
+            self.outline,
+            self.front,
+            self.moved,
+            self.removed,
+            self.ghost,
+        ):
             self.root.addChild(part.root)
         self.root.addChild(front)
         self.root.addChild(self.worst_label.root)
@@ -57,8 +66,17 @@ class PreviewScene(Picture):
     def show_whole(self, surface):
         """Shows an unchanged mesh, while there is no result."""
         self._data = None
-        for part in (self.band, self.ghost, self.removed, self.borders, self.outline, self.front, self.moved, self.worst,
-                     self.worst_label):
+        for part in (
+            self.band,
+            self.ghost,
+            self.removed,
+            self.borders,
+            self.outline,
+            self.front,
+            self.moved,
+            self.worst,
+            self.worst_label,
+        ):
             part.hide()
         self.rest.show(surface.points, surface.faces)
 
@@ -95,7 +113,9 @@ class PreviewScene(Picture):
         self.moved.show(data.moved) if self.show_moved else self.moved.hide()
         if self.show_worst and len(data.worst):
             self.worst.show(data.worst)
-            self.worst_label.show(data.worst_centre, translate("FemScalpel", "worst %1").replace("%1", f"{data.worst_ratio:.2f}"))
+            self.worst_label.show(
+                data.worst_centre, translate("FemScalpel", "worst %1").replace("%1", f"{data.worst_ratio:.2f}")
+            )
         else:
             self.worst.hide()
             self.worst_label.hide()

@@ -40,8 +40,13 @@ class ViewProviderMeshOperation:
             return None
         obj = vobj.Object
         if obj.Source is None or not obj.Source.FemMesh.NodeCount:
-            QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), translate("FemScalpel", "Edit"), translate(
-                "FemScalpel", "%1 has no source mesh. Set its property Source to a FEM mesh first.").replace("%1", obj.Label))
+            QtGui.QMessageBox.warning(
+                FreeCADGui.getMainWindow(),
+                translate("FemScalpel", "Edit"),
+                translate("FemScalpel", "%1 has no source mesh. Set its property Source to a FEM mesh first.").replace(
+                    "%1", obj.Label
+                ),
+            )
             return False
         module = importlib.import_module("femscalpelgui.panels." + panel[1])
         FreeCADGui.Control.showDialog(getattr(module, panel[2])(obj.Source, obj))
@@ -54,8 +59,11 @@ class ViewProviderMeshOperation:
     def doubleClicked(self, vobj):
         document = FreeCADGui.getDocument(vobj.Object.Document.Name)
         if FreeCADGui.Control.activeDialog():
-            QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), translate("FemScalpel", "Edit"), translate(
-                "FemScalpel", "Another task panel is open. Close it first."))
+            QtGui.QMessageBox.information(
+                FreeCADGui.getMainWindow(),
+                translate("FemScalpel", "Edit"),
+                translate("FemScalpel", "Another task panel is open. Close it first."),
+            )
             return True
         document.setEdit(vobj.Object.Name)
         return True

@@ -27,9 +27,9 @@ TYPES = {
 class Model:
     """A mesh as it comes from the mesher. Node number = row of `points` + 1."""
 
-    points: np.ndarray                                # (n, 3), mm
-    cells: dict[str, np.ndarray]                      # meshio type -> (m, k) rows of `points`
-    cell_ids: dict[str, np.ndarray]                   # meshio type -> (m,) element numbers
+    points: np.ndarray  # (n, 3), mm
+    cells: dict[str, np.ndarray]  # meshio type -> (m, k) rows of `points`
+    cell_ids: dict[str, np.ndarray]  # meshio type -> (m,) element numbers
     groups: dict[str, tuple[str, np.ndarray]] = field(default_factory=dict)  # name -> (kind, numbers)
 
 

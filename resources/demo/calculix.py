@@ -88,17 +88,20 @@ def write_deck(model: Model, path: Path) -> None:
             lines += [f"*SHELL SECTION, ELSET=MAT_{name}, MATERIAL={name}", "24."]
     edges = next(name for name in model.cells if name.startswith("line"))
     line_nodes = len(np.unique(model.cells[edges][np.isin(model.cell_ids[edges], model.groups["LINE_LOAD"][1])]))
-    lines.append(LOADS.format(
-        pressure="*DSLOAD\nPRESSURE, P, 0.6" if solid else "*DLOAD\nPRESSURE, P, 0.6",
-        line_load=-30000.0 / line_nodes,
-        output="3D" if solid else "2D",
-        prints="".join(f"*NODE PRINT, NSET={s}, TOTALS=ONLY\nRF\n" for s in SUPPORT_NAMES)).rstrip())
+    lines.append(
+        LOADS.format(
+            pressure="*DSLOAD\nPRESSURE, P, 0.6" if solid else "*DLOAD\nPRESSURE, P, 0.6",
+            line_load=-30000.0 / line_nodes,
+            output="3D" if solid else "2D",
+            prints="".join(f"*NODE PRINT, NSET={s}, TOTALS=ONLY\nRF\n" for s in SUPPORT_NAMES),
+        ).rstrip()
+    )
     path.write_text("\n".join(lines) + "\n")
 
 
 def _set(card: str, name: str, ids: np.ndarray) -> list[str]:
     ids = ids.tolist()
-    return [f"*{card}, {card}={name}"] + [", ".join(map(str, ids[k:k + 12])) + "," for k in range(0, len(ids), 12)]
+    return [f"*{card}, {card}={name}"] + [", ".join(map(str, ids[k : k + 12])) + "," for k in range(0, len(ids), 12)]
 
 
 def _faces_of_tetrahedra(model: Model, body: str) -> dict[tuple[int, int, int], tuple[int, int]]:
@@ -116,15 +119,17 @@ class Solution:
     """One static step. Forces in N, energy in N mm, displacement and stress per node number."""
 
     displacement: dict[int, np.ndarray] = field(default_factory=dict)  # (3,), mm
-    stress: dict[int, np.ndarray] = field(default_factory=dict)        # xx yy zz xy yz zx, MPa
-    reactions: dict[str, np.ndarray] = field(default_factory=dict)     # support -> (3,), N
-    energy: float = 0.0                                                # elastic; the loads' work is twice that
+    stress: dict[int, np.ndarray] = field(default_factory=dict)  # xx yy zz xy yz zx, MPa
+    reactions: dict[str, np.ndarray] = field(default_factory=dict)  # support -> (3,), N
+    energy: float = 0.0  # elastic; the loads' work is twice that
 
     def von_mises(self) -> dict[int, float]:
         ids = list(self.stress)
         s = np.array([self.stress[i] for i in ids])
-        value = np.sqrt(0.5 * ((s[:, 0] - s[:, 1]) ** 2 + (s[:, 1] - s[:, 2]) ** 2 + (s[:, 2] - s[:, 0]) ** 2)
-                        + 3 * (s[:, 3:] ** 2).sum(1))
+        value = np.sqrt(
+            0.5 * ((s[:, 0] - s[:, 1]) ** 2 + (s[:, 1] - s[:, 2]) ** 2 + (s[:, 2] - s[:, 0]) ** 2)
+            + 3 * (s[:, 3:] ** 2).sum(1)
+        )
         return dict(zip(ids, value.tolist()))
 
 
@@ -138,8 +143,11 @@ def run(decks: list[Path]) -> list[Solution]:
     running = []
     for deck in decks:
         with deck.with_suffix(".log").open("w") as log:
-            running.append(subprocess.Popen(["ccx", deck.stem], cwd=deck.parent, env=environment, stdout=log,
-                                            stderr=subprocess.STDOUT))
+            running.append(
+                subprocess.Popen(
+                    ["ccx", deck.stem], cwd=deck.parent, env=environment, stdout=log, stderr=subprocess.STDOUT
+                )
+            )
     codes = [process.wait() for process in running]
     return [_results(deck, code) for deck, code in zip(decks, codes)]
 
@@ -168,7 +176,7 @@ def _read_frd(path: Path, solution: Solution) -> None:
                 target = None
             elif target is not None and line.startswith(" -1"):
                 values = line[13:].rstrip("\n")
-                target[int(line[3:13])] = np.array([float(values[k:k + 12]) for k in range(0, len(values), 12)])
+                target[int(line[3:13])] = np.array([float(values[k : k + 12]) for k in range(0, len(values), 12)])
 
 
 def _read_totals(path: Path, solution: Solution) -> None:

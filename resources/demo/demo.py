@@ -40,24 +40,39 @@ def crack_file(source: Path, target: Path) -> tuple[fs.Mesh, fs.Result]:
     return mesh, result
 
 
-def compare(before: calculix.Solution, after: calculix.Solution, mesh: fs.Mesh, cracked: fs.Mesh, stress_name: str) -> list[str]:
+def compare(
+    before: calculix.Solution, after: calculix.Solution, mesh: fs.Mesh, cracked: fs.Mesh, stress_name: str
+) -> list[str]:
     """Table of results before and after; raises RuntimeError where equilibrium says they cannot be right."""
+
     def largest(values, mesh, group=None):
         numbers = values if group is None else [n for n in mesh.groups[group].ids.tolist() if n in values]
         return max(float(np.linalg.norm(values[n])) for n in numbers)
 
-    pairs = [("largest displacement, mm", *(largest(s.displacement, m) for s, m in ((before, mesh), (after, cracked))), 4),
-             ("largest displacement of GAUGE_FLOOR, mm",
-              *(largest(s.displacement, m, "GAUGE_FLOOR") for s, m in ((before, mesh), (after, cracked))), 4),
-             (f"{stress_name} at GAUGE_HANGER_1, MPa",
-              *(largest(s.von_mises(), m, "GAUGE_HANGER_1") for s, m in ((before, mesh), (after, cracked))), 2),
-             ("work of the loads, J", 2e-3 * before.energy, 2e-3 * after.energy, 3)]
+    pairs = [
+        ("largest displacement, mm", *(largest(s.displacement, m) for s, m in ((before, mesh), (after, cracked))), 4),
+        (
+            "largest displacement of GAUGE_FLOOR, mm",
+            *(largest(s.displacement, m, "GAUGE_FLOOR") for s, m in ((before, mesh), (after, cracked))),
+            4,
+        ),
+        (
+            f"{stress_name} at GAUGE_HANGER_1, MPa",
+            *(largest(s.von_mises(), m, "GAUGE_HANGER_1") for s, m in ((before, mesh), (after, cracked))),
+            2,
+        ),
+        ("work of the loads, J", 2e-3 * before.energy, 2e-3 * after.energy, 3),
+    ]
     for name in calculix.SUPPORT_NAMES:
-        pairs.append((f"vertical reaction at {name}, kN", before.reactions[name][2] / 1e3, after.reactions[name][2] / 1e3, 2))
+        pairs.append(
+            (f"vertical reaction at {name}, kN", before.reactions[name][2] / 1e3, after.reactions[name][2] / 1e3, 2)
+        )
     total = [sum(s.reactions[n][2] for n in calculix.SUPPORT_NAMES) / 1e3 for s in (before, after)]
     pairs.append(("all supports, kN", *total, 2))
     if abs(total[1] - total[0]) > 1e-4 * total[0]:
-        raise RuntimeError(f"the supports carry {total[0]} kN before and {total[1]} kN after: a load or support was lost")
+        raise RuntimeError(
+            f"the supports carry {total[0]} kN before and {total[1]} kN after: a load or support was lost"
+        )
     if abs(after.reactions["SUPPORT_1"][2]) > 0.01 * before.reactions["SUPPORT_1"][2]:
         raise RuntimeError("SUPPORT_1 still carries load: the crack did not open")
     lines = [f"    {'':55} {'before':>10} {'after':>10}"]
@@ -70,7 +85,10 @@ def run_variant(solid: bool, size: float, out: Path) -> None:
     model = caisson.make_model(solid, size, order=2)
     mesh = fs.Mesh(model.points, model.cells, cell_ids=model.cell_ids, groups=model.groups, name=f"caisson_{kind}")
     mesh.unit = "mm"
-    files = {suffix: (out / f"caisson_{kind}{suffix}", out / f"caisson_{kind}_cracked{suffix}") for suffix in (".med", ".inp", ".vtu")}
+    files = {
+        suffix: (out / f"caisson_{kind}{suffix}", out / f"caisson_{kind}_cracked{suffix}")
+        for suffix in (".med", ".inp", ".vtu")
+    }
     fs.write(mesh, files[".med"][0])
     calculix.write_deck(model, files[".inp"][0])
 
@@ -83,13 +101,18 @@ def run_variant(solid: bool, size: float, out: Path) -> None:
     report.to_csv(out / f"caisson_{kind}_groups.csv")
     print("\n" + "\n".join("    " + line for line in report.to_text().splitlines()))
     interface = len(report.node_sets["ICN"]) + len(report.node_sets["ECN"])
-    print(f"    In the terms of the paper's Figure 10: {interface} nodes on the crack plane, "
-          f"{report.constraints.get('plane', 0)} plane and {report.constraints.get('tangent plane', 0)} tangent-plane constraints.\n")
+    print(
+        f"    In the terms of the paper's Figure 10: {interface} nodes on the crack plane, "
+        f"{report.constraints.get('plane', 0)} plane and {report.constraints.get('tangent plane', 0)} tangent-plane "
+        f"constraints.\n"
+    )
 
     say(f"{kind}: read, crack, write {files['.inp'][0].name}, a whole CalculiX deck")
     deck, cracked_deck = crack_file(*files[".inp"])
     if cracked_deck.report.nodes_added != report.nodes_added:
-        raise RuntimeError(f"the crack added {report.nodes_added} nodes to the MED mesh, {cracked_deck.report.nodes_added} to the deck")
+        raise RuntimeError(
+            f"the crack added {report.nodes_added} nodes to the MED mesh, {cracked_deck.report.nodes_added} to the deck"
+        )
     say(f"{kind}: ccx solves {' and '.join(path.name for path in files['.inp'])}")
     solutions = calculix.run(list(files[".inp"]))
     print("\n" + "\n".join(compare(*solutions, deck, cracked_deck.mesh, STRESS_NAMES[kind])) + "\n", flush=True)
@@ -99,10 +122,15 @@ def run_variant(solid: bool, size: float, out: Path) -> None:
     title = f"Caisson, {kind} model: {elements} {'tetrahedra' if solid else 'triangles'}, {len(mesh.groups)} groups"
     drawn = [pictures.prepare(m) for m in (mesh, result.mesh)]
     pictures.mesh_picture(out / f"caisson_{kind}_groups.png", title, *drawn)
-    states = [(m, pictures.by_node(m, s.displacement), pictures.by_node(m, s.von_mises())) for m, s in zip(drawn, solutions)]
-    pictures.opened_picture(out / f"caisson_{kind}_opened.png", f"Caisson, {kind} model", states, MAGNIFICATION,
-                            STRESS_NAMES[kind])
-    pictures.quality_picture(out / f"caisson_{kind}_quality.png", f"Caisson, {kind} model: quality near the crack", report.quality)
+    states = [
+        (m, pictures.by_node(m, s.displacement), pictures.by_node(m, s.von_mises())) for m, s in zip(drawn, solutions)
+    ]
+    pictures.opened_picture(
+        out / f"caisson_{kind}_opened.png", f"Caisson, {kind} model", states, MAGNIFICATION, STRESS_NAMES[kind]
+    )
+    pictures.quality_picture(
+        out / f"caisson_{kind}_quality.png", f"Caisson, {kind} model: quality near the crack", report.quality
+    )
 
 
 def write_document(out: Path) -> None:
@@ -111,12 +139,21 @@ def write_document(out: Path) -> None:
     environment = dict(os.environ, FEMSCALPEL_DEMO_OUTPUT=str(out), FEMSCALPEL_DEMO_PLANE=repr(PLANE))
     script = Path(__file__).with_name("make_document.py")
     # The script comes first: FreeCAD 0.20 hands the arguments before it to Python, which does not know -M.
-    done = subprocess.run(["freecadcmd", str(script), "-M", str(WORKBENCH)], env=environment, text=True,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    done = subprocess.run(
+        ["freecadcmd", str(script), "-M", str(WORKBENCH)],
+        env=environment,
+        text=True,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        check=False,
+    )
     (out / "freecad.log").write_text(done.stdout)
     if "document saved" not in done.stdout:
         raise RuntimeError("freecadcmd failed:\n" + done.stdout[-2000:])
-    print("\n".join("    " + line for line in done.stdout.splitlines() if line.startswith(("Shell", "Solid"))), flush=True)
+    print(
+        "\n".join("    " + line for line in done.stdout.splitlines() if line.startswith(("Shell", "Solid"))), flush=True
+    )
 
 
 def main() -> int:

@@ -24,8 +24,10 @@ def main():
         crack = ObjectsFemScalpel.makeCrack(doc, source, name=kind + "Crack", **plane)
         doc.recompute()
         ObjectsFemScalpel.putIntoAnalysis(crack)
-        print(f"\n{kind}: {source.FemMesh.NodeCount} nodes, {source.FemMesh.GroupCount} groups; cracked: "
-              f"{crack.FemMesh.NodeCount} nodes, {crack.FemMesh.GroupCount} groups, in {analysis.Label}")
+        print(
+            f"\n{kind}: {source.FemMesh.NodeCount} nodes, {source.FemMesh.GroupCount} groups; cracked: "
+            f"{crack.FemMesh.NodeCount} nodes, {crack.FemMesh.GroupCount} groups, in {analysis.Label}"
+        )
         if crack.FemMesh.NodeCount <= source.FemMesh.NodeCount:
             raise RuntimeError(f"{crack.Label} was not computed: {crack.State}")
     doc.saveAs(os.path.join(out, "caisson.FCStd"))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Writes the caisson as a solid of linear tetrahedra, for the workbench's menu: arrays that femscalpelobjects/example.py reads.
+"""Writes the caisson as a solid of linear tetrahedra, for the workbench's menu: arrays that
+femscalpelobjects/example.py reads.
 
     make_example.py OUTPUT.npz
 

@@ -16,28 +16,39 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 # Groups of plates, disjoint and together the whole body, and their colours.
 PARTS = {
-    "STIFFENER_1": "#e8762c", "STIFFENER_2": "#f3b562", "STIFFENER_3": "#f7d58b",
-    "STIFFENER_4": "#d9a066", "STIFFENER_5": "#c98f5a", "STIFFENER_6": "#e6c9a0",
-    "ROOF": "#a9c8e8", "FLOOR": "#5a7fa8", "SIDE_A": "#7fa9d1", "SIDE_B": "#6b93bd", "END_A": "#93d0c4", "END_B": "#63b0a3",
-    "DIAPHRAGM": "#b9a7d6", "LONGITUDINALS": "#8fbf6b",
+    "STIFFENER_1": "#e8762c",
+    "STIFFENER_2": "#f3b562",
+    "STIFFENER_3": "#f7d58b",
+    "STIFFENER_4": "#d9a066",
+    "STIFFENER_5": "#c98f5a",
+    "STIFFENER_6": "#e6c9a0",
+    "ROOF": "#a9c8e8",
+    "FLOOR": "#5a7fa8",
+    "SIDE_A": "#7fa9d1",
+    "SIDE_B": "#6b93bd",
+    "END_A": "#93d0c4",
+    "END_B": "#63b0a3",
+    "DIAPHRAGM": "#b9a7d6",
+    "LONGITUDINALS": "#8fbf6b",
 }
 STRESS_MAP = matplotlib.colors.LinearSegmentedColormap.from_list(
-    "stress", ["#e3e9f0", "#9cc3e4", "#4fae9b", "#f0d040", "#ef7d29", "#b0131c"])
+    "stress", ["#e3e9f0", "#9cc3e4", "#4fae9b", "#f0d040", "#ef7d29", "#b0131c"]
+)
 DIRECTION = np.array([-0.62, -1.0, 0.62])  # from the scene to the eye
-HANGER = np.array([200.0, -50.0, 445.0])   # middle of the cracked hanger
+HANGER = np.array([200.0, -50.0, 445.0])  # middle of the cracked hanger
 
 
 @dataclass
 class Mesh:
     """What is drawn of a mesh: all arrays index `points`."""
 
-    points: np.ndarray            # (n, 3)
-    row_of: dict[int, int]        # node number -> row
-    surface: np.ndarray           # (m, 3) triangles of a shell, or of a solid's skin
-    part: np.ndarray              # (m,) index into PARTS
+    points: np.ndarray  # (n, 3)
+    row_of: dict[int, int]  # node number -> row
+    surface: np.ndarray  # (m, 3) triangles of a shell, or of a solid's skin
+    part: np.ndarray  # (m,) index into PARTS
     lines: dict[str, np.ndarray]  # edge group -> (k, 2)
     nodes: dict[str, np.ndarray]  # node group -> rows
-    lips: np.ndarray              # (k, 2) border of both lips, for shells the lips themselves; empty without a crack
+    lips: np.ndarray  # (k, 2) border of both lips, for shells the lips themselves; empty without a crack
 
 
 def prepare(mesh) -> Mesh:
@@ -210,13 +221,15 @@ ZOOM = {"focus": HANGER, "scale": 125}
 
 def _mesh_scene(mesh: Mesh, size, marks: float, focus, scale) -> np.ndarray:
     points = mesh.points
-    actors = [_surface(mesh, points, cell_colours=_colours(PARTS.values())[mesh.part]),
-              _tubes(points, mesh.lines["WELD_STIFFENERS"], "#1a1a1a", 3 * marks),
-              _tubes(points, mesh.lines["LINE_LOAD"], "#c2185b", 6 * marks),
-              _spheres(points[mesh.nodes["SUPPORTS"]], "#c62828", 7 * marks),
-              _spheres(points[mesh.nodes["GAUGE_HANGER_1"]], "#2e7d32", 9 * marks),
-              _spheres(points[mesh.nodes["GAUGE_FLOOR"]], "#2e7d32", 9 * marks),
-              _arrows_down(points[mesh.nodes["POINT_LOAD"]], "#c2185b", 130)]
+    actors = [
+        _surface(mesh, points, cell_colours=_colours(PARTS.values())[mesh.part]),
+        _tubes(points, mesh.lines["WELD_STIFFENERS"], "#1a1a1a", 3 * marks),
+        _tubes(points, mesh.lines["LINE_LOAD"], "#c2185b", 6 * marks),
+        _spheres(points[mesh.nodes["SUPPORTS"]], "#c62828", 7 * marks),
+        _spheres(points[mesh.nodes["GAUGE_HANGER_1"]], "#2e7d32", 9 * marks),
+        _spheres(points[mesh.nodes["GAUGE_FLOOR"]], "#2e7d32", 9 * marks),
+        _arrows_down(points[mesh.nodes["POINT_LOAD"]], "#c2185b", 130),
+    ]
     if len(mesh.lips):
         actors.append(_tubes(points, mesh.lips, "#d50000", 3 * marks))
     return _render(actors, size, focus, scale)
@@ -231,17 +244,29 @@ def _show(axes, image, title) -> None:
 def mesh_picture(path: Path, title: str, before: Mesh, after: Mesh) -> None:
     """Mesh coloured by group: the whole structure, then the cracked hanger before and after."""
     figure = plt.figure(figsize=(15, 9.2), dpi=100)
-    grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], left=0.01, right=0.99, top=0.9, bottom=0.15, wspace=0.02, hspace=0.08)
-    _show(figure.add_subplot(grid[:, 0]), _mesh_scene(after, (1400, 1060), 1.0, **WHOLE), "Whole structure, crack in red")
-    _show(figure.add_subplot(grid[0, 1]), _mesh_scene(before, (800, 500), 0.35, **ZOOM), "Hanger of STIFFENER_1, before")
-    _show(figure.add_subplot(grid[1, 1]), _mesh_scene(after, (800, 500), 0.35, **ZOOM), "The same after: nodes lie on the crack plane, groups are kept")
+    grid = figure.add_gridspec(
+        2, 2, width_ratios=[1.75, 1], left=0.01, right=0.99, top=0.9, bottom=0.15, wspace=0.02, hspace=0.08
+    )
+    _show(
+        figure.add_subplot(grid[:, 0]), _mesh_scene(after, (1400, 1060), 1.0, **WHOLE), "Whole structure, crack in red"
+    )
+    _show(
+        figure.add_subplot(grid[0, 1]), _mesh_scene(before, (800, 500), 0.35, **ZOOM), "Hanger of STIFFENER_1, before"
+    )
+    _show(
+        figure.add_subplot(grid[1, 1]),
+        _mesh_scene(after, (800, 500), 0.35, **ZOOM),
+        "The same after: nodes lie on the crack plane, groups are kept",
+    )
     keys = [Patch(facecolor=c, edgecolor="0.3", label=n) for n, c in PARTS.items()]
-    keys += [Line2D([], [], color="#1a1a1a", lw=3, label="WELD_STIFFENERS (edges)"),
-             Line2D([], [], color="#c2185b", lw=4, label="LINE_LOAD (edges)"),
-             Line2D([], [], color="#c2185b", marker="v", ls="", ms=9, label="POINT_LOAD (nodes)"),
-             Line2D([], [], color="#c62828", marker="o", ls="", ms=8, label="SUPPORTS (nodes)"),
-             Line2D([], [], color="#2e7d32", marker="o", ls="", ms=8, label="GAUGE_... (nodes)"),
-             Line2D([], [], color="#d50000", lw=3, label="crack: CRACK_P, CRACK_N")]
+    keys += [
+        Line2D([], [], color="#1a1a1a", lw=3, label="WELD_STIFFENERS (edges)"),
+        Line2D([], [], color="#c2185b", lw=4, label="LINE_LOAD (edges)"),
+        Line2D([], [], color="#c2185b", marker="v", ls="", ms=9, label="POINT_LOAD (nodes)"),
+        Line2D([], [], color="#c62828", marker="o", ls="", ms=8, label="SUPPORTS (nodes)"),
+        Line2D([], [], color="#2e7d32", marker="o", ls="", ms=8, label="GAUGE_... (nodes)"),
+        Line2D([], [], color="#d50000", lw=3, label="crack: CRACK_P, CRACK_N"),
+    ]
     figure.legend(handles=keys, loc="lower center", ncol=5, fontsize=10, frameon=False)
     figure.suptitle(title, fontsize=15, x=0.01, ha="left")
     figure.savefig(path)
@@ -254,10 +279,15 @@ def opened_picture(path: Path, title: str, states, magnification: float, stress_
     `states` holds for before and after: Mesh, displacement (n, 3) in mm, von Mises stress (n,) in MPa.
     """
     # A few nodes in re-entrant corners would take the whole scale.
-    top = float(np.ceil(max(np.percentile(stress[np.unique(mesh.surface)], 99.8) for mesh, _, stress in states) / 5) * 5)
+    top = float(
+        np.ceil(max(np.percentile(stress[np.unique(mesh.surface)], 99.8) for mesh, _, stress in states) / 5) * 5
+    )
     scenes = []
-    for (mesh, displacement, stress), size, view in ((states[0], (1200, 860), WHOLE), (states[1], (1200, 860), WHOLE),
-                                                     (states[1], (900, 1250), ZOOM)):
+    for (mesh, displacement, stress), size, view in (
+        (states[0], (1200, 860), WHOLE),
+        (states[1], (1200, 860), WHOLE),
+        (states[1], (900, 1250), ZOOM),
+    ):
         colours = (STRESS_MAP(np.clip(stress / top, 0, 1))[:, :3] * 255).astype(np.uint8)
         points = mesh.points + magnification * displacement
         actors = [_surface(mesh, points, node_colours=colours, edges=view is not WHOLE)]
@@ -265,9 +295,18 @@ def opened_picture(path: Path, title: str, states, magnification: float, stress_
             actors.append(_tubes(points, mesh.lips, "#d50000", 3 if view is WHOLE else 1.2))
         scenes.append(_render(actors, size, **dict(view, scale=190) if view is ZOOM else view))
     figure = plt.figure(figsize=(15, 9.2), dpi=100)
-    grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1], left=0.01, right=0.92, top=0.9, bottom=0.02, wspace=0.02, hspace=0.08)
-    for place, scene, caption in zip((grid[0, 0], grid[1, 0], grid[:, 1]), scenes, (
-            "Before", "After: the cracked hanger is idle, its neighbours carry more", "After: the crack (lips in red) opens")):
+    grid = figure.add_gridspec(
+        2, 2, width_ratios=[1.25, 1], left=0.01, right=0.92, top=0.9, bottom=0.02, wspace=0.02, hspace=0.08
+    )
+    for place, scene, caption in zip(
+        (grid[0, 0], grid[1, 0], grid[:, 1]),
+        scenes,
+        (
+            "Before",
+            "After: the cracked hanger is idle, its neighbours carry more",
+            "After: the crack (lips in red) opens",
+        ),
+    ):
         _show(figure.add_subplot(place), scene, caption)
     scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, top), STRESS_MAP)
     bar = figure.colorbar(scale, cax=figure.add_axes((0.935, 0.15, 0.015, 0.6)))
@@ -281,9 +320,18 @@ def quality_picture(path: Path, title: str, quality) -> None:
     """Histogram of the mean ratio near the crack, before and after; `quality` as in femscalpel.Report."""
     figure, axes = plt.subplots(figsize=(9, 5), dpi=100)
     left = np.arange(20) / 20
-    for summary, label, shift, colour in ((quality.before, "before", 0.003, "#9db4c8"), (quality.after, "after", 0.025, "#e8762c")):
-        axes.bar(left + shift, summary.histogram, 0.022, align="edge", color=colour,
-                 label=f"{label}: {summary.count} elements, minimum {summary.minimum:.2f}, mean {summary.mean:.2f}")
+    for summary, label, shift, colour in (
+        (quality.before, "before", 0.003, "#9db4c8"),
+        (quality.after, "after", 0.025, "#e8762c"),
+    ):
+        axes.bar(
+            left + shift,
+            summary.histogram,
+            0.022,
+            align="edge",
+            color=colour,
+            label=f"{label}: {summary.count} elements, minimum {summary.minimum:.2f}, mean {summary.mean:.2f}",
+        )
     axes.set_xlim(0, 1)
     axes.set_xlabel("mean ratio (1: equilateral, 0: flat)")
     axes.set_ylabel("number of elements near the crack")

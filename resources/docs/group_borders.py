@@ -67,7 +67,9 @@ def draw_figure_12(path):
             corners, left = skin_on_top(result.mesh)
             at = axes[row, column]
             for side, colour in ((left, LEFT), (~left, RIGHT)):
-                at.add_collection(PolyCollection(corners[side][:, :, :2], facecolors=colour, edgecolors="#777777", linewidths=0.7))
+                at.add_collection(
+                    PolyCollection(corners[side][:, :, :2], facecolors=colour, edgecolors="#777777", linewidths=0.7)
+                )
             if operator is fs.crack:
                 y = np.array([0.0, 6.0])
                 at.plot(6.1 - (0.45 * (y - 3) + 0.2 * 3) / 0.9, y, color=CRACK, linewidth=2.4)
@@ -76,8 +78,11 @@ def draw_figure_12(path):
             at.set_ylim(-0.1, 6.1)
             at.set_aspect("equal")
             at.set_axis_off()
-            at.set_title(f"{title}: border drift {record.boundary_drift:.2g}\nvolume of LEFT {record.measure_before:.6f} → "
-                         f"{record.measure_after:.6f}", fontsize=12)
+            at.set_title(
+                f"{title}: border drift {record.boundary_drift:.2g}\nvolume of LEFT {record.measure_before:.6f} → "
+                f"{record.measure_after:.6f}",
+                fontsize=12,
+            )
     figure.suptitle("A crack (red) and a hole across the border of two groups of tetrahedra, from above", fontsize=13)
     figure.subplots_adjust(left=0.02, right=0.98, top=0.89, bottom=0.02, hspace=0.18, wspace=0.05)
     figure.savefig(path, facecolor="white")
@@ -90,11 +95,18 @@ def draw_figure_9(path):
     for j in range(3):
         for i in range(7):
             a = i + 8 * j
-            triangles += [(a, a + 1, a + 9), (a, a + 9, a + 8)] if (i + j) % 2 == 0 else [(a, a + 1, a + 8), (a + 1, a + 9, a + 8)]
+            triangles += (
+                [(a, a + 1, a + 9), (a, a + 9, a + 8)]
+                if (i + j) % 2 == 0
+                else [(a, a + 1, a + 8), (a + 1, a + 9, a + 8)]
+            )
     mesh = fs.Mesh(points, {"triangle": triangles}, groups={"GN": ("node", range(1, 9)), "LONE": ("node", [22])})
     result = fs.crack(mesh, fs.Plane(origin=(3.5, 0, 0), normal=(1, -0.22, 0)))
     figure, both = plt.subplots(2, 1, figsize=(9.0, 7.6), dpi=100)
-    for axes, shown, title in ((both[0], mesh, "before"), (both[1], result.mesh, "after the crack (opened for the picture)")):
+    for axes, shown, title in (
+        (both[0], mesh, "before"),
+        (both[1], result.mesh, "after the crack (opened for the picture)"),
+    ):
         xy = shown.points[:, :2].copy()
         cells = shown.cells["triangle"]
         if shown is not mesh:
@@ -109,7 +121,9 @@ def draw_figure_9(path):
             at = [index[n] for n in shown.groups[name, "node"].ids.tolist()]
             axes.scatter(*xy[at].T, s=70, color=colour, zorder=5)
         linking = fs.virtual_boundary(shown, "GN", "node").linking.edges
-        axes.add_collection(LineCollection([[xy[index[n]] for n in edge] for edge in linking.tolist()], colors=MEMBER, linewidths=3.2))
+        axes.add_collection(
+            LineCollection([[xy[index[n]] for n in edge] for edge in linking.tolist()], colors=MEMBER, linewidths=3.2)
+        )
         if shown is mesh:
             for number, label in ((4, "n1"), (5, "n2")):
                 axes.annotate(label, xy[index[number]] - (0, 0.34), ha="center", fontsize=12)
@@ -123,12 +137,34 @@ def draw_figure_9(path):
         axes.set_ylim(-0.5, 2.7)
         axes.set_aspect("equal")
         axes.set_axis_off()
-    figure.legend(handles=[
-        Line2D([], [], marker="o", color=MEMBER, linewidth=3, markersize=8, label="node group GN and its linking elements"),
-        Line2D([], [], marker="o", color="none", markerfacecolor=ISOLATED, markeredgecolor="none", markersize=9,
-               label="isolated node of another group: stays, alone"),
-        Line2D([], [], color=CRACK, linestyle="--", label="crack"),
-    ], loc="lower center", ncol=3, frameon=False, fontsize=10)
+    figure.legend(
+        handles=[
+            Line2D(
+                [],
+                [],
+                marker="o",
+                color=MEMBER,
+                linewidth=3,
+                markersize=8,
+                label="node group GN and its linking elements",
+            ),
+            Line2D(
+                [],
+                [],
+                marker="o",
+                color="none",
+                markerfacecolor=ISOLATED,
+                markeredgecolor="none",
+                markersize=9,
+                label="isolated node of another group: stays, alone",
+            ),
+            Line2D([], [], color=CRACK, linestyle="--", label="crack"),
+        ],
+        loc="lower center",
+        ncol=3,
+        frameon=False,
+        fontsize=10,
+    )
     figure.subplots_adjust(left=0.02, right=0.98, top=0.95, bottom=0.06, hspace=0.1)
     figure.savefig(path, facecolor="white")
 

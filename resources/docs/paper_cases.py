@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The paper's cases, rebuilt on the demo's caisson: prints them in its terms and draws figure_7, 10, 11 and 12_caisson.png.
+"""The paper's cases, rebuilt on the demo's caisson: prints them in its terms and draws figure_7, 10, 11 and
+12_caisson.png.
 
     PYTHONPATH=build/release/Mod/FemScalpel python3 resources/docs/paper_cases.py [folder]
 
-Pictures go to the folder. Without one they are this folder's, and the table in paper.md is made anew, too. Needs Gmsh. Its mesher HXT does not repeat itself to the last element, and so neither do the numbers.
+Pictures go to the folder. Without one they are this folder's, and the table in paper.md is made anew, too. Needs Gmsh.
+Its mesher HXT does not repeat itself to the last element, and so neither do the numbers.
 """
 
 import sys
@@ -27,8 +29,8 @@ import femscalpel as fs
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "demo"))
 import caisson  # noqa: E402
 
-# STIFFENER_1 of the caisson: its web stands across x = 200, from the side of the box (y = 0) to its flange (y = -80 to -104); it
-# goes up from the floor (z = 0) past the roof (z = 360), where its hanger begins, to the support (z = 520).
+# STIFFENER_1 of the caisson: its web stands across x = 200, from the side of the box (y = 0) to its flange (y = -80 to
+# -104); it goes up from the floor (z = 0) past the roof (z = 360), where its hanger begins, to the support (z = 520).
 ROOF_Z = 360.0
 SLANTING = fs.Plane(origin=(200, -50, 430), normal=(-0.33, -0.30, 1))  # rises above all other hangers
 HOLE = fs.Cylinder(origin=(150, -40, 440), axis=(1, 0, 0), radius=22)
@@ -37,7 +39,13 @@ DEPTH = 100.0  # past this web, short of the next stiffener's at x = 600
 SLOT_WIDTH = 14.0
 
 # Of elements in several groups the first counts; faces of the skin that are in a group of faces have its colour.
-COLOURS = {"FACE_FLANGE_1": "#bcd9a4", "HANGERS": "#f6c58f", "STIFFENER_1": "#e8a25c", "ROOF": "#a9c8e8", "SIDE_A": "#7fa9d1"}
+COLOURS = {
+    "FACE_FLANGE_1": "#bcd9a4",
+    "HANGERS": "#f6c58f",
+    "STIFFENER_1": "#e8a25c",
+    "ROOF": "#a9c8e8",
+    "SIDE_A": "#7fa9d1",
+}
 EDGE, WALL, REST = "#7b3fa0", "#e58b93", "#d9d9d9"
 TOOL, ON_TOOL, ON_SKIN, FREE = "#c01c28", "#c01c28", "#1f5fa8", "#2e8b57"
 
@@ -71,16 +79,32 @@ class Case:
         """The case in the paper's terms."""
         report, tool = self.result.report, self.tool.kind
         on_tool, transition = [[n for n in report.node_sets if (n[1] == "T") == moves] for moves in (False, True)]
-        text = [f"Figure {self.figure}: {self.title}",
-                "    " + ", ".join(f"{name} {self.count(name)}" for name in sorted(on_tool, reverse=True) + sorted(transition, reverse=True)),
-                f"    {self.count(*on_tool)} nodes on the {tool}, {self.count(*transition)} around them that may move; {report.nodes_moved} were moved",
-                f"    {self.constraint(tool)} {tool} constraints, {self.constraint('tangent plane')} tangent-plane constraints, {self.constraint('free')} nodes free",
-                f"    {report.nodes_split} nodes born on edges, {report.nodes_doubled} doubled, {report.elements_removed} elements removed; smallest mean ratio "
-                f"there {report.quality.before.minimum:.2f} before, {report.quality.after.minimum:.2f} after"]
+        text = [
+            f"Figure {self.figure}: {self.title}",
+            "    "
+            + ", ".join(
+                f"{name} {self.count(name)}"
+                for name in sorted(on_tool, reverse=True) + sorted(transition, reverse=True)
+            ),
+            f"    {self.count(*on_tool)} nodes on the {tool}, {self.count(*transition)} around them that may move; "
+            f"{report.nodes_moved} were moved",
+            f"    {self.constraint(tool)} {tool} constraints, {self.constraint('tangent plane')} tangent-plane "
+            f"constraints, {self.constraint('free')} nodes free",
+            f"    {report.nodes_split} nodes born on edges, {report.nodes_doubled} doubled, "
+            f"{report.elements_removed} elements removed; smallest mean ratio "
+            f"there {report.quality.before.minimum:.2f} before, {report.quality.after.minimum:.2f} after",
+        ]
         changed = [g for g in report.groups if g.status in ("changed", "reduced", "became empty")]
         if changed:
-            text.append("    groups: " + ", ".join(f"{g.name} {g.measure_before:.6g} -> {g.measure_after:.6g}" if g.kind == "element" else
-                                                   f"{g.name} {g.count_before} -> {g.count_after} {g.kind}s" for g in changed))
+            text.append(
+                "    groups: "
+                + ", ".join(
+                    f"{g.name} {g.measure_before:.6g} -> {g.measure_after:.6g}"
+                    if g.kind == "element"
+                    else f"{g.name} {g.count_before} -> {g.count_after} {g.kind}s"
+                    for g in changed
+                )
+            )
         return text
 
 
@@ -90,22 +114,29 @@ PAGE_SIZES = 14, 20
 
 def page_table(shell, hole):
     """The rows of paper.md's table: what the paper counts, its number, ours."""
+
     def total(case, *sets):
         return f"{' + '.join(str(case.count(*names)) for names in sets)} = {case.count(*sum(sets, ()))}"
+
     crack = ("ICN", "ECN"), ("ITN", "ETN")
-    return ["| the paper | there | here |", "| --- | --- | --- |",
-            f"| Figure 10, crack in the shell mesh: plane constraints = interface nodes | 84 | {shell.constraint('plane')} |",
-            f"| tangent-plane constraints = interface and transition nodes | 84 + 341 = 425 | {total(shell, *crack)} |",
-            f"| Figure 11, hole in a stiffener of the solid mesh: cylinder constraints = nodes of the hole, IHN and EHN | 19 | {total(hole, ('IHN',), ('EHN',))} |",
-            f"| plane constraints = EHN and ETN | 46 | {total(hole, ('EHN',), ('ETN',))} |",
-            f"| nodes free to move = ITN | 21 | {hole.constraint('free')} |"]
+    return [
+        "| the paper | there | here |",
+        "| --- | --- | --- |",
+        f"| Figure 10, crack in the shell mesh: plane constraints = interface nodes | 84 | "
+        f"{shell.constraint('plane')} |",
+        f"| tangent-plane constraints = interface and transition nodes | 84 + 341 = 425 | {total(shell, *crack)} |",
+        f"| Figure 11, hole in a stiffener of the solid mesh: cylinder constraints = nodes of the hole, IHN and "
+        f"EHN | 19 | {total(hole, ('IHN',), ('EHN',))} |",
+        f"| plane constraints = EHN and ETN | 46 | {total(hole, ('EHN',), ('ETN',))} |",
+        f"| nodes free to move = ITN | 21 | {hole.constraint('free')} |",
+    ]
 
 
 def write_table(page, rows):
     """Puts the rows in the place of the page's table."""
     lines = page.read_text().splitlines()
     at = [k for k, line in enumerate(lines) if line.startswith("|")]
-    page.write_text("\n".join(lines[:at[0]] + rows + lines[at[-1] + 1:]) + "\n")
+    page.write_text("\n".join(lines[: at[0]] + rows + lines[at[-1] + 1 :]) + "\n")
 
 
 def attempt(case, *arguments, **options):
@@ -120,19 +151,35 @@ def attempt(case, *arguments, **options):
 
 def shell_cases(mesh):
     """Figure 10: a crack through the hanger, in shells; the same by moving nodes only."""
-    return [Case("10", "crack in the shell mesh of the caisson", mesh, fs.crack(mesh, SLANTING), SLANTING),
-            attempt(("10", "the same, by moving nodes only (the paper's way)", mesh, SLANTING))]
+    return [
+        Case("10", "crack in the shell mesh of the caisson", mesh, fs.crack(mesh, SLANTING), SLANTING),
+        attempt(("10", "the same, by moving nodes only (the paper's way)", mesh, SLANTING)),
+    ]
 
 
 def solid_cases(mesh):
     """Figures 11, 12 (its border kept, and not) and 7, in tetrahedra; the hole once more by moving nodes only."""
     whole = fs.CylinderPart((0, DEPTH))
-    return [Case("11", "hole in a stiffener of the solid mesh", mesh, fs.drill(mesh, HOLE, depth=DEPTH), HOLE),
-            Case("12", "hole across a group border that keeps its shape", mesh, fs.drill(mesh, BORDER_HOLE, depth=DEPTH), BORDER_HOLE),
-            Case("12", "the same, borders of groups may drift", mesh, fs.drill(mesh, BORDER_HOLE, depth=DEPTH, preserve=()), BORDER_HOLE),
-            Case("7.a to c", "cylindrical crack", mesh, fs.crack(mesh, HOLE, within=whole), HOLE),
-            Case("7.d to f", "incision between two planes", mesh, fs.cut(mesh, SLANTING, width=SLOT_WIDTH), SLANTING),
-            attempt(("11", "the hole through three stiffeners, by moving nodes only (the paper's way)", mesh, HOLE))]
+    return [
+        Case("11", "hole in a stiffener of the solid mesh", mesh, fs.drill(mesh, HOLE, depth=DEPTH), HOLE),
+        Case(
+            "12",
+            "hole across a group border that keeps its shape",
+            mesh,
+            fs.drill(mesh, BORDER_HOLE, depth=DEPTH),
+            BORDER_HOLE,
+        ),
+        Case(
+            "12",
+            "the same, borders of groups may drift",
+            mesh,
+            fs.drill(mesh, BORDER_HOLE, depth=DEPTH, preserve=()),
+            BORDER_HOLE,
+        ),
+        Case("7.a to c", "cylindrical crack", mesh, fs.crack(mesh, HOLE, within=whole), HOLE),
+        Case("7.d to f", "incision between two planes", mesh, fs.cut(mesh, SLANTING, width=SLOT_WIDTH), SLANTING),
+        attempt(("11", "the hole through three stiffeners, by moving nodes only (the paper's way)", mesh, HOLE)),
+    ]
 
 
 # --- pictures
@@ -161,9 +208,9 @@ class View:
         return ((points > self.low) & (points < self.high)).all(axis=-1)
 
 
-BESIDE = View((140, -108, 352), (260, 0, 524), (1, 0, 0), only="STIFFENER_1", framed=True)    # the hanger's web, face on
+BESIDE = View((140, -108, 352), (260, 0, 524), (1, 0, 0), only="STIFFENER_1", framed=True)  # the hanger's web, face on
 BORDER = View((186, -82, 328), (260, 0, 404), (1, 0, 0), only="STIFFENER_1", framed=True)
-ASLANT = View((140, -120, 352), (260, 30, 525), (-0.85, -0.75, 0.5), only="STIFFENER_1")      # the hanger from outside
+ASLANT = View((140, -120, 352), (260, 30, 525), (-0.85, -0.75, 0.5), only="STIFFENER_1")  # the hanger from outside
 
 
 class Picture:
@@ -196,7 +243,11 @@ class Picture:
         order = np.argsort(corners.mean(axis=1) @ view.to_eye)
         shade = (0.72 + 0.28 * np.abs(slope[order]))[:, None]
         self.corners = corners[order]
-        axes.add_collection(PolyCollection(view.flat(self.corners), facecolors=colours[order] * shade, edgecolors="#5a5a5a", linewidths=0.6))
+        axes.add_collection(
+            PolyCollection(
+                view.flat(self.corners), facecolors=colours[order] * shade, edgecolors="#5a5a5a", linewidths=0.6
+            )
+        )
 
     def _colours(self, numbers, rest):
         out = np.tile(to_rgb(rest), (len(numbers), 1))
@@ -210,7 +261,9 @@ class Picture:
         ids = self.mesh.cell_ids["triangle"]
         painted = {}
         for name, colour in [("FACE_FLANGE_1", COLOURS["FACE_FLANGE_1"])] + [(name, WALL) for name in walls]:
-            painted.update((tuple(t), to_rgb(colour)) for t in triangles[np.isin(ids, self.mesh.groups[name].ids)].tolist())
+            painted.update(
+                (tuple(t), to_rgb(colour)) for t in triangles[np.isin(ids, self.mesh.groups[name].ids)].tolist()
+            )
         for k, face in enumerate(np.sort(faces, axis=1).tolist()):
             colours[k] = painted.get(tuple(face), colours[k])
 
@@ -241,7 +294,9 @@ class Picture:
         edges = self.mesh.cells["line"][np.isin(self.mesh.cell_ids["line"], self.mesh.groups[group].ids)]
         edges = edges[self.view.shows(self.mesh.points[edges].mean(axis=1))]
         edges = edges[~self.hides(self.points[edges].mean(axis=1))]
-        self.axes.add_collection(LineCollection(self.view.flat(self.points[edges]), colors=colour, linewidths=width, zorder=4))
+        self.axes.add_collection(
+            LineCollection(self.view.flat(self.points[edges]), colors=colour, linewidths=width, zorder=4)
+        )
 
     def finish(self, title):
         self.axes.autoscale_view()
@@ -303,15 +358,27 @@ def draw_crack_in_shell(case, path):
     after = Picture(axes[1], ASLANT, mesh)
     after.nodes(np.concatenate([sets["ITN"], sets["ETN"]]), ON_SKIN, 22)
     after.nodes(np.concatenate([sets["ICN"], sets["ECN"]]), ON_TOOL)
-    after.finish(f"after: {case.constraint('plane')} plane and {case.constraint('tangent plane')} tangent-plane constraints")
+    after.finish(
+        f"after: {case.constraint('plane')} plane and {case.constraint('tangent plane')} tangent-plane constraints"
+    )
     apart = Picture(axes[2], ASLANT, mesh, opened(case, 9 * np.array(SLANTING.normal)))
     for name in ("CRACK_P", "CRACK_N"):
         apart.edges(name, TOOL)
     apart.finish("opened for the picture")
     for picture in (before, after, apart):
         picture.edges("EDGE_FLANGE_1", EDGE)
-    save(figure, path, [*group_keys("FACE_FLANGE_1", "HANGERS"), EDGE_KEY, dot(ON_TOOL, "on the crack plane"), dot(ON_SKIN, "moves on its tangent plane"),
-                        Line2D([], [], color=TOOL, lw=2.6, label="CRACK_P, CRACK_N")], "As the paper's Figure 10: a crack through a hanger of the caisson, shells")
+    save(
+        figure,
+        path,
+        [
+            *group_keys("FACE_FLANGE_1", "HANGERS"),
+            EDGE_KEY,
+            dot(ON_TOOL, "on the crack plane"),
+            dot(ON_SKIN, "moves on its tangent plane"),
+            Line2D([], [], color=TOOL, lw=2.6, label="CRACK_P, CRACK_N"),
+        ],
+        "As the paper's Figure 10: a crack through a hanger of the caisson, shells",
+    )
 
 
 def draw_hole(case, path):
@@ -326,9 +393,21 @@ def draw_hole(case, path):
     after.nodes(sets["ITN"], FREE, 26, inside=True)
     after.nodes(sets["ETN"], ON_SKIN, 26)
     after.nodes(np.concatenate([sets["IHN"], sets["EHN"]]), ON_TOOL)
-    after.finish(f"after: {case.constraint('cylinder')} cylinder, {case.constraint('tangent plane')} tangent-plane constraints, {case.constraint('free')} free")
-    save(figure, path, [*group_keys("HANGERS", "STIFFENER_1"), dot(ON_TOOL, "on the cylinder"), dot(ON_SKIN, "moves on its tangent plane"),
-                        dot(FREE, "inside the material")], "As the paper's Figure 11: a hole in a stiffener of the caisson, tetrahedra, seen along its axis")
+    after.finish(
+        f"after: {case.constraint('cylinder')} cylinder, {case.constraint('tangent plane')} tangent-plane constraints, "
+        f"{case.constraint('free')} free"
+    )
+    save(
+        figure,
+        path,
+        [
+            *group_keys("HANGERS", "STIFFENER_1"),
+            dot(ON_TOOL, "on the cylinder"),
+            dot(ON_SKIN, "moves on its tangent plane"),
+            dot(FREE, "inside the material"),
+        ],
+        "As the paper's Figure 11: a hole in a stiffener of the caisson, tetrahedra, seen along its axis",
+    )
 
 
 def draw_border(cases, path):
@@ -336,24 +415,48 @@ def draw_border(cases, path):
     Picture(axes[0], BORDER, cases[0].mesh).finish("before")
     for at, case, label in zip(axes[1:], cases, ("preserved (the default)", "preserve=()")):
         record = next(g for g in case.result.report.groups if g.name == "HANGERS")
-        Picture(at, BORDER, case.result.mesh, walls=["HOLE_WALL"]).finish(f"{label}: border drift {record.boundary_drift:.2g} mm")
+        Picture(at, BORDER, case.result.mesh, walls=["HOLE_WALL"]).finish(
+            f"{label}: border drift {record.boundary_drift:.2g} mm"
+        )
     for at in axes:
         at.axhline(ROOF_Z, color="black", linewidth=1.4, linestyle=":")
-    save(figure, path, [*group_keys("HANGERS", "STIFFENER_1"), Line2D([], [], color="black", ls=":", label="border of HANGERS, z = 360"),
-                        Patch(facecolor=WALL, label="HOLE_WALL")],
-         "As the paper's Figure 12: a hole across the border of two groups of tetrahedra in the stiffener's web")
+    save(
+        figure,
+        path,
+        [
+            *group_keys("HANGERS", "STIFFENER_1"),
+            Line2D([], [], color="black", ls=":", label="border of HANGERS, z = 360"),
+            Patch(facecolor=WALL, label="HOLE_WALL"),
+        ],
+        "As the paper's Figure 12: a hole across the border of two groups of tetrahedra in the stiffener's web",
+    )
 
 
 def draw_cylinder_and_slot(crack, slot, path):
     figure, axes = plt.subplots(1, 3, figsize=(14, 6.8), dpi=100)
-    pictures = [Picture(axes[0], ASLANT, crack.mesh),
-                Picture(axes[1], ASLANT, crack.result.mesh, opened(crack, np.array([-40.0, 0, 0])), walls=["CRACK_P", "CRACK_N"]),
-                Picture(axes[2], ASLANT, slot.result.mesh, walls=["CUT_P", "CUT_N"])]
-    for picture, title in zip(pictures, ("before", "cylindrical crack; what it frees pulled out for the picture", f"incision, {SLOT_WIDTH:g} mm wide")):
+    pictures = [
+        Picture(axes[0], ASLANT, crack.mesh),
+        Picture(
+            axes[1], ASLANT, crack.result.mesh, opened(crack, np.array([-40.0, 0, 0])), walls=["CRACK_P", "CRACK_N"]
+        ),
+        Picture(axes[2], ASLANT, slot.result.mesh, walls=["CUT_P", "CUT_N"]),
+    ]
+    for picture, title in zip(
+        pictures,
+        ("before", "cylindrical crack; what it frees pulled out for the picture", f"incision, {SLOT_WIDTH:g} mm wide"),
+    ):
         picture.edges("EDGE_FLANGE_1", EDGE)
         picture.finish(title)
-    save(figure, path, [*group_keys("FACE_FLANGE_1", "HANGERS", "STIFFENER_1"), EDGE_KEY, Patch(facecolor=WALL, label="lips CRACK_P, CRACK_N; walls CUT_P, CUT_N")],
-         "As the paper's Figure 7: cylindrical crack and incision, in a stiffener of the solid caisson")
+    save(
+        figure,
+        path,
+        [
+            *group_keys("FACE_FLANGE_1", "HANGERS", "STIFFENER_1"),
+            EDGE_KEY,
+            Patch(facecolor=WALL, label="lips CRACK_P, CRACK_N; walls CUT_P, CUT_N"),
+        ],
+        "As the paper's Figure 7: cylindrical crack and incision, in a stiffener of the solid caisson",
+    )
 
 
 def main(folder, page=None):

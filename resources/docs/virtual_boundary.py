@@ -126,13 +126,28 @@ def main(path):
     for k, (title, members) in enumerate(solid):
         axes = figure.add_axes((0.01 + 0.495 * (k % 2), 0.355 - 0.29 * (k // 2), 0.485, 0.27))
         draw(axes, helix(members), members, title)
-    figure.legend(handles=[
-        Patch(color=AREA, label="area"),
-        Patch(facecolor=BOUNDING, alpha=0.5, label="bounding elements, BE"),
-        Patch(facecolor=LINKING, alpha=0.8, label="linking elements, LE"),
-        Line2D([], [], marker="o", color="none", markeredgecolor=ISOLATED, markeredgewidth=2.2, markersize=11, label="isolated, IE"),
-        Line2D([], [], marker="o", color=MEMBER, linestyle="--", markersize=5, label="group members"),
-    ], loc="lower center", ncol=5, frameon=False, fontsize=11)
+    figure.legend(
+        handles=[
+            Patch(color=AREA, label="area"),
+            Patch(facecolor=BOUNDING, alpha=0.5, label="bounding elements, BE"),
+            Patch(facecolor=LINKING, alpha=0.8, label="linking elements, LE"),
+            Line2D(
+                [],
+                [],
+                marker="o",
+                color="none",
+                markeredgecolor=ISOLATED,
+                markeredgewidth=2.2,
+                markersize=11,
+                label="isolated, IE",
+            ),
+            Line2D([], [], marker="o", color=MEMBER, linestyle="--", markersize=5, label="group members"),
+        ],
+        loc="lower center",
+        ncol=5,
+        frameon=False,
+        fontsize=11,
+    )
     figure.savefig(path, facecolor="white")
 
 

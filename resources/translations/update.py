@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Brings the .ts files beside this one up to date with the texts in the sources; translations are kept.
 
-    /usr/bin/python3 resources/translations/update.py            # then fill in what is new, with Qt Linguist or an editor
-    /usr/bin/python3 resources/translations/update.py --check    # fails when a text is missing or not translated
+    /usr/bin/python3 resources/translations/update.py            # then fill in what is new, with Qt Linguist or an
+    editor /usr/bin/python3 resources/translations/update.py --check    # fails when a text is missing or not translated
 
 (Qt 5's lupdate does not read Python.)
 """
@@ -70,7 +70,10 @@ def write(path, language, wanted, known):
         if not translation.text:
             translation.set("type", "unfinished")
     ET.indent(root)
-    path.write_text('<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n' + ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
+    path.write_text(
+        '<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n' + ET.tostring(root, encoding="unicode") + "\n",
+        encoding="utf-8",
+    )
 
 
 def main():

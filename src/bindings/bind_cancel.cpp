@@ -21,7 +21,8 @@ unsigned long main_thread = 0;
 thread_local std::vector<std::pair<const CancelToken*, std::unique_ptr<CancelScope>>> entered;
 
 void leave(const CancelToken& token) {
-    if (entered.empty() || entered.back().first != &token) throw Error("a CancelToken is left in another order or thread than it was entered");
+    if (entered.empty() || entered.back().first != &token)
+        throw Error("a CancelToken is left in another order or thread than it was entered");
     entered.pop_back();
 }
 
@@ -60,7 +61,8 @@ void bind_cancel(py::module_& module) {
         .def(py::init<>())
         .def("cancel", &CancelToken::cancel)
         .def_property_readonly("cancelled", &CancelToken::cancelled)
-        .def("enter", [](const CancelToken& token) { entered.emplace_back(&token, std::make_unique<CancelScope>(token)); })
+        .def("enter",
+             [](const CancelToken& token) { entered.emplace_back(&token, std::make_unique<CancelScope>(token)); })
         .def("leave", &leave);
 }
 

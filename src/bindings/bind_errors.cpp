@@ -30,21 +30,27 @@ PyObject* add_exception(py::module_& module, const char* name, const char* doc, 
 }  // namespace
 
 void bind_errors(py::module_& module) {
-    types.error = add_exception(module, "Error",
-                                "Base of every error femscalpel raises itself. The message names the file, line, entity or\n"
-                                "parameter at fault and says what to do.",
-                                PyExc_RuntimeError);
-    types.read = add_exception(module, "ReadError", "A file cannot be read: missing, truncated, corrupt or contradicting itself.",
-                               types.error);
-    types.write = add_exception(module, "WriteError", "A file cannot be written, or its format cannot hold the mesh.", types.error);
-    types.tool = add_exception(module, "ToolError",
-                               "A tool or an option is unusable: zero normal, bad name, the tool misses the mesh.", types.error);
-    types.quality = add_exception(module, "QualityError", "No valid mesh of acceptable element shape can be made this way.",
-                                  types.error);
+    types.error =
+        add_exception(module, "Error",
+                      "Base of every error femscalpel raises itself. The message names the file, line, entity or\n"
+                      "parameter at fault and says what to do.",
+                      PyExc_RuntimeError);
+    types.read =
+        add_exception(module, "ReadError",
+                      "A file cannot be read: missing, truncated, corrupt or contradicting itself.", types.error);
+    types.write = add_exception(module, "WriteError", "A file cannot be written, or its format cannot hold the mesh.",
+                                types.error);
+    types.tool =
+        add_exception(module, "ToolError",
+                      "A tool or an option is unusable: zero normal, bad name, the tool misses the mesh.", types.error);
+    types.quality = add_exception(module, "QualityError",
+                                  "No valid mesh of acceptable element shape can be made this way.", types.error);
     types.unsupported = add_exception(
         module, "UnsupportedElementError",
         "The tool or its band reaches elements the method cannot cut (quadrangles, prisms, ...).", types.error);
-    types.cancelled = add_exception(module, "Cancelled", "What ran was cancelled through a CancelToken; nothing was changed or written.", types.error);
+    types.cancelled =
+        add_exception(module, "Cancelled",
+                      "What ran was cancelled through a CancelToken; nothing was changed or written.", types.error);
 
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {

@@ -28,7 +28,8 @@ py::array_t<std::int64_t> table(std::size_t rows, std::size_t width, Put put) {
 /// Element numbers; 0 where there is no element.
 py::array_t<std::int64_t> numbers(const Mesh& mesh, const std::vector<CellRef>& cells) {
     std::vector<std::int64_t> ids;
-    for (const CellRef& c : cells) ids.push_back(c.cell < 0 ? 0 : mesh.block(c.type).ids[static_cast<std::size_t>(c.cell)]);
+    for (const CellRef& c : cells)
+        ids.push_back(c.cell < 0 ? 0 : mesh.block(c.type).ids[static_cast<std::size_t>(c.cell)]);
     return copied<std::int64_t>(ids);
 }
 
@@ -55,7 +56,8 @@ py::dict part(const Mesh& mesh, const BoundaryPart& p) {
 }
 
 py::tuple boundary(const Mesh& mesh, const VirtualBoundary& b) {
-    return py::make_tuple(part(mesh, b.bounding), part(mesh, b.linking), part(mesh, b.isolated), numbers(mesh, b.enclosed));
+    return py::make_tuple(part(mesh, b.bounding), part(mesh, b.linking), part(mesh, b.isolated),
+                          numbers(mesh, b.enclosed));
 }
 
 py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
@@ -78,16 +80,18 @@ void bind_groups(py::module_& module) {
         py::list out;
         for (const ElementaryGroup& g : found) {
             py::tuple names(g.groups.size());
-            for (std::size_t i = 0; i < g.groups.size(); ++i) names[i] = mesh.groups[static_cast<std::size_t>(g.groups[i])].name;
+            for (std::size_t i = 0; i < g.groups.size(); ++i)
+                names[i] = mesh.groups[static_cast<std::size_t>(g.groups[i])].name;
             out.append(py::make_tuple(std::string(to_string(g.kind)), g.dimension, names, to_array(g.members)));
         }
         return out;
     });
-    module.def("virtual_boundaries", [](const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& groups) {
-        std::vector<GroupIndex> indices;
-        for (const auto& [name, kind] : groups) indices.push_back(require_group(mesh, name, kind));
-        return boundaries(mesh, indices);
-    });
+    module.def("virtual_boundaries",
+               [](const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& groups) {
+                   std::vector<GroupIndex> indices;
+                   for (const auto& [name, kind] : groups) indices.push_back(require_group(mesh, name, kind));
+                   return boundaries(mesh, indices);
+               });
 }
 
 }  // namespace femscalpel::bindings

@@ -37,7 +37,8 @@ GroupMembers members_from(GroupKind kind, const std::string& name, const IndexAr
     }
     if (ids.size() == 0) return out;
     if (ids.ndim() != 2 || ids.shape(1) != 2)
-        throw Error("facet group '" + name + "': ids must be an array of shape (n, 2), element number and local face number");
+        throw Error("facet group '" + name +
+                    "': ids must be an array of shape (n, 2), element number and local face number");
     for (py::ssize_t i = 0; i < ids.shape(0); ++i) {
         out.ids.push_back(ids.at(i, 0));
         out.faces.push_back(ids.at(i, 1));
@@ -45,8 +46,8 @@ GroupMembers members_from(GroupKind kind, const std::string& name, const IndexAr
     return out;
 }
 
-std::shared_ptr<Mesh> make_mesh(const RealArray& points, const IndexArray& node_ids, const std::vector<CellArrays>& cells,
-                                const std::vector<GroupArrays>& groups) {
+std::shared_ptr<Mesh> make_mesh(const RealArray& points, const IndexArray& node_ids,
+                                const std::vector<CellArrays>& cells, const std::vector<GroupArrays>& groups) {
     auto mesh = std::make_shared<Mesh>();
     if (points.ndim() != 2 || points.shape(1) != 3) throw Error("points must have the shape (n, 3)");
     const auto n = static_cast<std::size_t>(points.shape(0));
@@ -78,7 +79,8 @@ py::dict cells(const py::object& self) {
     py::dict out;
     for (const CellBlock& b : mesh.blocks())
         if (b.size() > 0)
-            out[py::str(std::string(traits(b.type).name))] = view(b.connectivity.data(), {b.size(), traits(b.type).nodes}, self);
+            out[py::str(std::string(traits(b.type).name))] =
+                view(b.connectivity.data(), {b.size(), traits(b.type).nodes}, self);
     return out;
 }
 
@@ -110,24 +112,29 @@ py::array_t<std::int64_t> to_array(const GroupMembers& members) {
 }
 
 void bind_mesh(py::module_& module) {
-    module.def("cell_types", [] {
-        py::dict out;
-        for (const CellTraits& t : all_cell_types())
-            out[py::str(std::string(t.name))] = py::make_tuple(t.dimension, t.nodes, t.corners);
-        return out;
-    }, "Element types by name: (dimension, nodes, corners).");
+    module.def(
+        "cell_types",
+        [] {
+            py::dict out;
+            for (const CellTraits& t : all_cell_types())
+                out[py::str(std::string(t.name))] = py::make_tuple(t.dimension, t.nodes, t.corners);
+            return out;
+        },
+        "Element types by name: (dimension, nodes, corners).");
 
     py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
         .def(py::init(&make_mesh), py::arg("points"), py::arg("node_ids"), py::arg("cells"), py::arg("groups"))
-        .def_property_readonly("points", [](const py::object& self) {
-            const Mesh& mesh = self.cast<const Mesh&>();
-            const double* data = mesh.points.empty() ? nullptr : mesh.points.front().data();
-            return view(data, {mesh.node_count(), 3}, self);
-        })
-        .def_property_readonly("node_ids", [](const py::object& self) {
-            const Mesh& mesh = self.cast<const Mesh&>();
-            return view(mesh.node_ids.data(), {mesh.node_count()}, self);
-        })
+        .def_property_readonly("points",
+                               [](const py::object& self) {
+                                   const Mesh& mesh = self.cast<const Mesh&>();
+                                   const double* data = mesh.points.empty() ? nullptr : mesh.points.front().data();
+                                   return view(data, {mesh.node_count(), 3}, self);
+                               })
+        .def_property_readonly("node_ids",
+                               [](const py::object& self) {
+                                   const Mesh& mesh = self.cast<const Mesh&>();
+                                   return view(mesh.node_ids.data(), {mesh.node_count()}, self);
+                               })
         .def_property_readonly("cells", &cells)
         .def_property_readonly("cell_ids", &cell_ids)
         .def_readwrite("name", &Mesh::name)
@@ -136,60 +143,73 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("node_count", &Mesh::node_count)
         .def_property_readonly("cell_count", &Mesh::cell_count)
         .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return mesh.solver_input != nullptr; })
-        .def("mean_ratios", [](const Mesh& mesh) {
-            py::dict out;
-            for (const CellBlock& b : mesh.blocks())
-                if (b.size() > 0) out[py::str(std::string(traits(b.type).name))] = copied<double>(interruptible([&] { return mean_ratios(mesh, b.type); }));
-            return out;
-        })
-        .def("measures", [](const Mesh& mesh) {
-            py::dict out;
-            for (const CellBlock& b : mesh.blocks()) {
-                if (b.size() == 0) continue;
-                const std::vector<double> values = interruptible([&] {
-                    std::vector<double> measured;
-                    SparseCheck check;
-                    for (Index c = 0; c < b.size(); ++c, check()) measured.push_back(cell_measure(mesh, b.type, c));
-                    return measured;
-                });
-                out[py::str(std::string(traits(b.type).name))] = copied<double>(values);
-            }
-            return out;
-        })
-        .def("copy", [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }, py::call_guard<py::gil_scoped_release>())
+        .def("mean_ratios",
+             [](const Mesh& mesh) {
+                 py::dict out;
+                 for (const CellBlock& b : mesh.blocks())
+                     if (b.size() > 0)
+                         out[py::str(std::string(traits(b.type).name))] =
+                             copied<double>(interruptible([&] { return mean_ratios(mesh, b.type); }));
+                 return out;
+             })
+        .def("measures",
+             [](const Mesh& mesh) {
+                 py::dict out;
+                 for (const CellBlock& b : mesh.blocks()) {
+                     if (b.size() == 0) continue;
+                     const std::vector<double> values = interruptible([&] {
+                         std::vector<double> measured;
+                         SparseCheck check;
+                         for (Index c = 0; c < b.size(); ++c, check())
+                             measured.push_back(cell_measure(mesh, b.type, c));
+                         return measured;
+                     });
+                     out[py::str(std::string(traits(b.type).name))] = copied<double>(values);
+                 }
+                 return out;
+             })
+        .def(
+            "copy", [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); },
+            py::call_guard<py::gil_scoped_release>())
         .def("validate", [](const Mesh& mesh) { interruptible([&] { mesh.validate(); }); })
-        .def("groups", [](const Mesh& mesh) {
-            std::vector<std::pair<std::string, std::string>> out;
-            for (const Group& g : mesh.groups)
-                if (!g.hidden) out.emplace_back(g.name, to_string(g.kind));
-            return out;
-        })
-        .def("group_ids", [](const Mesh& mesh, const std::string& name, const std::string& kind) {
-            const GroupIndex group = require_group(mesh, name, kind);
-            return to_array(interruptible([&] { return group_members(mesh, group); }));
-        })
-        .def("add_group", [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
-            const GroupMembers members = members_from(kind_from_name(kind), name, ids);
-            const GroupIndex group = mesh.add_group(name, members.kind);
-            try {
-                set_group_members(mesh, group, members);
-            } catch (...) {
-                remove_group(mesh, group);
-                throw;
-            }
-        })
-        .def("set_group_ids", [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
-            set_group_members(mesh, require_group(mesh, name, kind), members_from(kind_from_name(kind), name, ids));
-        })
-        .def("remove_group", [](Mesh& mesh, const std::string& name, const std::string& kind) {
-            remove_group(mesh, require_group(mesh, name, kind));
-        })
-        .def("rename_group", [](Mesh& mesh, const std::string& old_name, const std::string& new_name, const std::string& kind) {
-            const GroupIndex group = require_group(mesh, old_name, kind);
-            const auto taken = mesh.find_group(new_name, kind_from_name(kind));
-            if (taken && *taken != group) throw Error("the mesh already has a " + kind + " group '" + new_name + "'");
-            mesh.groups[static_cast<std::size_t>(group)].name = new_name;
-        });
+        .def("groups",
+             [](const Mesh& mesh) {
+                 std::vector<std::pair<std::string, std::string>> out;
+                 for (const Group& g : mesh.groups)
+                     if (!g.hidden) out.emplace_back(g.name, to_string(g.kind));
+                 return out;
+             })
+        .def("group_ids",
+             [](const Mesh& mesh, const std::string& name, const std::string& kind) {
+                 const GroupIndex group = require_group(mesh, name, kind);
+                 return to_array(interruptible([&] { return group_members(mesh, group); }));
+             })
+        .def("add_group",
+             [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
+                 const GroupMembers members = members_from(kind_from_name(kind), name, ids);
+                 const GroupIndex group = mesh.add_group(name, members.kind);
+                 try {
+                     set_group_members(mesh, group, members);
+                 } catch (...) {
+                     remove_group(mesh, group);
+                     throw;
+                 }
+             })
+        .def("set_group_ids",
+             [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
+                 set_group_members(mesh, require_group(mesh, name, kind),
+                                   members_from(kind_from_name(kind), name, ids));
+             })
+        .def("remove_group", [](Mesh& mesh, const std::string& name,
+                                const std::string& kind) { remove_group(mesh, require_group(mesh, name, kind)); })
+        .def("rename_group",
+             [](Mesh& mesh, const std::string& old_name, const std::string& new_name, const std::string& kind) {
+                 const GroupIndex group = require_group(mesh, old_name, kind);
+                 const auto taken = mesh.find_group(new_name, kind_from_name(kind));
+                 if (taken && *taken != group)
+                     throw Error("the mesh already has a " + kind + " group '" + new_name + "'");
+                 mesh.groups[static_cast<std::size_t>(group)].name = new_name;
+             });
 }
 
 }  // namespace femscalpel::bindings

@@ -82,7 +82,8 @@ py::dict to_dict(const Report& report) {
     }
     out["poor"] = poor;
     out["refinement"] = py::none();
-    if (const auto& r = report.refinement) out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);
+    if (const auto& r = report.refinement)
+        out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);
     out["nodes_added"] = report.nodes_added;
     out["nodes_split"] = report.nodes_split;
     out["nodes_doubled"] = report.nodes_doubled;
@@ -98,17 +99,19 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-/// (name, method, transition, feature_angle, preserve, strict, band_only, refine, skin), as _common_options() in operators.py makes it; refine
-/// is nothing, 0 (never) or a length.
-using CommonOptions = std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool, bool, std::optional<double>,
-                                 const CadShape*>;
+/// (name, method, transition, feature_angle, preserve, strict, band_only, refine, skin), as _common_options() in
+/// operators.py makes it; refine is nothing, 0 (never) or a length.
+using CommonOptions =
+    std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool,
+               bool, std::optional<double>, const CadShape*>;
 
 template <class Options>
 Options options(const CommonOptions& common) {
     Options out;
     std::string method;
     std::optional<double> size;
-    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only, size, out.skin) = common;
+    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only, size,
+             out.skin) = common;
     if (size) out.refine = {*size > 0 ? RefineFirst::When::to_size : RefineFirst::When::never, *size};
     out.method = method_from_name(method);
     return out;
@@ -141,9 +144,10 @@ void bind_operators(py::module_& module) {
     module.def("crack", [=](const Mesh& mesh, const Tool& tool, const CommonOptions& common, const Within* within) {
         return run([&, o = crack_options(common, within)] { return crack(mesh, tool, o); });
     });
-    module.def("drill", [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
-        return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
-    });
+    module.def("drill",
+               [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
+                   return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
+               });
 
     // Two tools, or a plane and a width.
     const auto cut_options = [](const CommonOptions& common, const Tool* bottom) {
@@ -151,15 +155,18 @@ void bind_operators(py::module_& module) {
         out.bottom = bottom;
         return out;
     };
-    module.def("cut", [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common, const Tool* bottom) {
+    module.def("cut", [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common,
+                          const Tool* bottom) {
         return run([&, o = cut_options(common, bottom)] { return cut(mesh, positive, negative, o); });
     });
-    module.def("cut", [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+    module.def("cut", [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common,
+                          const Tool* bottom) {
         return run([&, o = cut_options(common, bottom)] { return cut(mesh, plane, width, o); });
     });
 
-    module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size, double gradation,
-                            double reach, bool relax, Index max_elements, double feature_angle, bool strict, const CadShape* skin) {
+    module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points,
+                            double size, double gradation, double reach, bool relax, Index max_elements,
+                            double feature_angle, bool strict, const CadShape* skin) {
         RefineOptions o;
         o.size = size;
         o.gradation = gradation;
@@ -176,18 +183,25 @@ void bind_operators(py::module_& module) {
 
     py::class_<Scalpel>(module, "Scalpel")
         // The session gets its own copy, so that groups added to the Python mesh later do not reach it.
-        .def(py::init([](const Mesh& mesh) { return interruptible([&] { return Scalpel(std::make_shared<const Mesh>(mesh)); }); }))
+        .def(py::init([](const Mesh& mesh) {
+            return interruptible([&] { return Scalpel(std::make_shared<const Mesh>(mesh)); });
+        }))
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
-        .def("crack", [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
-            return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });
-        })
-        .def("drill", [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
-            return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
-        })
-        .def("cut", [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common, const Tool* bottom) {
-            return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
-        })
-        .def("cut", [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+        .def("crack",
+             [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
+                 return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });
+             })
+        .def("drill",
+             [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
+                 return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
+             })
+        .def("cut",
+             [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common,
+                 const Tool* bottom) {
+                 return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
+             })
+        .def("cut", [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common,
+                        const Tool* bottom) {
             return run([&, o = cut_options(common, bottom)] { return scalpel.cut(plane, width, o); });
         });
 }

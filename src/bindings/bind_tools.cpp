@@ -35,7 +35,8 @@ py::array_t<double> at_each(const RealArray& points, Function value) {
     const std::vector<double> values = interruptible([&, data = points.data(), count = points.shape(0)] {
         std::vector<double> out;
         SparseCheck check(256);
-        for (py::ssize_t i = 0; i < count; ++i, check()) out.push_back(value(Eigen::Map<const Eigen::Vector3d>(data + 3 * i)));
+        for (py::ssize_t i = 0; i < count; ++i, check())
+            out.push_back(value(Eigen::Map<const Eigen::Vector3d>(data + 3 * i)));
         return out;
     });
     return copied<double>(values);
@@ -44,9 +45,10 @@ py::array_t<double> at_each(const RealArray& points, Function value) {
 }  // namespace
 
 void bind_tools(py::module_& module) {
-    py::class_<Tool>(module, "Tool",
-                     "Base class of the tools, not made itself. A tool is a surface with a positive side, known by its signed\n"
-                     "distance.")
+    py::class_<Tool>(
+        module, "Tool",
+        "Base class of the tools, not made itself. A tool is a surface with a positive side, known by its signed\n"
+        "distance.")
         .def_property_readonly("kind", &Tool::kind)
         .def_property_readonly("feature_size", &Tool::feature_size)
         .def("distances", [](const Tool& tool, const RealArray& points) {
@@ -59,13 +61,16 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("origin", [](const Plane& plane) { return triple(plane.origin()); })
         .def_property_readonly("unit_normal", [](const Plane& plane) { return triple(plane.unit_normal()); });
     py::class_<Cylinder, Tool>(module, "Cylinder")
-        .def(py::init([](const Triple& origin, const Triple& axis, double radius) { return Cylinder(vector(origin), vector(axis), radius); }),
+        .def(py::init([](const Triple& origin, const Triple& axis, double radius) {
+                 return Cylinder(vector(origin), vector(axis), radius);
+             }),
              py::arg("origin"), py::arg("axis"), py::arg("radius"))
         .def_property_readonly("origin", [](const Cylinder& cylinder) { return triple(cylinder.origin()); })
         .def_property_readonly("unit_axis", [](const Cylinder& cylinder) { return triple(cylinder.unit_axis()); })
         .def_property_readonly("radius", &Cylinder::radius);
     py::class_<Sphere, Tool>(module, "Sphere")
-        .def(py::init([](const Triple& center, double radius) { return Sphere(vector(center), radius); }), py::arg("center"), py::arg("radius"))
+        .def(py::init([](const Triple& center, double radius) { return Sphere(vector(center), radius); }),
+             py::arg("center"), py::arg("radius"))
         .def_property_readonly("center", [](const Sphere& sphere) { return triple(sphere.center()); })
         .def_property_readonly("radius", &Sphere::radius);
     py::class_<Torus, Tool>(module, "Torus")
@@ -104,10 +109,13 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("edge_count", &CadShape::edge_count);
 
     py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
-    py::class_<Disk, Within>(module, "Disk").def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }));
-    py::class_<Ellipse, Within>(module, "Ellipse").def(py::init([](const Triple& center, double first, double second, const Triple& direction) {
-        return Ellipse(vector(center), first, second, vector(direction));
+    py::class_<Disk, Within>(module, "Disk").def(py::init([](const Triple& center, double radius) {
+        return Disk(vector(center), radius);
     }));
+    py::class_<Ellipse, Within>(module, "Ellipse")
+        .def(py::init([](const Triple& center, double first, double second, const Triple& direction) {
+            return Ellipse(vector(center), first, second, vector(direction));
+        }));
     py::class_<Polygon, Within>(module, "Polygon").def(py::init([](const std::vector<Triple>& corners) {
         std::vector<Eigen::Vector3d> out;
         for (const Triple& c : corners) out.push_back(vector(c));

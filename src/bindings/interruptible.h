@@ -18,7 +18,8 @@ public:
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;
 
-    /// Whether a handler has raised. Takes the interpreter lock now and then; on other threads than Python's main thread, never.
+    /// Whether a handler has raised. Takes the interpreter lock now and then; on other threads than Python's main
+    /// thread, never.
     bool raised();
 
     /// Throws that, with the interpreter lock held.
@@ -31,8 +32,8 @@ private:
     PyObject *type_ = nullptr, *value_ = nullptr, *traceback_ = nullptr;
 };
 
-/// Runs `function` without the interpreter lock; a signal handler that raises ends it (cancel.h), and so does a CancelToken of Python's.
-/// It must not have begun to change a Python object when it comes to a check point.
+/// Runs `function` without the interpreter lock; a signal handler that raises ends it (cancel.h), and so does a
+/// CancelToken of Python's. It must not have begun to change a Python object when it comes to a check point.
 template <class Function>
 auto interruptible(Function function) {
     Signals signals;

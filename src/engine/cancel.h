@@ -29,9 +29,10 @@ private:
     std::shared_ptr<std::atomic<bool>> cancelled_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// While it lives, what this thread computes ends with Cancelled soon after its token is cancelled: every function of the engine
-/// looks at check points that are some milliseconds apart, at most a tenth of a second in meshes of millions of elements. Scopes nest;
-/// all of them count. A scope belongs to the thread that made it; threads that the engine starts are in it, too.
+/// While it lives, what this thread computes ends with Cancelled soon after its token is cancelled: every function of
+/// the engine looks at check points that are some milliseconds apart, at most a tenth of a second in meshes of millions
+/// of elements. Scopes nest; all of them count. A scope belongs to the thread that made it; threads that the engine
+/// starts are in it, too.
 class CancelScope {
 public:
     /// `question`, if any, is asked at every check point of this thread, and true cancels the token. It must not throw.

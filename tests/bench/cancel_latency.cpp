@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How soon a computation ends when it is cancelled: for each operation its time, the number of check points (cancel.h), the longest
-// time without one, and how long it took to end when cancelled right at the start of that time. With VERBOSE=1 also where that is.
+// How soon a computation ends when it is cancelled: for each operation its time, the number of check points (cancel.h),
+// the longest time without one, and how long it took to end when cancelled right at the start of that time. With
+// VERBOSE=1 also where that is.
 //
 //     cancel_latency [PART OF THE MESH'S NAME [PART OF THE OPERATION'S NAME]]
 #include <execinfo.h>
@@ -26,7 +27,8 @@
 namespace femscalpel {
 namespace {
 
-/// Milliseconds; with CPU=1 in the environment those of this thread's processor time, for a machine that has other work.
+/// Milliseconds; with CPU=1 in the environment those of this thread's processor time, for a machine that has other
+/// work.
 double now() {
     static const bool processor = std::getenv("CPU") != nullptr;
     timespec time;
@@ -93,7 +95,8 @@ void measure(const char* name, const std::function<void()>& run) {
     } catch (const Cancelled&) {
     }
     if (asked_yet) latency = now() - asked;
-    std::printf("%-28s %8.0f ms %9ld check points, at most %6.1f ms apart, ends within %6.1f ms\n", name, total, count, longest, latency);
+    std::printf("%-28s %8.0f ms %9ld check points, at most %6.1f ms apart, ends within %6.1f ms\n", name, total, count,
+                longest, latency);
     std::fflush(stdout);
 }
 
@@ -148,6 +151,7 @@ int main(int argc, char** argv) {
     if (argc > 2) femscalpel::wanted = argv[2];
     for (const char* name : {"two_boxes_39k", "two_boxes_505k", "two_boxes_2500k"}) {
         const std::filesystem::path path = std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (std::string(name) + ".inp");
-        if (std::filesystem::exists(path) && (argc < 2 || std::string(name).find(argv[1]) != std::string::npos)) femscalpel::measure_all(path);
+        if (std::filesystem::exists(path) && (argc < 2 || std::string(name).find(argv[1]) != std::string::npos))
+            femscalpel::measure_all(path);
     }
 }

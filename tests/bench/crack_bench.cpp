@@ -35,7 +35,8 @@ void note(long bytes) {
 
 }  // namespace
 
-// Counted allocation, so that the engine's own memory can be told from the input mesh and the process. Inlined, the pairs confuse GCC.
+// Counted allocation, so that the engine's own memory can be told from the input mesh and the process. Inlined, the
+// pairs confuse GCC.
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 #endif
@@ -79,7 +80,8 @@ void BM_crack(benchmark::State& state, const std::string& name) {
     counting = true;
     benchmark::DoNotOptimize(crack(*mesh, reference_plane));
     counting = false;
-    state.counters["bytes_per_tetra"] = static_cast<double>(bytes_peak) / static_cast<double>(mesh->block(CellType::tetra).size());
+    state.counters["bytes_per_tetra"] =
+        static_cast<double>(bytes_peak) / static_cast<double>(mesh->block(CellType::tetra).size());
 }
 
 /// A further plane position on the same mesh, as in a preview.
@@ -121,8 +123,8 @@ void BM_refine(benchmark::State& state, const std::string& name) {
     state.counters["new_elements"] = static_cast<double>(last.elements_added);
 }
 
-/// A reference hole, with the refinement that comes first where it is finer than the mesh. Deviations of the removed volume
-/// from the cylinder's are in per cent, distances in the mesh's unit.
+/// A reference hole, with the refinement that comes first where it is finer than the mesh. Deviations of the removed
+/// volume from the cylinder's are in per cent, distances in the mesh's unit.
 void BM_drill(benchmark::State& state, const std::string& name, const checks::ReferenceHole& hole) {
     const auto mesh = mesh_of(name);
     const Cylinder cylinder(hole.origin, hole.axis, hole.radius);
@@ -144,7 +146,8 @@ void BM_crack_with_groups(benchmark::State& state) {
     Mesh mesh = *mesh_of("two_boxes_505k");
     const CellBlock& tetras = mesh.block(CellType::tetra);
     std::vector<GroupMembers> members;
-    for (std::size_t g = 0; g < mesh.groups.size(); ++g) members.push_back(group_members(mesh, static_cast<GroupIndex>(g)));
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+        members.push_back(group_members(mesh, static_cast<GroupIndex>(g)));
     std::mt19937 random(1);
     std::uniform_real_distribution<double> far_end(14, 19);
     for (Index g = 0; g < state.range(0); ++g) {
@@ -152,7 +155,8 @@ void BM_crack_with_groups(benchmark::State& state) {
         const double from = g % 2 == 0 ? 2 : far_end(random), to = g % 2 == 0 ? 12.5 : from + 1;
         GroupMembers m{GroupKind::element, {}, {}};
         for (Index c = 0; c < tetras.size(); ++c)
-            if (const double x = mesh.points[tetras.nodes(c)[0]].x(); x > from && x < to) m.ids.push_back(tetras.ids[c]);
+            if (const double x = mesh.points[tetras.nodes(c)[0]].x(); x > from && x < to)
+                m.ids.push_back(tetras.ids[c]);
         members.push_back(std::move(m));
     }
     assign_groups(mesh, members);
@@ -168,15 +172,24 @@ void BM_crack_with_groups(benchmark::State& state) {
 int main(int argc, char** argv) {
     using namespace femscalpel;
     for (const char* name : {"two_boxes_39k", "two_boxes_505k", "two_boxes_2500k"}) {
-        if (!std::filesystem::exists(std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (std::string(name) + ".inp"))) continue;
-        benchmark::RegisterBenchmark((std::string("crack/") + name).c_str(), BM_crack, name)->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark((std::string("refine/") + name).c_str(), BM_refine, name)->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark((std::string("preview/") + name).c_str(), BM_preview, name)->Unit(benchmark::kMillisecond);
+        if (!std::filesystem::exists(std::filesystem::path(FEMSCALPEL_TEST_MESHES) / (std::string(name) + ".inp")))
+            continue;
+        benchmark::RegisterBenchmark((std::string("crack/") + name).c_str(), BM_crack, name)
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("refine/") + name).c_str(), BM_refine, name)
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("session/") + name).c_str(), BM_session, name)
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("preview/") + name).c_str(), BM_preview, name)
+            ->Unit(benchmark::kMillisecond);
         for (const checks::ReferenceHole& hole : checks::reference_holes)
-            benchmark::RegisterBenchmark(("drill/" + std::string(name) + "/" + hole.name).c_str(), BM_drill, name, hole)->Unit(benchmark::kMillisecond);
+            benchmark::RegisterBenchmark(("drill/" + std::string(name) + "/" + hole.name).c_str(), BM_drill, name, hole)
+                ->Unit(benchmark::kMillisecond);
     }
-    benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)->Arg(5)->Arg(500)->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)
+        ->Arg(5)
+        ->Arg(500)
+        ->Unit(benchmark::kMillisecond);
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
 }

@@ -25,11 +25,23 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as home:
         times = pathlib.Path(home) / "times.txt"
-        environment = {**os.environ, "FREECAD_USER_HOME": home, "PYTHONPATH": str(arguments.workbench),
-                       "FEMSCALPEL_BENCH_MESH": str(arguments.mesh), "FEMSCALPEL_BENCH_TIMES": str(times)}
+        environment = {
+            **os.environ,
+            "FREECAD_USER_HOME": home,
+            "PYTHONPATH": str(arguments.workbench),
+            "FEMSCALPEL_BENCH_MESH": str(arguments.mesh),
+            "FEMSCALPEL_BENCH_TIMES": str(times),
+        }
         # FreeCAD prints a line per group; what is measured goes to a file of its own.
-        done = subprocess.run([arguments.freecadcmd, __file__], env=environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
+        done = subprocess.run(
+            [arguments.freecadcmd, __file__],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        )
         if not times.exists() or not times.read_text().endswith("done\n"):
             sys.exit(f"{done.stdout[-3000:]}\nFreeCAD did not finish (exit status {done.returncode})")
         print(times.read_text().removesuffix("done\n"), end="")

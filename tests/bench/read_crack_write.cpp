@@ -27,8 +27,9 @@ int main(int argc, char** argv) {
         const Result result = crack(mesh, Plane({7.3, 5, 5}, {0.9, 0.3, 0.2}));
         const double cracking = seconds();
         write(result.mesh, argv[2]);
-        std::printf("read %.3f s, crack %.3f s, write %.3f s; minimum quality %.3f, %lld new nodes\n", reading, cracking, seconds(),
-                    result.report.quality_after.minimum, static_cast<long long>(result.report.nodes_split));
+        std::printf("read %.3f s, crack %.3f s, write %.3f s; minimum quality %.3f, %lld new nodes\n", reading,
+                    cracking, seconds(), result.report.quality_after.minimum,
+                    static_cast<long long>(result.report.nodes_split));
     } catch (const Error& e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 1;

@@ -25,12 +25,16 @@ constexpr double rounding = 1e-9;
 
 int corners_of(CellType type) {
     switch (type) {
-        case CellType::vertex: return 1;
+        case CellType::vertex:
+            return 1;
         case CellType::line:
-        case CellType::line3: return 2;
+        case CellType::line3:
+            return 2;
         case CellType::triangle:
-        case CellType::triangle6: return 3;
-        default: return 4;
+        case CellType::triangle6:
+            return 3;
+        default:
+            return 4;
     }
 }
 
@@ -61,7 +65,9 @@ std::array<Index, N> ascending(std::array<Index, N> nodes) {
     return nodes;
 }
 
-double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a) / 6; }
+double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return (b - a).cross(c - a).dot(d - a) / 6;
+}
 
 /// Jacobian determinant of a ten-node tetrahedron.
 double jacobian(const std::array<Vec3, 10>& p, double r, double s, double t) {
@@ -85,7 +91,8 @@ struct OnFace {
 };
 OnFace on_face(const std::array<Vec3, 3>& c, const std::array<Vec3, 3>& m, double u, double v) {
     const double w = 1 - u - v;
-    return {w * (2 * w - 1) * c[0] + u * (2 * u - 1) * c[1] + v * (2 * v - 1) * c[2] + 4 * u * w * m[0] + 4 * u * v * m[1] + 4 * v * w * m[2],
+    return {w * (2 * w - 1) * c[0] + u * (2 * u - 1) * c[1] + v * (2 * v - 1) * c[2] + 4 * u * w * m[0] +
+                4 * u * v * m[1] + 4 * v * w * m[2],
             (1 - 4 * w) * c[0] + (4 * u - 1) * c[1] + 4 * (w - u) * m[0] + 4 * v * m[1] - 4 * v * m[2],
             (1 - 4 * w) * c[0] + (4 * v - 1) * c[2] - 4 * u * m[0] + 4 * u * m[1] + 4 * (w - v) * m[2]};
 }
@@ -99,7 +106,8 @@ std::pair<Vec3, double> face_area(const std::array<Vec3, 3>& c, const std::array
         return {n, n.norm()};
     }
     // Dunavant's rule of degree 4.
-    static const double a = 0.445948490915965, b = 0.091576213509771, wa = 0.223381589678011 / 2, wb = 0.109951743655322 / 2;
+    static const double a = 0.445948490915965, b = 0.091576213509771, wa = 0.223381589678011 / 2,
+                        wb = 0.109951743655322 / 2;
     Vec3 vector = Vec3::Zero();
     double area = 0;
     for (const auto& [p, weight] : {std::pair{a, wa}, std::pair{b, wb}})
@@ -115,7 +123,8 @@ std::pair<Vec3, double> face_area(const std::array<Vec3, 3>& c, const std::array
 double segment_length(const Vec3& a, const Vec3& b, const Vec3& mid, bool curved) {
     if (!curved) return (b - a).norm();
     double length = 0;
-    for (const auto& [x, weight] : {std::pair{-std::sqrt(0.6), 5.0 / 9}, std::pair{0.0, 8.0 / 9}, std::pair{std::sqrt(0.6), 5.0 / 9}})
+    for (const auto& [x, weight] :
+         {std::pair{-std::sqrt(0.6), 5.0 / 9}, std::pair{0.0, 8.0 / 9}, std::pair{std::sqrt(0.6), 5.0 / 9}})
         length += weight * ((x - 0.5) * a + (x + 0.5) * b - 2 * x * mid).norm();
     return length;
 }
@@ -144,7 +153,8 @@ Model::Face make_face(const Mesh& mesh, const Key3& corner, const Key3& mid) {
         f.mid[k] = f.curved ? mesh.points[mid[k]] : Vec3((f.corner[k] + f.corner[(k + 1) % 3]) / 2);
         f.edge += (f.corner[k] - f.corner[(k + 1) % 3]).norm() / 3;
     }
-    for (int k = 0; k < 3; ++k) f.radius = std::max({f.radius, (f.corner[k] - f.centre).norm(), (f.mid[k] - f.centre).norm()});
+    for (int k = 0; k < 3; ++k)
+        f.radius = std::max({f.radius, (f.corner[k] - f.centre).norm(), (f.mid[k] - f.centre).norm()});
     if (f.curved) f.radius *= 1.5;
     f.normal = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]).normalized();
     return f;
@@ -280,9 +290,12 @@ void runs(const List& list, Visit visit) {
 /// Length of the edges of a shell mesh by what meets there: number of shells and their groups. Edges inside a plate do
 /// not count, nor do those that `skip` names.
 std::map<std::string, double> border_lengths(const Mesh& mesh, const std::function<bool(const Key2&)>& skip,
-                                             const std::set<std::string>& without, std::vector<Model::Segment>* segments) {
+                                             const std::set<std::string>& without,
+                                             std::vector<Model::Segment>* segments) {
     std::set<Key2> line_elements;
-    for_each_cell(mesh, is_line, [&](CellType, Index, std::span<const Index> n) { line_elements.insert(ascending(Key2{n[0], n[1]})); });
+    for_each_cell(mesh, is_line, [&](CellType, Index, std::span<const Index> n) {
+        line_elements.insert(ascending(Key2{n[0], n[1]}));
+    });
     const std::vector<std::string> names = family_names(mesh, without);
     std::map<std::string, double> lengths;
     const auto normal = [&](const CellRef& c) {
@@ -319,7 +332,8 @@ public:
         // Thin faces have inexact normals, so a plane is known by its distance to all three corners.
         Plane* found = nullptr;
         for (Plane& p : planes_) {
-            const bool in = std::ranges::all_of(c, [&](const Vec3& x) { return std::abs(p.normal.dot(x) - p.offset) <= rounding * size; });
+            const bool in = std::ranges::all_of(
+                c, [&](const Vec3& x) { return std::abs(p.normal.dot(x) - p.offset) <= rounding * size; });
             if (in && normal.dot(p.normal) > 0.9) {
                 found = &p;
                 break;
@@ -346,8 +360,8 @@ public:
         for (std::size_t k = 0; k < planes_.size(); ++k) {
             const double old = k < before.planes_.size() ? before.planes_[k].area : 0;
             if (std::abs(planes_[k].area - old) <= rounding * std::max(old, 1e-3 * size * size) + slack) continue;
-            text << "area " << old << " -> " << planes_[k].area << " in the plane of normal (" << planes_[k].normal.transpose() << ") at "
-                 << planes_[k].offset << "; ";
+            text << "area " << old << " -> " << planes_[k].area << " in the plane of normal ("
+                 << planes_[k].normal.transpose() << ") at " << planes_[k].offset << "; ";
         }
         return text.str();
     }
@@ -377,7 +391,8 @@ public:
     std::vector<std::string> lines() const {
         std::vector<std::string> out;
         for (const auto& [keyword, found] : found_)
-            out.push_back(keyword + ": " + found.second + (found.first > 1 ? " (" + std::to_string(found.first) + " in all)" : ""));
+            out.push_back(keyword + ": " + found.second +
+                          (found.first > 1 ? " (" + std::to_string(found.first) + " in all)" : ""));
         return out;
     }
 
@@ -388,7 +403,12 @@ private:
 class CrackCheck {
 public:
     CrackCheck(const Model& model, const CutPlane& plane, const Result& result, const std::string& name)
-        : model_(model), in_(model.mesh), out_(result.mesh), report_(result.report), plane_(plane), name_(name),
+        : model_(model),
+          in_(model.mesh),
+          out_(result.mesh),
+          report_(result.report),
+          plane_(plane),
+          name_(name),
           made_{name + "_P", name + "_N", name + "_FRONT"} {}
 
     std::vector<std::string> run() {
@@ -404,8 +424,10 @@ public:
         far_elements();
         shapes();
         sides();
-        if (model_.solid) solid_conformity();
-        else shell_conformity();
+        if (model_.solid)
+            solid_conformity();
+        else
+            shell_conformity();
         attached();
         lips();
         section();
@@ -424,7 +446,8 @@ private:
     Place place(Index n) const { return {out_.points[n].x(), out_.points[n].y(), out_.points[n].z()}; }
     bool is_input_node(Index n) const { return id(n) <= model_.largest_node; }
     bool same_place(Index n) const {
-        return is_input_node(n) && std::memcmp(out_.points[n].data(), in_.points[model_.node_index.at(id(n))].data(), sizeof(Vec3)) == 0;
+        return is_input_node(n) &&
+               std::memcmp(out_.points[n].data(), in_.points[model_.node_index.at(id(n))].data(), sizeof(Vec3)) == 0;
     }
 
     void index() {
@@ -434,7 +457,8 @@ private:
         }
         for (const auto& [set, ids] : report_.node_sets)
             for (const Index i : ids) {
-                if (!index_.contains(i)) bad_.add("node sets", set, " names node ", i, ", which the mesh does not have");
+                if (!index_.contains(i))
+                    bad_.add("node sets", set, " names node ", i, ", which the mesh does not have");
                 if (!in_sets_.insert(i).second) bad_.add("node sets", "node ", i, " is named twice");
             }
         for (const char* set : {"ICN", "ECN"})
@@ -455,12 +479,15 @@ private:
             if (after == index_.end()) {
                 bad_.add("numbers", "node ", number, " is gone");
                 complete = false;
-            } else if (!in_sets_.contains(number) && std::memcmp(in_.points[before].data(), out_.points[after->second].data(), sizeof(Vec3)) != 0) {
-                bad_.add("far node", "node ", number, " is in no node set but moved by ", (in_.points[before] - out_.points[after->second]).norm());
+            } else if (!in_sets_.contains(number) &&
+                       std::memcmp(in_.points[before].data(), out_.points[after->second].data(), sizeof(Vec3)) != 0) {
+                bad_.add("far node", "node ", number, " is in no node set but moved by ",
+                         (in_.points[before] - out_.points[after->second]).norm());
             }
         }
         for (const Index n : model_.isolated_nodes)
-            if (complete && !same_place(index_.at(in_.node_ids[n]))) bad_.add("isolated node", "node ", in_.node_ids[n], " moved");
+            if (complete && !same_place(index_.at(in_.node_ids[n])))
+                bad_.add("isolated node", "node ", in_.node_ids[n], " moved");
         std::vector<char> used(out_.points.size(), 0);
         for (const CellBlock& b : out_.blocks())
             for (const Index n : b.connectivity) used[n] = 1;
@@ -470,8 +497,10 @@ private:
         for (std::size_t n = 0; n < used.size(); ++n) {
             if (used[n]) continue;
             const auto before = model_.node_index.find(out_.node_ids[n]);
-            if (before == model_.node_index.end()) bad_.add("orphan", "new node ", out_.node_ids[n], " belongs to no element");
-            else if (was_used[before->second]) bad_.add("orphan", "node ", out_.node_ids[n], " belongs to no element any more");
+            if (before == model_.node_index.end())
+                bad_.add("orphan", "new node ", out_.node_ids[n], " belongs to no element");
+            else if (was_used[before->second])
+                bad_.add("orphan", "node ", out_.node_ids[n], " belongs to no element any more");
         }
         return complete;
     }
@@ -483,10 +512,13 @@ private:
             for (Index c = 0; c < b.size(); ++c) {
                 const auto n = b.nodes(c);
                 const auto found = after.cells.find(b.ids[c]);
-                const bool near = std::any_of(n.begin(), n.begin() + corners_of(b.type), [&](Index k) { return in_sets_.contains(in_.node_ids[k]); });
+                const bool near = std::any_of(n.begin(), n.begin() + corners_of(b.type),
+                                              [&](Index k) { return in_sets_.contains(in_.node_ids[k]); });
                 if (found == after.cells.end()) {
                     ++gone_;
-                    if (!near) bad_.add("far element", "element ", b.ids[c], " is gone, though none of its nodes is in a node set");
+                    if (!near)
+                        bad_.add("far element", "element ", b.ids[c],
+                                 " is gone, though none of its nodes is in a node set");
                     continue;
                 }
                 const auto& [type, cell] = found->second;
@@ -518,7 +550,8 @@ private:
     /// Whether a triangle of a mesh with solids stands on its own.
     bool is_shell(std::span<const Index> n) const {
         if (!model_.mixed || n.size() == 4 || n.size() == 10) return false;
-        const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {}, [](const TetraFace& f) { return f.key; });
+        const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {},
+                                                   [](const TetraFace& f) { return f.key; });
         return host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]});
     }
 
@@ -527,12 +560,17 @@ private:
         const auto look = [&](CellType type, Index c, std::span<const Index> n) {
             const auto at = [&](int k) -> const Vec3& { return out_.points[n[k]]; };
             const Index number = out_.block(type).ids[c];
-            const double q = is_tetra(type) ? tetra_shape(at(0), at(1), at(2), at(3)) : triangle_shape(at(0), at(1), at(2));
+            const double q =
+                is_tetra(type) ? tetra_shape(at(0), at(1), at(2), at(3)) : triangle_shape(at(0), at(1), at(2));
             const int corners = corners_of(type);
             if (is_tetra(type) == model_.solid || is_shell(n)) {
-                if (!(q > 0)) bad_.add("inverted", "element ", number, ", mean ratio ", q);
-                else if (q < degenerate) bad_.add("degenerate", "element ", number, ", mean ratio ", q);
-                if (std::any_of(n.begin(), n.begin() + corners, [&](Index k) { return in_sets_.contains(id(k)) || interface_places_.contains(place(k)); })) {
+                if (!(q > 0))
+                    bad_.add("inverted", "element ", number, ", mean ratio ", q);
+                else if (q < degenerate)
+                    bad_.add("degenerate", "element ", number, ", mean ratio ", q);
+                if (std::any_of(n.begin(), n.begin() + corners, [&](Index k) {
+                        return in_sets_.contains(id(k)) || interface_places_.contains(place(k));
+                    })) {
                     ++band_count_;
                     band_minimum_ = std::min(band_minimum_, q);
                 }
@@ -542,7 +580,8 @@ private:
                 for (int j = 0; j < i; ++j) {
                     const Index mid = n[mid_of(type, i, j)];
                     const auto [known, fresh] = mids.emplace(ascending(Key2{n[i], n[j]}), mid);
-                    if (known->second != mid) bad_.add("mid-side", "edge ", id(n[i]), "-", id(n[j]), " has two mid-side nodes");
+                    if (known->second != mid)
+                        bad_.add("mid-side", "edge ", id(n[i]), "-", id(n[j]), " has two mid-side nodes");
                     if (fresh && (out_.points[mid] - (at(i) + at(j)) / 2).norm() > 0.25 * (at(i) - at(j)).norm())
                         bad_.add("mid-side", "node ", id(mid), " is far from the middle of its edge");
                 }
@@ -550,8 +589,11 @@ private:
             std::array<Vec3, 10> p;
             for (int k = 0; k < 10; ++k) p[k] = at(k);
             const double a = (5 - std::sqrt(5.0)) / 20, b = (5 + 3 * std::sqrt(5.0)) / 20;
-            for (const auto& [r, s, t] : {std::array{a, a, a}, std::array{b, a, a}, std::array{a, b, a}, std::array{a, a, b}})
-                if (!(jacobian(p, r, s, t) > 0)) bad_.add("jacobian", "element ", number, " has Jacobian ", jacobian(p, r, s, t), " at an integration point");
+            for (const auto& [r, s, t] :
+                 {std::array{a, a, a}, std::array{b, a, a}, std::array{a, b, a}, std::array{a, a, b}})
+                if (!(jacobian(p, r, s, t) > 0))
+                    bad_.add("jacobian", "element ", number, " has Jacobian ", jacobian(p, r, s, t),
+                             " at an integration point");
         };
         for_each_cell(out_, is_tetra, look);
         for_each_cell(out_, is_triangle, look);
@@ -569,26 +611,29 @@ private:
             while (part[n] != n) n = part[n] = part[part[n]];
             return n;
         };
-        for_each_cell(out_, model_.solid ? is_tetra : is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
-            double low = 0, high = 0;
-            for (int k = 0; k < corners_of(type); ++k) {
-                low = std::min(low, distance_[n[k]]);
-                high = std::max(high, distance_[n[k]]);
-            }
-            if (low < -tolerance() && high > tolerance())
-                bad_.add("crossed", "element ", out_.block(type).ids[c], " reaches from ", low, " to ", high);
-            if (high > tolerance() || low < -tolerance())
-                for (const Index k : n) side[k] |= high > -low ? 1 : 2;
-            for (const Index k : n) part[root(k)] = root(n[0]);
-        });
+        for_each_cell(
+            out_, model_.solid ? is_tetra : is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
+                double low = 0, high = 0;
+                for (int k = 0; k < corners_of(type); ++k) {
+                    low = std::min(low, distance_[n[k]]);
+                    high = std::max(high, distance_[n[k]]);
+                }
+                if (low < -tolerance() && high > tolerance())
+                    bad_.add("crossed", "element ", out_.block(type).ids[c], " reaches from ", low, " to ", high);
+                if (high > tolerance() || low < -tolerance())
+                    for (const Index k : n) side[k] |= high > -low ? 1 : 2;
+                for (const Index k : n) part[root(k)] = root(n[0]);
+            });
         std::set<Index> front;
         if (const auto g = out_.find_group(name_ + "_FRONT", GroupKind::node)) {
             const auto members = group_members(out_, *g).ids;
             front.insert(members.begin(), members.end());
         }
         for (std::size_t n = 0; n < side.size(); ++n)
-            if (side[n] == 3 && !front.contains(out_.node_ids[n])) bad_.add("still joined", "node ", out_.node_ids[n], " belongs to elements of both sides");
-        if (!front.empty()) bad_.add("front", "an infinite plane left ", front.size(), " front node(s), first ", *front.begin());
+            if (side[n] == 3 && !front.contains(out_.node_ids[n]))
+                bad_.add("still joined", "node ", out_.node_ids[n], " belongs to elements of both sides");
+        if (!front.empty())
+            bad_.add("front", "an infinite plane left ", front.size(), " front node(s), first ", *front.begin());
         std::map<Index, int> parts;
         for (std::size_t n = 0; n < side.size(); ++n)
             if (side[n]) parts[root(static_cast<Index>(n))] |= side[n];
@@ -612,7 +657,9 @@ private:
         };
         runs(faces_, [&](auto first, auto last) {
             const auto hosts = last - first;
-            if (hosts > 2) bad_.add("conformity", "face ", id(first->key[0]), " ", id(first->key[1]), " ", id(first->key[2]), " belongs to ", hosts, " tetrahedra");
+            if (hosts > 2)
+                bad_.add("conformity", "face ", id(first->key[0]), " ", id(first->key[1]), " ", id(first->key[2]),
+                         " belongs to ", hosts, " tetrahedra");
             if (hosts == 2) {
                 const auto family = [&](const TetraFace& f) { return out_.block(f.cell.type).families[f.cell.cell]; };
                 if (names[family(*first)] == names[family(*(first + 1))]) return;
@@ -624,7 +671,8 @@ private:
             note(*first, on_skin);
         });
         if (model_.flat) {
-            if (const std::string text = skin.differs(planes_of(model_.skin), model_.size, 0); !text.empty()) bad_.add("skin", text);
+            if (const std::string text = skin.differs(planes_of(model_.skin), model_.size, 0); !text.empty())
+                bad_.add("skin", text);
             compare_borders();
             return;
         }
@@ -641,8 +689,11 @@ private:
                 if (last - first != 2) return;
                 const std::string &a = names[mesh.block(first->cell.type).families[first->cell.cell]],
                                   &b = names[mesh.block((first + 1)->cell.type).families[(first + 1)->cell.cell]];
-                const std::array<Vec3, 3> c{mesh.points[first->key[0]], mesh.points[first->key[1]], mesh.points[first->key[2]]};
-                if (a == b || std::ranges::all_of(c, [&](const Vec3& x) { return std::abs(plane_.distance(x)) <= tolerance(); })) return;
+                const std::array<Vec3, 3> c{mesh.points[first->key[0]], mesh.points[first->key[1]],
+                                            mesh.points[first->key[2]]};
+                if (a == b ||
+                    std::ranges::all_of(c, [&](const Vec3& x) { return std::abs(plane_.distance(x)) <= tolerance(); }))
+                    return;
                 sums[std::min(a, b) + "|" + std::max(a, b)] += flat_area(c);
                 if (&mesh == &out_ && edges_away((c[0] + c[1] + c[2]) / 3, model_.borders, 1.0) > 1e-8)
                     bad_.add("border", "a face between '", a, "' and '", b, "' left the border");
@@ -651,7 +702,8 @@ private:
         };
         auto before = areas(in_, tetra_faces(in_)), after = areas(out_, faces_);
         for (const auto& [pair, area] : before)
-            if (std::abs(after[pair] - area) > rounding * area) bad_.add("border", "area between ", pair, ": ", area, " -> ", after[pair]);
+            if (std::abs(after[pair] - area) > rounding * area)
+                bad_.add("border", "area between ", pair, ": ", area, " -> ", after[pair]);
         for (const auto& [pair, area] : after)
             if (!before.contains(pair)) bad_.add("border", "new border of area ", area, " between ", pair);
     }
@@ -669,7 +721,8 @@ private:
             const double away = edges_away(out_.points[n], shapes, 0.5);
             const bool corner = !mid_nodes().contains(n);
             if (away > 1e-3)
-                bad_.add(what + (corner ? "" : " mid-side"), "node ", id(n), is_input_node(n) ? "" : " (new)", " is ", away, " edge lengths off the old ", what);
+                bad_.add(what + (corner ? "" : " mid-side"), "node ", id(n), is_input_node(n) ? "" : " (new)", " is ",
+                         away, " edge lengths off the old ", what);
         }
     }
 
@@ -679,13 +732,15 @@ private:
         // A mid-side node of the input may have become a corner where its edge was split.
         std::set<Index> corners;
         for (const CellBlock& b : out_.blocks())
-            for (Index c = 0; c < b.size(); ++c) corners.insert(b.nodes(c).begin(), b.nodes(c).begin() + corners_of(b.type));
+            for (Index c = 0; c < b.size(); ++c)
+                corners.insert(b.nodes(c).begin(), b.nodes(c).begin() + corners_of(b.type));
         for (const Mesh* mesh : {&in_, &out_})
             for (const CellBlock& b : mesh->blocks())
                 if (is_second_order(b.type))
                     for (Index c = 0; c < b.size(); ++c)
                         for (const Index n : b.nodes(c).subspan(static_cast<std::size_t>(corners_of(b.type))))
-                            if (const Index k = index_.at(mesh->node_ids[n]); !corners.contains(k)) mid_nodes_.insert(k);
+                            if (const Index k = index_.at(mesh->node_ids[n]); !corners.contains(k))
+                                mid_nodes_.insert(k);
         return mid_nodes_;
     }
 
@@ -697,15 +752,21 @@ private:
                 if (is_line(c.type)) opened.insert(ascending(Key2{n[0], n[1]}));
             }
         runs(edges_of(in_, is_triangle), [&](auto first, auto last) {
-            const bool in_plane = std::ranges::all_of(first->key, [&](Index n) { return std::abs(plane_.distance(in_.points[n])) <= tolerance(); });
+            const bool in_plane = std::ranges::all_of(
+                first->key, [&](Index n) { return std::abs(plane_.distance(in_.points[n])) <= tolerance(); });
             if (in_plane && last - first > 1) opening.insert(first->key);
         });
-        const auto after = border_lengths(out_, [&](const Key2& e) { return opened.contains(e); }, made_, nullptr);
-        const auto before = border_lengths(in_, [&](const Key2& e) { return opening.contains(e); }, {}, nullptr);
+        const auto after = border_lengths(
+            out_, [&](const Key2& e) { return opened.contains(e); }, made_, nullptr);
+        const auto before = border_lengths(
+            in_, [&](const Key2& e) { return opening.contains(e); }, {}, nullptr);
         for (const auto& [what, length] : before) {
             const auto found = after.find(what);
             const double now = found == after.end() ? 0 : found->second;
-            if (report_.held.largest <= rounding * model_.size && std::abs(now - length) > rounding * std::max(length, 1e-3 * model_.size) + model_.curved_slack.at(what).length) bad_.add("border", "length of ", what, ": ", length, " -> ", now);
+            if (report_.held.largest <= rounding * model_.size &&
+                std::abs(now - length) >
+                    rounding * std::max(length, 1e-3 * model_.size) + model_.curved_slack.at(what).length)
+                bad_.add("border", "length of ", what, ": ", length, " -> ", now);
         }
         for (const auto& [what, length] : after)
             if (!before.contains(what)) bad_.add("border", "new border of length ", length, " between ", what);
@@ -714,7 +775,8 @@ private:
         for_each_cell(out_, is_triangle, [&](CellType, Index, std::span<const Index> n) {
             now.add({out_.points[n[0]], out_.points[n[1]], out_.points[n[2]]}, model_.size);
         });
-        if (const std::string text = now.differs(areas, model_.size, model_.area_slack); !text.empty()) bad_.add("skin", text);
+        if (const std::string text = now.differs(areas, model_.size, model_.area_slack); !text.empty())
+            bad_.add("skin", text);
     }
 
     /// Elements of lower dimension still lie on faces and edges of others, with their mid-side nodes.
@@ -735,9 +797,12 @@ private:
                     for (int k = 0; k < 3; ++k) {
                         const int at = static_cast<int>(std::ranges::find(host->outward, n[k]) - host->outward.begin());
                         const bool forward = host->outward[(at + 1) % 3] == n[(k + 1) % 3];
-                        if (host->mid[forward ? at : (at + 2) % 3] != n[3 + k]) bad_.add("attached", "triangle ", number, " has another mid-side node than its tetrahedron");
+                        if (host->mid[forward ? at : (at + 2) % 3] != n[3 + k])
+                            bad_.add("attached", "triangle ", number,
+                                     " has another mid-side node than its tetrahedron");
                     }
-                if (++seen[key] > 1 && !input_repeats()) bad_.add("attached", "two triangles in one place, second is ", number);
+                if (++seen[key] > 1 && !input_repeats())
+                    bad_.add("attached", "two triangles in one place, second is ", number);
             });
         }
         std::set<Key2> edges;
@@ -811,7 +876,8 @@ private:
         for (int side = 0; side < 2; ++side)
             for (const CellRef& c : side ? positive : negative) {
                 const auto n = out_.block(c.type).nodes(c.cell);
-                const bool wanted = (model_.solid && is_triangle(c.type)) || ((!model_.solid || model_.mixed) && is_line(c.type));
+                const bool wanted =
+                    (model_.solid && is_triangle(c.type)) || ((!model_.solid || model_.mixed) && is_line(c.type));
                 const Index number = out_.block(c.type).ids[c.cell];
                 if (!wanted) bad_.add("lips", "element ", number, " is of the wrong type");
                 std::vector<Place> key;
@@ -823,19 +889,27 @@ private:
                 std::ranges::sort(key);
                 faces[key] += side ? 1 : -1;
                 if (!is_triangle(c.type)) continue;
-                const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {}, [](const TetraFace& f) { return f.key; });
-                if (host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]})) continue;  // found by attached()
-                if ((host + 1) != faces_.end() && (host + 1)->key == host->key) bad_.add("lips", "element ", number, " is not on the outside");
+                const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {},
+                                                           [](const TetraFace& f) { return f.key; });
+                if (host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]}))
+                    continue;  // found by attached()
+                if ((host + 1) != faces_.end() && (host + 1)->key == host->key)
+                    bad_.add("lips", "element ", number, " is not on the outside");
                 double depth = 0;
                 for (const Index k : out_.block(host->cell.type).nodes(host->cell.cell)) depth += distance_[k];
-                if ((depth > 0) != (side == 1)) bad_.add("lips", "element ", number, " is on the other side's tetrahedron");
-                const Vec3 normal = (out_.points[n[1]] - out_.points[n[0]]).cross(out_.points[n[2]] - out_.points[n[0]]);
+                if ((depth > 0) != (side == 1))
+                    bad_.add("lips", "element ", number, " is on the other side's tetrahedron");
+                const Vec3 normal =
+                    (out_.points[n[1]] - out_.points[n[0]]).cross(out_.points[n[2]] - out_.points[n[0]]);
                 // Only faces the crack made have a direction of their own.
-                if (number > model_.largest_cell && (normal.dot(plane_.normal) < 0) != (side == 1) && !same_name_twin(c)) bad_.add("lips", "element ", number, " points into the material");
+                if (number > model_.largest_cell && (normal.dot(plane_.normal) < 0) != (side == 1) &&
+                    !same_name_twin(c))
+                    bad_.add("lips", "element ", number, " points into the material");
             }
         for (const auto& [key, balance] : faces)
             if (balance != 0) {
-                bad_.add("lips", "a face of one lip has no partner on the other at (", key[0][0], ", ", key[0][1], ", ", key[0][2], ")");
+                bad_.add("lips", "a face of one lip has no partner on the other at (", key[0][0], ", ", key[0][1], ", ",
+                         key[0][2], ")");
             }
         // Both copies of a node are in the same groups.
         const std::vector<std::string> names = family_names(out_, made_);
@@ -846,15 +920,18 @@ private:
                 for (const Index n : other->second) {
                     if (p == n) bad_.add("lips", "node ", id(p), " is on both lips");
                     if (names[out_.node_families[p]] != names[out_.node_families[n]])
-                        bad_.add("node groups", "nodes ", id(p), " and ", id(n), ", doubles, are in '", names[out_.node_families[p]], "' and '", names[out_.node_families[n]], "'");
+                        bad_.add("node groups", "nodes ", id(p), " and ", id(n), ", doubles, are in '",
+                                 names[out_.node_families[p]], "' and '", names[out_.node_families[n]], "'");
                 }
         }
         // The interface nodes of the report are the originals of the lips' corner nodes.
         std::set<Index> named;
         for (const char* set : {"ICN", "ECN"})
-            if (report_.node_sets.contains(set)) named.insert(report_.node_sets.at(set).begin(), report_.node_sets.at(set).end());
+            if (report_.node_sets.contains(set))
+                named.insert(report_.node_sets.at(set).begin(), report_.node_sets.at(set).end());
         for (const Index i : named)
-            if (const auto n = index_.find(i); n != index_.end() && !on_plane(n->second)) bad_.add("node sets", "interface node ", i, " is ", distance_[n->second], " off the plane");
+            if (const auto n = index_.find(i); n != index_.end() && !on_plane(n->second))
+                bad_.add("node sets", "interface node ", i, " is ", distance_[n->second], " off the plane");
         std::set<Place> places, named_places;
         for (const auto& side : nodes)
             for (const auto& [at, those] : side)
@@ -873,8 +950,10 @@ private:
             }
         }
         if (places != named_places || corners != named_places.size())
-            bad_.add("node sets", "ICN and ECN name ", corners, " corner nodes in ", named_places.size(), " places, the lips have ", places.size());
-        if (const auto count = report_.constraints.find("plane"); count == report_.constraints.end() || count->second != static_cast<Index>(named.size()))
+            bad_.add("node sets", "ICN and ECN name ", corners, " corner nodes in ", named_places.size(),
+                     " places, the lips have ", places.size());
+        if (const auto count = report_.constraints.find("plane");
+            count == report_.constraints.end() || count->second != static_cast<Index>(named.size()))
             bad_.add("constraints", "plane constraints are not as many as interface nodes");
     }
 
@@ -890,10 +969,13 @@ private:
             double measure = 0;
             for (const CellRef& c : lip(suffix)) {
                 const auto n = out_.block(c.type).nodes(c.cell);
-                if (is_triangle(c.type)) measure += flat_area({out_.points[n[0]], out_.points[n[1]], out_.points[n[2]]});
-                else if (is_line(c.type) && !model_.solid) measure += (out_.points[n[1]] - out_.points[n[0]]).norm();
+                if (is_triangle(c.type))
+                    measure += flat_area({out_.points[n[0]], out_.points[n[1]], out_.points[n[2]]});
+                else if (is_line(c.type) && !model_.solid)
+                    measure += (out_.points[n[1]] - out_.points[n[0]]).norm();
             }
-            const double allowed = rounding * std::max(wanted, model_.solid ? 1e-3 * model_.size * model_.size : 1e-3 * model_.size);
+            const double allowed =
+                rounding * std::max(wanted, model_.solid ? 1e-3 * model_.size * model_.size : 1e-3 * model_.size);
             if (std::abs(measure - wanted) > allowed + model_.section_slack(plane_))
                 bad_.add("section", "lip ", name_, suffix, " has measure ", measure, ", the plane cuts ", wanted);
         }
@@ -903,7 +985,8 @@ private:
         sums_ = group_sums(out_);
         for (std::size_t g = 0; g < in_.groups.size(); ++g) {
             if (in_.groups[g].hidden || in_.groups[g].kind == GroupKind::node) continue;
-            if (g >= out_.groups.size() || out_.groups[g].name != in_.groups[g].name || out_.groups[g].kind != in_.groups[g].kind) {
+            if (g >= out_.groups.size() || out_.groups[g].name != in_.groups[g].name ||
+                out_.groups[g].kind != in_.groups[g].kind) {
                 bad_.add("group", "'", in_.groups[g].name, "' is gone or has moved");
                 continue;
             }
@@ -920,7 +1003,8 @@ private:
             std::set<Index> on_faces, on_lines;
             for (const CellBlock& block : out_.blocks())
                 for (Index c = 0; c < block.size(); ++c)
-                    if ((is_triangle(block.type) || is_line(block.type)) && out_.families.contains(block.families[c], static_cast<GroupIndex>(g)))
+                    if ((is_triangle(block.type) || is_line(block.type)) &&
+                        out_.families.contains(block.families[c], static_cast<GroupIndex>(g)))
                         for (const Index n : block.nodes(c)) (is_line(block.type) ? on_lines : on_faces).insert(n);
             nodes_stay(on_faces, model_.group_faces[g], "face group");
             nodes_stay(on_lines, model_.group_segments[g], "line group");
@@ -935,14 +1019,20 @@ private:
         for (const CellBlock& b : out_.blocks())
             for (Index c = 0; c < b.size(); ++c) {
                 const auto n = b.nodes(c);
-                if (!out_.families.contains(b.families[c], g) || !std::ranges::all_of(n, [&](Index k) { return on_plane(k); })) continue;
+                if (!out_.families.contains(b.families[c], g) ||
+                    !std::ranges::all_of(n, [&](Index k) { return on_plane(k); }))
+                    continue;
                 std::vector<std::array<double, 3>> place;
                 for (const Index k : n) place.push_back({out_.points[k].x(), out_.points[k].y(), out_.points[k].z()});
                 std::ranges::sort(place);
                 if (places.insert(place).second) continue;
-                if (is_line(b.type) && model_.sums[g].dimension == 1) measure += segment_length(out_.points[n[0]], out_.points[n[1]], out_.points[n.back()], n.size() == 3);
-                else if (is_triangle(b.type) && n.size() == 3) measure += flat_area({out_.points[n[0]], out_.points[n[1]], out_.points[n[2]]});
-                else if (is_triangle(b.type)) measure += curved_area(make_face(out_, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}));
+                if (is_line(b.type) && model_.sums[g].dimension == 1)
+                    measure +=
+                        segment_length(out_.points[n[0]], out_.points[n[1]], out_.points[n.back()], n.size() == 3);
+                else if (is_triangle(b.type) && n.size() == 3)
+                    measure += flat_area({out_.points[n[0]], out_.points[n[1]], out_.points[n[2]]});
+                else if (is_triangle(b.type))
+                    measure += curved_area(make_face(out_, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}));
             }
         return measure;
     }
@@ -957,7 +1047,8 @@ private:
             for (std::size_t n = 0; n < in_.points.size(); ++n) {
                 const Index after = index_.at(in_.node_ids[n]);
                 if (in_.families.contains(in_.node_families[n], group) != now.contains(after))
-                    bad_.add("node groups", "node ", in_.node_ids[n], now.contains(after) ? " joined '" : " left '", in_.groups[g].name, "'");
+                    bad_.add("node groups", "node ", in_.node_ids[n], now.contains(after) ? " joined '" : " left '",
+                             in_.groups[g].name, "'");
             }
             if (model_.group_twin[g] < 0) continue;
             std::set<Index> of_elements;
@@ -966,11 +1057,15 @@ private:
                     if (out_.families.contains(b.families[c], model_.group_twin[g]))
                         for (const Index n : b.nodes(c)) of_elements.insert(n);
             for (const Index n : of_elements)
-                if (!now.contains(n)) bad_.add("node groups", "node ", id(n), is_input_node(n) ? "" : " (new)", " of elements of '", in_.groups[g].name, "' is not in the node group");
+                if (!now.contains(n))
+                    bad_.add("node groups", "node ", id(n), is_input_node(n) ? "" : " (new)", " of elements of '",
+                             in_.groups[g].name, "' is not in the node group");
             if (!model_.group_planar[g]) continue;
             // A doubled node stays a member on both sides, also where the group's elements are all on one.
             for (const Index n : now)
-                if (!of_elements.contains(n) && !on_plane(n)) bad_.add("node groups", "node ", id(n), is_input_node(n) ? "" : " (new)", " is in node group '", in_.groups[g].name, "' but off its elements");
+                if (!of_elements.contains(n) && !on_plane(n))
+                    bad_.add("node groups", "node ", id(n), is_input_node(n) ? "" : " (new)", " is in node group '",
+                             in_.groups[g].name, "' but off its elements");
         }
     }
 
@@ -988,12 +1083,15 @@ private:
         for (std::size_t n = 0; n < out_.points.size(); ++n)
             if (is_input_node(static_cast<Index>(n)) && !same_place(static_cast<Index>(n))) {
                 ++moved;
-                farthest = std::max(farthest, (out_.points[n] - in_.points[model_.node_index.at(out_.node_ids[n])]).norm());
+                farthest =
+                    std::max(farthest, (out_.points[n] - in_.points[model_.node_index.at(out_.node_ids[n])]).norm());
             }
         expect("nodes_moved", report_.nodes_moved, moved);
-        if (std::abs(report_.max_displacement - farthest) > tolerance()) expect("max_displacement", report_.max_displacement, farthest);
+        if (std::abs(report_.max_displacement - farthest) > tolerance())
+            expect("max_displacement", report_.max_displacement, farthest);
         expect("quality_after.count", report_.quality_after.count, band_count_);
-        if (std::abs(report_.quality_after.minimum - band_minimum_) > rounding) expect("quality_after.minimum", report_.quality_after.minimum, band_minimum_);
+        if (std::abs(report_.quality_after.minimum - band_minimum_) > rounding)
+            expect("quality_after.minimum", report_.quality_after.minimum, band_minimum_);
         std::size_t record = 0;
         for (std::size_t g = 0; g < out_.groups.size(); ++g) {
             if (out_.groups[g].hidden) continue;
@@ -1004,22 +1102,31 @@ private:
             const GroupRecord& r = report_.groups[record++];
             const GroupSum was = g < in_.groups.size() ? model_.sums[g] : GroupSum{};
             const std::string text = "group '" + r.name + "': ";
-            if (r.name != out_.groups[g].name || r.kind != out_.groups[g].kind) bad_.add("report", "record of '", r.name, "' where '", out_.groups[g].name, "' was expected");
+            if (r.name != out_.groups[g].name || r.kind != out_.groups[g].kind)
+                bad_.add("report", "record of '", r.name, "' where '", out_.groups[g].name, "' was expected");
             expect((text + "count_before").c_str(), r.count_before, was.count);
             expect((text + "count_after").c_str(), r.count_after, sums_[g].count);
-            if (r.kind == GroupKind::element && sums_[g].count > 0) expect((text + "dimension").c_str(), r.dimension, sums_[g].dimension);
+            if (r.kind == GroupKind::element && sums_[g].count > 0)
+                expect((text + "dimension").c_str(), r.dimension, sums_[g].dimension);
             // Six-node faces have no exact rule: two good ones differ in the last digits that matter.
             const double allowed = is_flat_measure(r) ? rounding : 1e-4;
-            if (std::abs(r.measure_before - was.measure) > allowed * was.measure) expect((text + "measure_before").c_str(), r.measure_before, was.measure);
-            if (std::abs(r.measure_after - sums_[g].measure) > allowed * std::max(was.measure, sums_[g].measure)) expect((text + "measure_after").c_str(), r.measure_after, sums_[g].measure);
+            if (std::abs(r.measure_before - was.measure) > allowed * was.measure)
+                expect((text + "measure_before").c_str(), r.measure_before, was.measure);
+            if (std::abs(r.measure_after - sums_[g].measure) > allowed * std::max(was.measure, sums_[g].measure))
+                expect((text + "measure_after").c_str(), r.measure_after, sums_[g].measure);
             // Shortcuts of a node group through the material may drift.
-            if (!(r.kind == GroupKind::node && model_.solid) && r.boundary_drift > (model_.flat ? rounding * model_.size : 1e-3 * model_.size)) bad_.add("report", text, "boundary drift ", r.boundary_drift);
+            if (!(r.kind == GroupKind::node && model_.solid) &&
+                r.boundary_drift > (model_.flat ? rounding * model_.size : 1e-3 * model_.size))
+                bad_.add("report", text, "boundary drift ", r.boundary_drift);
         }
-        if (record != report_.groups.size()) bad_.add("report", "has ", report_.groups.size(), " group records, there are ", record, " groups");
+        if (record != report_.groups.size())
+            bad_.add("report", "has ", report_.groups.size(), " group records, there are ", record, " groups");
     }
 
     bool is_flat_measure(const GroupRecord& r) const {
-        return r.kind == GroupKind::node || r.dimension == 3 || (in_.block(CellType::triangle6).size() == 0 && in_.block(CellType::line3).size() == 0 && in_.block(CellType::tetra10).size() == 0);
+        return r.kind == GroupKind::node || r.dimension == 3 ||
+               (in_.block(CellType::triangle6).size() == 0 && in_.block(CellType::line3).size() == 0 &&
+                in_.block(CellType::tetra10).size() == 0);
     }
 
     const Model& model_;
@@ -1054,7 +1161,9 @@ std::uint64_t Random::bits() {
     return z ^ (z >> 31);
 }
 
-double Random::uniform(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
+double Random::uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
+}
 
 Vec3 Random::direction() {
     const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
@@ -1075,7 +1184,8 @@ double triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 std::vector<GroupSum> group_sums(const Mesh& mesh) {
     std::vector<std::array<double, 4>> measures(mesh.groups.size(), std::array<double, 4>{});
-    std::vector<std::array<Vec3, 4>> vectors(mesh.groups.size(), std::array<Vec3, 4>{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+    std::vector<std::array<Vec3, 4>> vectors(
+        mesh.groups.size(), std::array<Vec3, 4>{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
     std::vector<GroupSum> sums(mesh.groups.size());
     for (const FamilyIndex f : mesh.node_families)
         for (const GroupIndex g : mesh.families.groups(f)) sums[g].count += mesh.groups[g].kind == GroupKind::node;
@@ -1102,10 +1212,12 @@ std::vector<GroupSum> group_sums(const Mesh& mesh) {
                 measure = tetra_volume(mesh, b.type, n);
             } else if (is_triangle(b.type)) {
                 dimension = 2;
-                std::tie(vector, measure) = face({n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1});
+                std::tie(vector, measure) =
+                    face({n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1});
             } else if (is_line(b.type)) {
                 dimension = 1;
-                measure = segment_length(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n.back()], b.type == CellType::line3);
+                measure = segment_length(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n.back()],
+                                         b.type == CellType::line3);
             } else if (b.type != CellType::vertex) {
                 continue;
             }
@@ -1164,14 +1276,16 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         for (const Index i : b.ids) largest_cell = std::max(largest_cell, i);
 
     std::set<Key3> host_faces;
-        const std::vector<std::string> names = family_names(mesh);
+    const std::vector<std::string> names = family_names(mesh);
     if (solid) {
         const std::vector<TetraFace> faces = tetra_faces(mesh);
         runs(faces, [&](auto first, auto last) {
             host_faces.insert(first->key);
             const auto family = [&](const TetraFace& f) { return mesh.block(f.cell.type).families[f.cell.cell]; };
-            if (last - first == 1) skin.push_back(make_face(mesh, first->outward, first->mid));
-            else if (names[family(*first)] != names[family(*(first + 1))]) borders.push_back(make_face(mesh, first->outward, first->mid));
+            if (last - first == 1)
+                skin.push_back(make_face(mesh, first->outward, first->mid));
+            else if (names[family(*first)] != names[family(*(first + 1))])
+                borders.push_back(make_face(mesh, first->outward, first->mid));
         });
     }
     for_each_cell(mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
@@ -1179,10 +1293,13 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
             mixed = true;
             loose_kinds.insert(names[mesh.block(type).families[c]]);
         }
-        if (!solid) skin.push_back(make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
+        if (!solid)
+            skin.push_back(
+                make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
     });
     std::set<Key2> neighbours;
-    for (const Edge& e : edges_of(mesh, [](CellType t) { return is_tetra(t) || is_triangle(t); })) neighbours.insert(e.key);
+    for (const Edge& e : edges_of(mesh, [](CellType t) { return is_tetra(t) || is_triangle(t); }))
+        neighbours.insert(e.key);
     const auto segment = [&](std::span<const Index> n) {
         Segment s{{mesh.points[n[0]], mesh.points[n[1]]}, (mesh.points[n[0]] + mesh.points[n[1]]) / 2, {}, {}, {}, 0};
         if (n.size() == 3) s.mid = mesh.points[n[2]];
@@ -1192,10 +1309,12 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         if (!neighbours.contains(ascending(Key2{n[0], n[1]}))) loose_cells.insert(mesh.block(type).ids[c]);
     });
     if (!solid) {
-        border_lengths(mesh, [](const Key2&) { return false; }, {}, &lines);
+        border_lengths(
+            mesh, [](const Key2&) { return false; }, {}, &lines);
         find_bends();
     } else {
-        // Feature lines: edges where skin faces meet at more than 30 degrees, and edges where a border ends in the skin.
+        // Feature lines: edges where skin faces meet at more than 30 degrees, and edges where a border ends in the
+        // skin.
         std::map<Key2, std::vector<Vec3>> meeting, inward;
         runs(tetra_faces(mesh), [&](auto first, auto last) {
             const auto family = [&](const TetraFace& f) { return mesh.block(f.cell.type).families[f.cell.cell]; };
@@ -1212,7 +1331,13 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         for (const auto& [key, normals] : meeting) {
             bool feature = normals.size() != 2;
             for (const Vec3& n : normals) feature = feature || n.dot(normals[0]) < std::cos(std::numbers::pi / 6);
-            if (feature) lines.push_back({{mesh.points[key[0]], mesh.points[key[1]]}, (mesh.points[key[0]] + mesh.points[key[1]]) / 2, normals, inward.at(key), {}, 0});
+            if (feature)
+                lines.push_back({{mesh.points[key[0]], mesh.points[key[1]]},
+                                 (mesh.points[key[0]] + mesh.points[key[1]]) / 2,
+                                 normals,
+                                 inward.at(key),
+                                 {},
+                                 0});
         }
     }
 
@@ -1231,10 +1356,12 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         if (mesh.groups[g].kind == GroupKind::element && !flat) {
             for_each_cell(mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
                 if (mesh.families.contains(mesh.block(type).families[c], group))
-                    group_faces[g].push_back(make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
+                    group_faces[g].push_back(
+                        make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
             });
             for_each_cell(mesh, is_line, [&](CellType type, Index c, std::span<const Index> n) {
-                if (mesh.families.contains(mesh.block(type).families[c], group)) group_segments[g].push_back(segment(n));
+                if (mesh.families.contains(mesh.block(type).families[c], group))
+                    group_segments[g].push_back(segment(n));
             });
         }
         if (mesh.groups[g].kind != GroupKind::node) continue;
@@ -1246,7 +1373,8 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
             if (members.contains(e[0]) && members.contains(e[1])) accompanied.insert(e.begin(), e.end());
         std::set<Index> corners;
         for (const CellBlock& b : mesh.blocks())
-            for (Index c = 0; c < b.size(); ++c) corners.insert(b.nodes(c).begin(), b.nodes(c).begin() + corners_of(b.type));
+            for (Index c = 0; c < b.size(); ++c)
+                corners.insert(b.nodes(c).begin(), b.nodes(c).begin() + corners_of(b.type));
         for (const Index n : members)
             if (!accompanied.contains(n) && corners.contains(n)) isolated_nodes.push_back(n);
         const auto twin = mesh.find_group(mesh.groups[g].name, GroupKind::element);
@@ -1254,7 +1382,8 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         std::set<Index> of_elements;
         for (const CellBlock& b : mesh.blocks())
             for (Index c = 0; c < b.size(); ++c)
-                if (mesh.families.contains(b.families[c], *twin)) of_elements.insert(b.nodes(c).begin(), b.nodes(c).end());
+                if (mesh.families.contains(b.families[c], *twin))
+                    of_elements.insert(b.nodes(c).begin(), b.nodes(c).end());
         if (of_elements != members) continue;
         group_twin[g] = *twin;
         if (sums[*twin].dimension == 3) {
@@ -1265,16 +1394,19 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
         const std::vector<Index> list(members.begin(), members.end());
         Vec3 normal = Vec3::Zero();
         for (const Index n : list) {
-            const Vec3 candidate = (mesh.points[list.back()] - mesh.points[list.front()]).cross(mesh.points[n] - mesh.points[list.front()]);
+            const Vec3 candidate = (mesh.points[list.back()] - mesh.points[list.front()])
+                                       .cross(mesh.points[n] - mesh.points[list.front()]);
             if (candidate.norm() > normal.norm()) normal = candidate;
         }
         if (normal.norm() > 1e-6 * size * size) normal.normalize();
-        group_planar[g] = std::ranges::all_of(list, [&](Index n) { return std::abs(normal.dot(mesh.points[n] - mesh.points[list[0]])) < rounding * size; });
+        group_planar[g] = std::ranges::all_of(list, [&](Index n) {
+            return std::abs(normal.dot(mesh.points[n] - mesh.points[list[0]])) < rounding * size;
+        });
     }
 }
 
-/// Lines that turn a little from segment to segment are curves to the mesh's author: nodes slide along them, and what they
-/// bound changes by the little areas between chords.
+/// Lines that turn a little from segment to segment are curves to the mesh's author: nodes slide along them, and what
+/// they bound changes by the little areas between chords.
 void Model::find_bends() {
     std::map<std::pair<std::string, std::array<double, 3>>, std::vector<Segment*>> ends;
     for (Segment& s : lines)
@@ -1298,14 +1430,16 @@ void Model::find_bends() {
 double Model::section_slack(const CutPlane& plane) const {
     double slack = 0;
     if (!flat)
-        // New faces of the skin are chords of the old: up to the sagitta off it, more in a plane that meets it at a slant.
+        // New faces of the skin are chords of the old: up to the sagitta off it, more in a plane that meets it at a
+        // slant.
         for (const Face& f : skin) {
             std::vector<Vec3> ends;
             for (int k = 0; k < 3; ++k) {
                 const double a = plane.distance(f.corner[k]), b = plane.distance(f.corner[(k + 1) % 3]);
                 if (a * b < 0) ends.push_back(f.corner[k] + a / (a - b) * (f.corner[(k + 1) % 3] - f.corner[k]));
             }
-            if (ends.size() == 2) slack += (ends[1] - ends[0]).norm() * f.edge / 8 / std::max(0.05, f.normal.cross(plane.normal).norm());
+            if (ends.size() == 2)
+                slack += (ends[1] - ends[0]).norm() * f.edge / 8 / std::max(0.05, f.normal.cross(plane.normal).norm());
         }
     for (const Segment& s : lines)
         if (s.bend > 0 && plane.distance(s.end[0]) * plane.distance(s.end[1]) <= 0)
@@ -1323,7 +1457,8 @@ double triangle_bound(double angle) {
 double needle_bound(const Vec3& a, const Vec3& b, const Vec3& c) {
     double best = 0;
     for (double x = 0.3; x < 3; x *= 1.1)
-        for (double y = 0.3; y < 3; y *= 1.1) best = std::max(best, std::abs(tetra_shape(Vec3::Zero(), a, x * b, y * c)));
+        for (double y = 0.3; y < 3; y *= 1.1)
+            best = std::max(best, std::abs(tetra_shape(Vec3::Zero(), a, x * b, y * c)));
     return best;
 }
 
@@ -1332,7 +1467,8 @@ double sliver_bound(double angle) {
     const Vec3 a(std::cos(angle / 2), std::sin(angle / 2), 0), b(std::cos(angle / 2), -std::sin(angle / 2), 0);
     double best = 0;
     for (double x = -1; x < 2; x += 0.05)
-        for (double z = 0.2; z < 2; z += 0.05) best = std::max(best, std::abs(tetra_shape(Vec3::Zero(), a, b, Vec3(x, 0, z))));
+        for (double z = 0.2; z < 2; z += 0.05)
+            best = std::max(best, std::abs(tetra_shape(Vec3::Zero(), a, b, Vec3(x, 0, z))));
     return best;
 }
 
@@ -1372,10 +1508,13 @@ Grazing grazing(const Model& model, const CutPlane& plane) {
                 if (trace[k].dot(s.inward[k]) < 0) trace[k] = -trace[k];
                 turn[k] = trace[k].normalized().dot(along);
                 const double angle = std::acos(std::min(1.0, std::abs(turn[k])));
-                if (angle < 0.1 && s.plates[k].cross(plane.normal).norm() >= sine) out.bound = std::min(out.bound, sliver_bound(angle));
+                if (angle < 0.1 && s.plates[k].cross(plane.normal).norm() >= sine)
+                    out.bound = std::min(out.bound, sliver_bound(angle));
             }
             // Both traces lean the same way: a needle is cut off along the segment.
-            if (turn[0] * turn[1] > 0) out.bound = std::min(out.bound, needle_bound((turn[0] > 0 ? 1 : -1) * along, trace[0].normalized(), trace[1].normalized()));
+            if (turn[0] * turn[1] > 0)
+                out.bound = std::min(out.bound, needle_bound((turn[0] > 0 ? 1 : -1) * along, trace[0].normalized(),
+                                                             trace[1].normalized()));
         }
     }
     return out;
@@ -1388,41 +1527,46 @@ double section_measure(const Model& model, const CutPlane& plane) {
         const double da = plane.distance(mesh.points[a]), db = plane.distance(mesh.points[b]);
         return Vec3(mesh.points[a] + da / (da - db) * (mesh.points[b] - mesh.points[a]));
     };
-    for_each_cell(model.mesh, model.solid ? is_tetra : is_triangle, [&](CellType type, Index, std::span<const Index> n) {
-        std::vector<Index> above, below, on;
-        for (int k = 0; k < corners_of(type); ++k) {
-            const double d = plane.distance(model.mesh.points[n[k]]);
-            if (std::abs(d) <= rounding * model.size) on.push_back(n[k]);
-            else (d > 0 ? above : below).push_back(n[k]);
-        }
-        std::vector<Vec3> polygon;
-        for (const Index a : above)
-            for (const Index b : below) polygon.push_back(crossing(model.mesh, a, b));
-        // A face in the plane opens where it is met from both sides, and counts once.
-        if (above.empty() || below.empty()) {
-            if (on.size() != (model.solid ? 3 : 2)) return;
-            std::ranges::sort(on);
-            int& sides = met[on];
-            const int before = sides;
-            sides |= above.empty() ? 2 : 1;
-            if (before == sides || sides != 3) return;
-        }
-        // Two above, two below: 0-0, 0-1, 1-0, 1-1; around the quadrangle the last two change places.
-        if (polygon.size() == 4) std::swap(polygon[2], polygon[3]);
-        for (const Index k : on) polygon.push_back(model.mesh.points[k]);
-        if (model.solid) {
-            if (polygon.size() < 3) return;
-            Vec3 area = Vec3::Zero();
-            for (std::size_t k = 1; k + 1 < polygon.size(); ++k) area += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]) / 2;
-            sum += area.norm();
-        } else if (polygon.size() == 2) {
-            sum += (polygon[1] - polygon[0]).norm();
-        }
-    });
+    for_each_cell(model.mesh, model.solid ? is_tetra : is_triangle,
+                  [&](CellType type, Index, std::span<const Index> n) {
+                      std::vector<Index> above, below, on;
+                      for (int k = 0; k < corners_of(type); ++k) {
+                          const double d = plane.distance(model.mesh.points[n[k]]);
+                          if (std::abs(d) <= rounding * model.size)
+                              on.push_back(n[k]);
+                          else
+                              (d > 0 ? above : below).push_back(n[k]);
+                      }
+                      std::vector<Vec3> polygon;
+                      for (const Index a : above)
+                          for (const Index b : below) polygon.push_back(crossing(model.mesh, a, b));
+                      // A face in the plane opens where it is met from both sides, and counts once.
+                      if (above.empty() || below.empty()) {
+                          if (on.size() != (model.solid ? 3 : 2)) return;
+                          std::ranges::sort(on);
+                          int& sides = met[on];
+                          const int before = sides;
+                          sides |= above.empty() ? 2 : 1;
+                          if (before == sides || sides != 3) return;
+                      }
+                      // Two above, two below: 0-0, 0-1, 1-0, 1-1; around the quadrangle the last two change places.
+                      if (polygon.size() == 4) std::swap(polygon[2], polygon[3]);
+                      for (const Index k : on) polygon.push_back(model.mesh.points[k]);
+                      if (model.solid) {
+                          if (polygon.size() < 3) return;
+                          Vec3 area = Vec3::Zero();
+                          for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+                              area += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]) / 2;
+                          sum += area.norm();
+                      } else if (polygon.size() == 2) {
+                          sum += (polygon[1] - polygon[0]).norm();
+                      }
+                  });
     return sum;
 }
 
-std::vector<std::string> check_crack(const Model& model, const CutPlane& plane, const Result& result, const std::string& name) {
+std::vector<std::string> check_crack(const Model& model, const CutPlane& plane, const Result& result,
+                                     const std::string& name) {
     return CrackCheck(model, plane, result, name).run();
 }
 
@@ -1430,21 +1574,28 @@ bool identical(const Mesh& a, const Mesh& b) {
     const auto same_points = [](const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
         return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
     };
-    if (!same_points(a.points, b.points) || a.node_ids != b.node_ids || a.name != b.name || a.unit != b.unit || a.solver_input != b.solver_input) return false;
+    if (!same_points(a.points, b.points) || a.node_ids != b.node_ids || a.name != b.name || a.unit != b.unit ||
+        a.solver_input != b.solver_input)
+        return false;
     for (std::size_t k = 0; k < a.blocks().size(); ++k)
-        if (a.blocks()[k].connectivity != b.blocks()[k].connectivity || a.blocks()[k].ids != b.blocks()[k].ids) return false;
+        if (a.blocks()[k].connectivity != b.blocks()[k].connectivity || a.blocks()[k].ids != b.blocks()[k].ids)
+            return false;
     if (a.groups.size() != b.groups.size() || a.facets.size() != b.facets.size()) return false;
     for (std::size_t g = 0; g < a.groups.size(); ++g)
-        if (a.groups[g].name != b.groups[g].name || a.groups[g].kind != b.groups[g].kind || a.groups[g].hidden != b.groups[g].hidden) return false;
-    const auto same_family = [&](FamilyIndex x, FamilyIndex y) { return std::ranges::equal(a.families.groups(x), b.families.groups(y)); };
+        if (a.groups[g].name != b.groups[g].name || a.groups[g].kind != b.groups[g].kind ||
+            a.groups[g].hidden != b.groups[g].hidden)
+            return false;
+    const auto same_family = [&](FamilyIndex x, FamilyIndex y) {
+        return std::ranges::equal(a.families.groups(x), b.families.groups(y));
+    };
     for (std::size_t n = 0; n < a.node_families.size(); ++n)
         if (!same_family(a.node_families[n], b.node_families[n])) return false;
     for (std::size_t k = 0; k < a.blocks().size(); ++k)
         for (std::size_t c = 0; c < a.blocks()[k].families.size(); ++c)
             if (!same_family(a.blocks()[k].families[c], b.blocks()[k].families[c])) return false;
     for (std::size_t k = 0; k < a.facets.size(); ++k)
-        if (a.facets[k].type != b.facets[k].type || a.facets[k].face != b.facets[k].face || a.facets[k].cell != b.facets[k].cell ||
-            !same_family(a.facets[k].family, b.facets[k].family))
+        if (a.facets[k].type != b.facets[k].type || a.facets[k].face != b.facets[k].face ||
+            a.facets[k].cell != b.facets[k].cell || !same_family(a.facets[k].family, b.facets[k].family))
             return false;
     return true;
 }

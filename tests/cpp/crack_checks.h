@@ -73,9 +73,9 @@ public:
 
     Mesh mesh;
     bool flat;
-    bool solid;         ///< tetrahedra; otherwise triangles
-    double size = 0;    ///< diagonal of the bounding box
-    Vec3 low, high;     ///< bounding box
+    bool solid;       ///< tetrahedra; otherwise triangles
+    double size = 0;  ///< diagonal of the bounding box
+    Vec3 low, high;   ///< bounding box
 
     /// A face of the skin or of a border between groups, or, in a shell mesh, a triangle.
     struct Face {
@@ -96,19 +96,19 @@ public:
         std::string kind;          ///< shells: what meets here
         double bend = 0;           ///< shells: angle to the next segment of a curved line, radian
     };
-    std::vector<Face> skin;     ///< outside of the tetrahedra, or all shells
-    std::vector<Face> borders;  ///< between tetrahedra of different groups
-    std::vector<Segment> lines; ///< line elements; in shells, edges that are not inside a plate
+    std::vector<Face> skin;      ///< outside of the tetrahedra, or all shells
+    std::vector<Face> borders;   ///< between tetrahedra of different groups
+    std::vector<Segment> lines;  ///< line elements; in shells, edges that are not inside a plate
 
     std::vector<GroupSum> sums;
-    std::vector<std::vector<Face>> group_faces;       ///< by group: its triangles (solid meshes)
-    std::vector<std::vector<Segment>> group_segments; ///< by group: its line elements
-    std::vector<int> group_twin;     ///< node group: element group of the same name with just these nodes, or -1
-    std::vector<char> group_planar;  ///< by group: all nodes in one plane, or a group of volumes
+    std::vector<std::vector<Face>> group_faces;        ///< by group: its triangles (solid meshes)
+    std::vector<std::vector<Segment>> group_segments;  ///< by group: its line elements
+    std::vector<int> group_twin;        ///< node group: element group of the same name with just these nodes, or -1
+    std::vector<char> group_planar;     ///< by group: all nodes in one plane, or a group of volumes
     std::vector<Index> isolated_nodes;  ///< indices of members of a node group that have no neighbour in it
-    bool mixed = false;              ///< a solid mesh with shells of their own
+    bool mixed = false;                 ///< a solid mesh with shells of their own
     std::set<std::string> loose_kinds;  ///< the groups such shells are in, as one text
-    std::set<Index> loose_cells;     ///< numbers of line elements that are on no other element's edge
+    std::set<Index> loose_cells;        ///< numbers of line elements that are on no other element's edge
     std::map<Index, Index> node_index;  ///< index of each node number
     Index largest_node = 0, largest_cell = 0;
 
@@ -125,12 +125,13 @@ private:
     void find_bends();
 };
 
-/// Planes that geometry alone stops from giving good elements, in the words of the requirement: they meet a flat skin or
-/// group border at under 5 degrees, or run (as) parallel to it within 0.15 edge lengths.
+/// Planes that geometry alone stops from giving good elements, in the words of the requirement: they meet a flat skin
+/// or group border at under 5 degrees, or run (as) parallel to it within 0.15 edge lengths.
 struct Grazing {
     bool surface = false;  ///< a skin or border face; a shell
     bool line = false;     ///< a feature line or border line, within the faces it bounds
-    /// No mesh whatever can have a better minimum: the plane cuts a corner this sharp off a plate (a needle off an edge).
+    /// No mesh whatever can have a better minimum: the plane cuts a corner this sharp off a plate (a needle off an
+    /// edge).
     double bound = 1;
 };
 Grazing grazing(const Model& model, const CutPlane& plane);
@@ -139,7 +140,8 @@ Grazing grazing(const Model& model, const CutPlane& plane);
 double section_measure(const Model& model, const CutPlane& plane);
 
 /// Everything that does not hold, one line each, beginning with a keyword; empty when all is well.
-std::vector<std::string> check_crack(const Model& model, const CutPlane& plane, const Result& result, const std::string& name);
+std::vector<std::string> check_crack(const Model& model, const CutPlane& plane, const Result& result,
+                                     const std::string& name);
 
 /// Whether two meshes are the same to the last bit: numbers, coordinates, connectivity, groups, members, order.
 bool identical(const Mesh& a, const Mesh& b);

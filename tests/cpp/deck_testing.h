@@ -121,7 +121,8 @@ class DeckSemantics : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / ("femscalpel_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+        folder_ =
+            fs::temp_directory_path() / ("femscalpel_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
         fs::create_directories(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
@@ -140,7 +141,8 @@ protected:
     }
 
     /// Cracks; as written().
-    Mesh crack_at(const Mesh& mesh, double x, const std::string& name = "CRACK", const Vec3& normal = Vec3(1, 0, 0), bool strict = false) {
+    Mesh crack_at(const Mesh& mesh, double x, const std::string& name = "CRACK", const Vec3& normal = Vec3(1, 0, 0),
+                  bool strict = false) {
         CrackOptions options;
         options.name = name;
         options.strict = strict;

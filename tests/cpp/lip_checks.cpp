@@ -50,8 +50,10 @@ private:
         Index moved = 0, fresh = 0;
         for (Index n = 0; n < after_.node_count(); ++n) {
             const auto old = model_.node_index.find(after_.node_ids[n]);
-            if (old != model_.node_index.end()) moved += before_.points[old->second] != at(n);
-            else if (++fresh; after_.node_ids[n] <= model_.largest_node) say("number", "new node ", after_.node_ids[n], " is not above the largest in use");
+            if (old != model_.node_index.end())
+                moved += before_.points[old->second] != at(n);
+            else if (++fresh; after_.node_ids[n] <= model_.largest_node)
+                say("number", "new node ", after_.node_ids[n], " is not above the largest in use");
         }
         for (const auto& [id, n] : model_.node_index)
             if (!now.contains(id)) say("number", "node ", id, " is gone");
@@ -63,9 +65,12 @@ private:
         for (const CellBlock& b : after_.blocks())
             for (Index c = 0; c < b.size(); ++c) {
                 const auto n = b.nodes(c);
-                const bool tetra = b.type == CellType::tetra || b.type == CellType::tetra10, triangle = b.type == CellType::triangle || b.type == CellType::triangle6;
-                if (tetra && !(tetra_shape(at(n[0]), at(n[1]), at(n[2]), at(n[3])) > 1e-6)) say("inverted", "element ", b.ids[c]);
-                if (!model_.solid && triangle && !(triangle_shape(at(n[0]), at(n[1]), at(n[2])) > 1e-6)) say("flat", "element ", b.ids[c]);
+                const bool tetra = b.type == CellType::tetra || b.type == CellType::tetra10,
+                           triangle = b.type == CellType::triangle || b.type == CellType::triangle6;
+                if (tetra && !(tetra_shape(at(n[0]), at(n[1]), at(n[2]), at(n[3])) > 1e-6))
+                    say("inverted", "element ", b.ids[c]);
+                if (!model_.solid && triangle && !(triangle_shape(at(n[0]), at(n[1]), at(n[2])) > 1e-6))
+                    say("flat", "element ", b.ids[c]);
             }
     }
 
@@ -79,9 +84,12 @@ private:
                 continue;
             }
             if (was.count > 0 && sums[g].count == 0) say("group", before_.groups[g].name, " became empty");
-            if (before_.groups[g].hidden || was.dimension != (model_.solid ? 3 : 2) || before_.groups[g].kind != GroupKind::element) continue;
+            if (before_.groups[g].hidden || was.dimension != (model_.solid ? 3 : 2) ||
+                before_.groups[g].kind != GroupKind::element)
+                continue;
             const double slack = model_.flat ? 1e-9 * was.measure + model_.group_slack[g] : 1e-2 * was.measure;
-            if (std::abs(sums[g].measure - was.measure) > slack) say("measure", before_.groups[g].name, " ", was.measure, " -> ", sums[g].measure, ", allowed ", slack);
+            if (std::abs(sums[g].measure - was.measure) > slack)
+                say("measure", before_.groups[g].name, " ", was.measure, " -> ", sums[g].measure, ", allowed ", slack);
         }
     }
 
@@ -99,8 +107,10 @@ private:
                     if (!after_.families.contains(b.families[c], *g)) continue;
                     const auto n = b.nodes(c).first(static_cast<std::size_t>(traits(b.type).corners));
                     for (const Index v : n) {
-                        if (std::abs(surface_.distance(at(v))) > tolerance()) say("off the tool", "node ", after_.node_ids[v], " by ", surface_.distance(at(v)));
-                        if (surface_.border && surface_.border(at(v)) > 1e3 * tolerance()) say("beyond the front", "node ", after_.node_ids[v], " by ", surface_.border(at(v)));
+                        if (std::abs(surface_.distance(at(v))) > tolerance())
+                            say("off the tool", "node ", after_.node_ids[v], " by ", surface_.distance(at(v)));
+                        if (surface_.border && surface_.border(at(v)) > 1e3 * tolerance())
+                            say("beyond the front", "node ", after_.node_ids[v], " by ", surface_.border(at(v)));
                     }
                     std::vector<Index> key(n.begin(), n.end());
                     std::ranges::sort(key);
@@ -115,7 +125,8 @@ private:
         // Two faces of the same nodes do not open.
         for (const auto& key : faces[0])
             if (faces[1].contains(key)) say("closed", "a face (edge) of the crack has the same nodes on both lips");
-        if (corners[0] != corners[1]) say("lips", "are not coincident: ", corners[0].size(), " against ", corners[1].size(), " faces");
+        if (corners[0] != corners[1])
+            say("lips", "are not coincident: ", corners[0].size(), " against ", corners[1].size(), " faces");
         conforming(faces);
         front(faces);
     }
@@ -132,7 +143,8 @@ private:
             if (end - i == 1 && !lips[0].contains(key) && !lips[1].contains(key))
                 skin += (at(key[1]) - at(key[0])).cross(at(key[2]) - at(key[0])).norm() / 2;
         }
-        for (const Model::Face& f : model_.skin) wanted += (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]).norm() / 2;
+        for (const Model::Face& f : model_.skin)
+            wanted += (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]).norm() / 2;
         if (std::abs(skin - wanted) > (model_.flat ? 1e-9 : 1e-2) * wanted) say("skin", "area ", wanted, " -> ", skin);
     }
 
@@ -159,7 +171,8 @@ private:
                 const auto n = b.nodes(c);
                 named.insert({std::min(n[0], n[1]), std::max(n[0], n[1])});
                 for (const Index v : n.first(2))
-                    if (std::abs(surface_.border(at(v))) > 1e3 * tolerance()) say("front", "node ", after_.node_ids[v], " is ", surface_.border(at(v)), " off the border");
+                    if (std::abs(surface_.border(at(v))) > 1e3 * tolerance())
+                        say("front", "node ", after_.node_ids[v], " is ", surface_.border(at(v)), " off the border");
             }
         if (named != expected) say("front", named.size(), " segments, the lips part along ", expected.size());
     }
@@ -174,7 +187,9 @@ private:
 
 }  // namespace
 
-std::vector<std::string> check_lips(const Model& model, const CrackSurface& surface, const Result& result) { return LipChecker(model, surface, result).run(); }
+std::vector<std::string> check_lips(const Model& model, const CrackSurface& surface, const Result& result) {
+    return LipChecker(model, surface, result).run();
+}
 
 Tangency::Tangency(const Model& model) : model_(model) {
     std::map<std::array<std::array<double, 3>, 2>, std::vector<Vec3>> normals;
@@ -201,7 +216,8 @@ bool Tangency::of(const std::function<double(const Vec3&)>& distance, double rad
     const auto gradient = [&](const Vec3& x) {
         const double h = 1e-6 * model_.size;
         Vec3 g;
-        for (int a = 0; a < 3; ++a) g[a] = (distance(x + h * Vec3::Unit(a)) - distance(x - h * Vec3::Unit(a))) / (2 * h);
+        for (int a = 0; a < 3; ++a)
+            g[a] = (distance(x + h * Vec3::Unit(a)) - distance(x - h * Vec3::Unit(a))) / (2 * h);
         return Vec3(g.normalized());
     };
     // Refined elements are half a radius long.
@@ -213,7 +229,8 @@ bool Tangency::of(const std::function<double(const Vec3&)>& distance, double rad
             const int n = samples(f.edge);
             for (int i = 0; i <= n; ++i)
                 for (int j = 0; i + j <= n; ++j) {
-                    const Vec3 x = f.corner[0] + (f.corner[1] - f.corner[0]) * i / n + (f.corner[2] - f.corner[0]) * j / n;
+                    const Vec3 x =
+                        f.corner[0] + (f.corner[1] - f.corner[0]) * i / n + (f.corner[2] - f.corner[0]) * j / n;
                     if (near(distance(x), f.edge) && gradient(x).cross(f.normal).norm() < sine) return true;
                 }
         }
@@ -239,9 +256,11 @@ bool Tangency::of_curve(const std::vector<Vec3>& points, double radius) const {
     }
     for (const auto* faces : {&model_.skin, &model_.borders})
         for (const Model::Face& f : *faces) {
-            const Vec3 low = f.corner[0].cwiseMin(f.corner[1]).cwiseMin(f.corner[2]).array() - f.edge / 2, high = f.corner[0].cwiseMax(f.corner[1]).cwiseMax(f.corner[2]).array() + f.edge / 2;
+            const Vec3 low = f.corner[0].cwiseMin(f.corner[1]).cwiseMin(f.corner[2]).array() - f.edge / 2,
+                       high = f.corner[0].cwiseMax(f.corner[1]).cwiseMax(f.corner[2]).array() + f.edge / 2;
             for (const auto& [x, along] : places)
-                if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all() && std::abs(f.normal.dot(x - f.corner[0])) < 0.15 * std::min(f.edge, radius / 2) &&
+                if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all() &&
+                    std::abs(f.normal.dot(x - f.corner[0])) < 0.15 * std::min(f.edge, radius / 2) &&
                     std::abs(along.dot(f.normal)) < sine)
                     return true;
         }

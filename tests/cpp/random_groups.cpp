@@ -58,7 +58,8 @@ void add_random_groups(std::mt19937& rng, Mesh& mesh, int count) {
     for (int k = 0; k < count; ++k) {
         const auto kind = static_cast<GroupKind>(k % 3);
         const int dimension = std::uniform_int_distribution(0, 4)(rng);  // of elements; 4: all
-        const double size = mesh.points.back().norm(), radius = size * (0.2 + 0.6 * u(rng)), p = u(rng) < 0.5 ? 0.95 : 0.6;
+        const double size = mesh.points.back().norm(), radius = size * (0.2 + 0.6 * u(rng)),
+                     p = u(rng) < 0.5 ? 0.95 : 0.6;
         const Vec3 centre = mesh.points[std::uniform_int_distribution<Index>(0, mesh.node_count() - 1)(rng)];
         const auto take = [&](Index n) { return (mesh.points[n] - centre).norm() < radius && u(rng) < p; };
         GroupMembers members{kind, {}, {}};
@@ -68,7 +69,8 @@ void add_random_groups(std::mt19937& rng, Mesh& mesh, int count) {
         for (const CellBlock& b : mesh.blocks())
             for (Index c = 0; c < b.size(); ++c) {
                 const CellTraits& t = traits(b.type);
-                if (kind == GroupKind::element && (dimension == 4 || t.dimension == dimension) && take(b.nodes(c)[0])) members.ids.push_back(b.ids[c]);
+                if (kind == GroupKind::element && (dimension == 4 || t.dimension == dimension) && take(b.nodes(c)[0]))
+                    members.ids.push_back(b.ids[c]);
                 if (kind == GroupKind::facet && t.dimension >= 2)
                     for (Index f = 1; f <= (t.dimension == 3 ? 4 : 5); ++f)
                         if (take(b.nodes(c)[0])) {
@@ -137,7 +139,8 @@ Expected slow_boundary(const Mesh& mesh, GroupIndex group) {
     for (const Nodes& e : belongs)
         if (e.size() == d + 1) out.area.insert(e);
     for (const Nodes& side : by_size[d])
-        if (std::ranges::count_if(out.area, [&](const Nodes& a) { return contains(a, side); }) == 1) out.bounding.insert(side);
+        if (std::ranges::count_if(out.area, [&](const Nodes& a) { return contains(a, side); }) == 1)
+            out.bounding.insert(side);
     const auto covered = [&](const std::set<Nodes>& by, const Nodes& e) {
         return std::ranges::any_of(by, [&](const Nodes& larger) { return contains(larger, e); });
     };
@@ -146,7 +149,8 @@ Expected slow_boundary(const Mesh& mesh, GroupIndex group) {
             if (e.size() != s || covered(out.area, e)) continue;
             if (s == 3) out.linking_faces.insert(e);
             if (s == 2 && !covered(out.linking_faces, e)) out.linking_edges.insert(e);
-            if (s == 1 && !covered(out.linking_faces, e) && !covered(out.linking_edges, e)) out.isolated.insert(*e.begin());
+            if (s == 1 && !covered(out.linking_faces, e) && !covered(out.linking_edges, e))
+                out.isolated.insert(*e.begin());
         }
     return out;
 }

@@ -6,8 +6,8 @@
 
 #include "mesh/mesh.h"
 
-/// The holes that the quality of drill() is measured by, in the two glued boxes of 10 x 10 x 10 that meet at x = 10; for the test
-/// and the benchmark.
+/// The holes that the quality of drill() is measured by, in the two glued boxes of 10 x 10 x 10 that meet at x = 10;
+/// for the test and the benchmark.
 namespace femscalpel::checks {
 
 struct ReferenceHole {
@@ -48,7 +48,8 @@ inline HoleMeasures measure(const ReferenceHole& hole, const Mesh& before, const
     const Vec3 axis = hole.axis.normalized();
     // Along z or y the boxes are 10 thick; the oblique hole leaves by the faces normal to z.
     const double length = 10 / axis.cwiseAbs().maxCoeff();
-    out.volume_error = (tetra_volume(before) - tetra_volume(after)) / (std::numbers::pi * hole.radius * hole.radius * length) - 1;
+    out.volume_error =
+        (tetra_volume(before) - tetra_volume(after)) / (std::numbers::pi * hole.radius * hole.radius * length) - 1;
     const GroupIndex wall = *after.find_group("HOLE_WALL", GroupKind::element);
     const CellBlock& triangles = after.block(CellType::triangle);
     for (Index c = 0; c < triangles.size(); ++c) {
@@ -61,10 +62,12 @@ inline HoleMeasures measure(const ReferenceHole& hole, const Mesh& before, const
     }
     std::vector<char> in(after.points.size(), 0);
     const CellBlock& tetras = after.block(CellType::tetra);
-    const GroupIndex left = *after.find_group("LEFT", GroupKind::element), right = *after.find_group("RIGHT", GroupKind::element);
+    const GroupIndex left = *after.find_group("LEFT", GroupKind::element),
+                     right = *after.find_group("RIGHT", GroupKind::element);
     for (Index c = 0; c < tetras.size(); ++c)
         for (const Index n : tetras.nodes(c))
-            in[n] |= static_cast<char>((after.families.contains(tetras.families[c], left) ? 1 : 0) | (after.families.contains(tetras.families[c], right) ? 2 : 0));
+            in[n] |= static_cast<char>((after.families.contains(tetras.families[c], left) ? 1 : 0) |
+                                       (after.families.contains(tetras.families[c], right) ? 2 : 0));
     for (std::size_t n = 0; n < in.size(); ++n)
         if (in[n] == 3) out.off_border = std::max(out.off_border, std::abs(after.points[n].x() - 10));
     return out;

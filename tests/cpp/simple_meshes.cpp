@@ -50,13 +50,16 @@ void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int
 Mesh second_order(const Mesh& mesh) {
     Mesh out = mesh;
     std::map<std::pair<Index, Index>, Index> mids;
-    for (const auto& [linear, quadratic] : {std::pair(CellType::triangle, CellType::triangle6), std::pair(CellType::tetra, CellType::tetra10)}) {
+    for (const auto& [linear, quadratic] :
+         {std::pair(CellType::triangle, CellType::triangle6), std::pair(CellType::tetra, CellType::tetra10)}) {
         CellBlock& b = out.block(linear);
         for (Index c = 0; c < b.size(); ++c) {
             std::vector<Index> nodes(b.nodes(c).begin(), b.nodes(c).end());
             for (const auto& e : traits(quadratic).edges) {
                 const std::pair<Index, Index> ends = std::minmax(nodes[e[0]], nodes[e[1]]);
-                if (!mids.contains(ends)) mids[ends] = out.add_node((out.points[ends.first] + out.points[ends.second]) / 2, out.largest_node_id() + 1);
+                if (!mids.contains(ends))
+                    mids[ends] =
+                        out.add_node((out.points[ends.first] + out.points[ends.second]) / 2, out.largest_node_id() + 1);
                 nodes.push_back(mids[ends]);
             }
             out.add_cell(quadratic, nodes, b.ids[c], b.families[c]);
@@ -78,6 +81,8 @@ Index number_near(const Mesh& mesh, const Vec3& at) {
     throw Error("no node there");
 }
 
-std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind) { return group_members(mesh, *mesh.find_group(name, kind)).ids; }
+std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind) {
+    return group_members(mesh, *mesh.find_group(name, kind)).ids;
+}
 
 }  // namespace femscalpel::checks

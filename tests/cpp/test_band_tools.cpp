@@ -29,7 +29,8 @@ TEST(Quality, BelowALimitIsWhatTheMeanRatioSays) {
         for (Vec3& x : p) x = Vec3(normal(random), normal(random), normal(random)) * std::pow(10.0, k % 7 - 3);
         if (k % 5 == 0) p[3] = (p[0] + p[1] + p[2]) / 3;  // flat
         const double q = mean_ratio(p[0], p[1], p[2], p[3]);
-        for (const double limit : {1e-6, 0.1, 0.35, 0.55}) ASSERT_EQ(mean_ratio_below(limit, p[0], p[1], p[2], p[3]), q < limit) << q;
+        for (const double limit : {1e-6, 0.1, 0.35, 0.55})
+            ASSERT_EQ(mean_ratio_below(limit, p[0], p[1], p[2], p[3]), q < limit) << q;
         if (q > 0) {
             EXPECT_FALSE(mean_ratio_below(q, p[0], p[1], p[2], p[3]));
             EXPECT_TRUE(mean_ratio_below(std::nextafter(q, 2.0), p[0], p[1], p[2], p[3]));
@@ -54,16 +55,22 @@ TEST(Rows, AreListsOfLists) {
     for (int step = 0; step < 20000; ++step) {
         const int r = static_cast<int>(random() % count), value = static_cast<int>(random() % 9);
         switch (random() % 8) {
-            case 0: std::erase(plain[r], value), rows.remove(r, value); break;
-            case 1: std::ranges::replace(plain[r], value, value + 1), rows.replace(r, value, value + 1); break;
+            case 0:
+                std::erase(plain[r], value), rows.remove(r, value);
+                break;
+            case 1:
+                std::ranges::replace(plain[r], value, value + 1), rows.replace(r, value, value + 1);
+                break;
             case 2:
                 if (step % 50 == 0) plain[r].clear(), rows.clear(r);
                 break;
-            default: plain[r].push_back(value), rows.add(r, value);
+            default:
+                plain[r].push_back(value), rows.add(r, value);
         }
         if (step == 10000) plain.resize(count + 5), rows.resize(count + 5);
     }
-    for (std::size_t r = 0; r < plain.size(); ++r) EXPECT_TRUE(std::ranges::equal(rows[static_cast<int>(r)], plain[r])) << r;
+    for (std::size_t r = 0; r < plain.size(); ++r)
+        EXPECT_TRUE(std::ranges::equal(rows[static_cast<int>(r)], plain[r])) << r;
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ long run_until(long last, const std::function<void()>& run) {
 }
 
 /// Cancels at each of its check points, or at 50 of them; `look` is called after each.
-void cancel_everywhere(const std::function<void()>& run, const std::function<void()>& look = [] {}) {
+void cancel_everywhere(
+    const std::function<void()>& run, const std::function<void()>& look = [] {}) {
     const long count = run_until(never, run);
     ASSERT_GT(count, 0) << "no check point";
     const long step = 1 + count / 50;
@@ -57,7 +58,8 @@ void expect_same(const Mesh& a, const Mesh& b) {
 /// A box with a border inside, its top named, and a beam.
 Mesh box_with_groups() {
     Mesh mesh = checks::grid(5, 4, 4);
-    const FamilyIndex left = checks::family_of(mesh, "LEFT", GroupKind::element), top = checks::family_of(mesh, "TOP", GroupKind::node);
+    const FamilyIndex left = checks::family_of(mesh, "LEFT", GroupKind::element),
+                      top = checks::family_of(mesh, "TOP", GroupKind::node);
     CellBlock& tetras = mesh.block(CellType::tetra);
     for (Index c = 0; c < tetras.size(); ++c)
         if (mesh.points[tetras.nodes(c)[0]].y() < 2) tetras.families[c] = left;
@@ -76,26 +78,38 @@ TEST(CancelTest, OperatorsEndAtEveryCheckPoint) {
     const Tool *hole_tool = &hole, *fine_tool = &fine;
     const std::vector<std::pair<const char*, std::function<Mesh()>>> operations = {
         {"crack", [&] { return crack(mesh, oblique).mesh; }},
-        {"crack of second-order elements", [&] { return crack(curved, Plane({1.4, 1, 1}, {1, 0.1, 0.2})).mesh; }},
-        {"crack, deform", [&] {
-            CrackOptions o;
-            o.method = Method::deform;
-            return crack(mesh, oblique, o).mesh;
-        }},
-        {"crack within a disk", [&] {
-            CrackOptions o;
-            o.within = &disk;
-            return crack(mesh, oblique, o).mesh;
-        }},
+        {"crack of second-order elements",
+         [&] {
+             return crack(curved, Plane({1.4, 1, 1}, {1, 0.1, 0.2})).mesh;
+         }},
+        {"crack, deform",
+         [&] {
+             CrackOptions o;
+             o.method = Method::deform;
+             return crack(mesh, oblique, o).mesh;
+         }},
+        {"crack within a disk",
+         [&] {
+             CrackOptions o;
+             o.within = &disk;
+             return crack(mesh, oblique, o).mesh;
+         }},
         {"crack along a torus", [&] { return crack(mesh, torus).mesh; }},
-        {"drill", [&] { return drill(mesh, {&hole_tool, 1}).mesh; }},
-        {"drill, refined first", [&] { return drill(mesh, {&fine_tool, 1}).mesh; }},
+        {"drill",
+         [&] {
+             return drill(mesh, {&hole_tool, 1}).mesh;
+         }},
+        {"drill, refined first",
+         [&] {
+             return drill(mesh, {&fine_tool, 1}).mesh;
+         }},
         {"cut", [&] { return cut(mesh, oblique, 0.7).mesh; }},
-        {"refine", [&] {
-            RefineOptions o;
-            o.size = 0.6;
-            return refine(mesh, distance_to(std::vector<const Tool*>{&fine}), o).mesh;
-        }},
+        {"refine",
+         [&] {
+             RefineOptions o;
+             o.size = 0.6;
+             return refine(mesh, distance_to(std::vector<const Tool*>{&fine}), o).mesh;
+         }},
     };
     for (const auto& [name, run] : operations) {
         SCOPED_TRACE(name);
@@ -148,7 +162,8 @@ TEST(CancelTest, ReadingEndsAndWritingLeavesTheOldFile) {
             EXPECT_THROW(run_until(k, [&] { write(mesh, path); }), Cancelled);
             std::ifstream in(path);
             EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "old");
-            EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1) << "a file is left over";
+            EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1)
+                << "a file is left over";
         }
         write(mesh, path);
         if (type != std::string(".vtu")) {

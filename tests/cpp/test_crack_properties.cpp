@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <cstdlib>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -36,8 +36,9 @@ constexpr int described = 10;
 
 struct Subject {
     const char* name;
-    bool flat;  ///< skin and borders are plane
-    int share = 1;  ///< one in so many of the planes: curved second-order elements take a quarter of a second each, some many seconds
+    bool flat;      ///< skin and borders are plane
+    int share = 1;  ///< one in so many of the planes: curved second-order elements take a quarter of a second each,
+                    ///< some many seconds
 };
 
 std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.name; }
@@ -54,7 +55,8 @@ protected:
     CutPlane random_plane(Random& random) const {
         CutPlane plane;
         const Vec3 margin = 0.05 * (model_.high - model_.low);
-        for (int a = 0; a < 3; ++a) plane.origin[a] = random.uniform(model_.low[a] - margin[a], model_.high[a] + margin[a]);
+        for (int a = 0; a < 3; ++a)
+            plane.origin[a] = random.uniform(model_.low[a] - margin[a], model_.high[a] + margin[a]);
         plane.normal = random.direction();
         return plane;
     }
@@ -70,7 +72,8 @@ protected:
 
     static std::string describe(int k, const CutPlane& plane) {
         std::ostringstream text;
-        text << std::setprecision(17) << "plane " << k << ", origin (" << plane.origin.transpose() << "), normal (" << plane.normal.transpose() << ")";
+        text << std::setprecision(17) << "plane " << k << ", origin (" << plane.origin.transpose() << "), normal ("
+             << plane.normal.transpose() << ")";
         return text.str();
     }
 
@@ -79,14 +82,16 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Meshes, PlaneProperties,
-                         testing::Values(Subject{"two_boxes", true}, Subject{"flanged_cylinder", false}, Subject{"l_shape", true},
-                                         Subject{"quadratic_elbow", false, 8}, Subject{"caisson_shell", true}),
+                         testing::Values(Subject{"two_boxes", true}, Subject{"flanged_cylinder", false},
+                                         Subject{"l_shape", true}, Subject{"quadratic_elbow", false, 8},
+                                         Subject{"caisson_shell", true}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(PlaneProperties, SnapIsValidAndGood) {
     const int planes = snap_planes / share();
     Random random(2024);
-    int low = 0, valid = 0, failed = 0, missed = 0, surface = 0, line = 0, counted = 0, good = 0, good_anyhow = 0, reachable = 0;
+    int low = 0, valid = 0, failed = 0, missed = 0, surface = 0, line = 0, counted = 0, good = 0, good_anyhow = 0,
+        reachable = 0;
     double worst = 1;
     const Mesh before = model_.mesh;
     for (int k = 0; k < planes; ++k) {
@@ -105,21 +110,25 @@ TEST_P(PlaneProperties, SnapIsValidAndGood) {
             continue;
         }
         const std::vector<std::string> findings = check_crack(model_, plane, result, "CRACK");
-        if (findings.empty()) ++valid;
-        else if (++failed <= described) std::cout << describe(k, plane) << ":\n  " << testing::PrintToString(findings) << "\n";
+        if (findings.empty())
+            ++valid;
+        else if (++failed <= described)
+            std::cout << describe(k, plane) << ":\n  " << testing::PrintToString(findings) << "\n";
         const double quality = result.report.quality_after.minimum, input = result.report.quality_before.minimum;
         const Grazing limits = grazing(model_, plane);
         surface += limits.surface;
         line += limits.line && !limits.surface;
         if (limits.surface || limits.line) {
             if (quality < 0.1) {
-                EXPECT_THAT(result.report.warnings, testing::Not(testing::IsEmpty())) << describe(k, plane) << " grazes a border, quality " << quality;
+                EXPECT_THAT(result.report.warnings, testing::Not(testing::IsEmpty()))
+                    << describe(k, plane) << " grazes a border, quality " << quality;
             }
             continue;
         }
         ++counted;
         worst = std::min(worst, quality);
-        if (quality < std::min(0.1, input) && ++low <= described) std::cout << describe(k, plane) << ": quality " << quality << "\n";
+        if (quality < std::min(0.1, input) && ++low <= described)
+            std::cout << describe(k, plane) << ": quality " << quality << "\n";
         if (input < 0.3) continue;
         good_anyhow += quality >= 0.3;
         if (limits.bound < 0.3) continue;
@@ -135,9 +144,10 @@ TEST_P(PlaneProperties, SnapIsValidAndGood) {
         EXPECT_GE(good_anyhow, 0.9 * counted);
     }
     EXPECT_TRUE(identical(model_.mesh, before) && identical(session_.mesh(), before)) << "the input was changed";
-    std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam().name << ", snap: " << valid << " of " << planes << " valid, " << missed
-              << " miss the mesh, " << failed << " fail; grazing a surface " << surface << ", a line " << line << "; of the other " << counted
-              << ": minimum " << worst << ", mean ratio >= 0.3 in " << good_anyhow << ", and in " << good << " of " << reachable
+    std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam().name << ", snap: " << valid << " of " << planes
+              << " valid, " << missed << " miss the mesh, " << failed << " fail; grazing a surface " << surface
+              << ", a line " << line << "; of the other " << counted << ": minimum " << worst
+              << ", mean ratio >= 0.3 in " << good_anyhow << ", and in " << good << " of " << reachable
               << " where the angles allow it\n";
 }
 
@@ -154,8 +164,10 @@ TEST_P(PlaneProperties, DeformIsValidOrSaysNo) {
         try {
             const Result result = session_.crack(Plane(plane.origin, plane.normal), options);
             const std::vector<std::string> findings = check_crack(model_, plane, result, "CRACK");
-            if (findings.empty()) ++valid;
-            else if (++failed <= described) std::cout << describe(k, plane) << ":\n  " << testing::PrintToString(findings) << "\n";
+            if (findings.empty())
+                ++valid;
+            else if (++failed <= described)
+                std::cout << describe(k, plane) << ":\n  " << testing::PrintToString(findings) << "\n";
             worst = std::min(worst, result.report.quality_after.minimum);
         } catch (const QualityError& e) {
             ++refused;
@@ -168,8 +180,9 @@ TEST_P(PlaneProperties, DeformIsValidOrSaysNo) {
     }
     EXPECT_EQ(failed, 0) << "see the output";
     EXPECT_TRUE(identical(model_.mesh, before)) << "the input was changed";
-    std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam().name << ", deform: succeeds on " << valid << " of " << planes - missed
-              << " planes that cut the mesh (" << 100.0 * valid / std::max(1, planes - missed) << " %), minimum mean ratio there " << worst
+    std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam().name << ", deform: succeeds on " << valid
+              << " of " << planes - missed << " planes that cut the mesh ("
+              << 100.0 * valid / std::max(1, planes - missed) << " %), minimum mean ratio there " << worst
               << "; refuses " << refused << "\n";
 }
 
@@ -179,20 +192,25 @@ TEST_P(PlaneProperties, SnapOnSpecialPlanes) {
     Random random(99);
     int valid = 0, failed = 0, missed = 0;
     const Mesh& mesh = model_.mesh;
-    const auto node = [&] { return static_cast<std::size_t>(random.uniform(0, static_cast<double>(mesh.points.size()))); };
+    const auto node = [&] {
+        return static_cast<std::size_t>(random.uniform(0, static_cast<double>(mesh.points.size())));
+    };
     for (int k = 0; k < planes / 5; ++k) {
         CutPlane plane = random_plane(random);
         const int kind = k % 4;
         if (kind == 0) plane.normal = Vec3::Unit(static_cast<int>(random.uniform(0, 3)));
         if (kind >= 1) plane.origin = mesh.points[node()];
         if (kind == 2) plane.normal = plane.normal.cross(mesh.points[node()] - plane.origin).normalized();
-        if (kind == 3) plane.normal = (mesh.points[node()] - plane.origin).cross(mesh.points[node()] - plane.origin).normalized();
+        if (kind == 3)
+            plane.normal = (mesh.points[node()] - plane.origin).cross(mesh.points[node()] - plane.origin).normalized();
         if (!plane.normal.allFinite() || plane.normal.norm() < 0.5) continue;
         try {
             const Result result = session_.crack(Plane(plane.origin, plane.normal));
             const std::vector<std::string> findings = check_crack(model_, plane, result, "CRACK");
-            if (findings.empty()) ++valid;
-            else if (++failed <= described) std::cout << describe(k, plane) << ":\n  " << testing::PrintToString(findings) << "\n";
+            if (findings.empty())
+                ++valid;
+            else if (++failed <= described)
+                std::cout << describe(k, plane) << ":\n  " << testing::PrintToString(findings) << "\n";
         } catch (const ToolError&) {
             ++missed;
         } catch (const QualityError& e) {
@@ -202,7 +220,8 @@ TEST_P(PlaneProperties, SnapOnSpecialPlanes) {
         }
     }
     EXPECT_EQ(failed, 0) << "see the output";
-    std::cout << "[  QUALITY ] " << GetParam().name << ", special planes: " << valid << " valid, " << missed << " refused, " << failed << " fail\n";
+    std::cout << "[  QUALITY ] " << GetParam().name << ", special planes: " << valid << " valid, " << missed
+              << " refused, " << failed << " fail\n";
 }
 
 TEST_P(PlaneProperties, SessionAndSingleCallGiveTheSame) {
@@ -212,7 +231,8 @@ TEST_P(PlaneProperties, SessionAndSingleCallGiveTheSame) {
         const CutPlane plane = random_plane(random);
         if (misses(plane)) continue;
         try {
-            const Result once = crack(model_.mesh, Plane(plane.origin, plane.normal)), again = session_.crack(Plane(plane.origin, plane.normal));
+            const Result once = crack(model_.mesh, Plane(plane.origin, plane.normal)),
+                         again = session_.crack(Plane(plane.origin, plane.normal));
             EXPECT_TRUE(identical(once.mesh, again.mesh)) << describe(k, plane);
             ++compared;
         } catch (const Error&) {
@@ -234,10 +254,12 @@ std::map<Index, std::string> described_elements(const Mesh& mesh) {
             std::ostringstream text;
             text << std::hexfloat << static_cast<int>(b.type) << groups(b.families[c]);
             for (const Index n : b.nodes(c))
-                text << " | " << mesh.node_ids[n] << " " << mesh.points[n].x() << " " << mesh.points[n].y() << " " << mesh.points[n].z() << groups(mesh.node_families[n]);
+                text << " | " << mesh.node_ids[n] << " " << mesh.points[n].x() << " " << mesh.points[n].y() << " "
+                     << mesh.points[n].z() << groups(mesh.node_families[n]);
             out.emplace(b.ids[c], text.str());
         }
-    for (const Facet& f : mesh.facets) out[mesh.block(f.type).ids[f.cell]] += " face " + std::to_string(f.face) + groups(f.family);
+    for (const Facet& f : mesh.facets)
+        out[mesh.block(f.type).ids[f.cell]] += " face " + std::to_string(f.face) + groups(f.family);
     return out;
 }
 
@@ -262,8 +284,10 @@ void check_band(const Result& whole, const Result& band, const std::map<Index, s
     ASSERT_EQ(a.groups.size(), b.groups.size());
     for (std::size_t g = 0; g < a.groups.size(); ++g) {
         const GroupRecord &x = a.groups[g], &y = b.groups[g];
-        EXPECT_EQ(std::tuple(x.name, x.status, x.count_before, x.count_after, x.nodes_moved, x.boundary_drift, x.measure_before),
-                  std::tuple(y.name, y.status, y.count_before, y.count_after, y.nodes_moved, y.boundary_drift, y.measure_before))
+        EXPECT_EQ(std::tuple(x.name, x.status, x.count_before, x.count_after, x.nodes_moved, x.boundary_drift,
+                             x.measure_before),
+                  std::tuple(y.name, y.status, y.count_before, y.count_after, y.nodes_moved, y.boundary_drift,
+                             y.measure_before))
             << x.name;
         EXPECT_NEAR(x.measure_after, y.measure_after, 1e-12 * std::abs(x.measure_after)) << x.name;
     }
@@ -321,11 +345,14 @@ TEST(Crack, AlongElementFacesOnlyDoubles) {
     EXPECT_EQ(result.report.nodes_doubled, static_cast<Index>(glued.size()));
     EXPECT_EQ(result.mesh.block(CellType::tetra).size(), model.mesh.block(CellType::tetra).size());
     // The glue's faces are there once per side, in GLUE and in a lip; no further lip faces were made.
-    const auto faces = [](const Mesh& mesh, const char* name) { return group_members(mesh, *mesh.find_group(name, GroupKind::element)).ids.size(); };
+    const auto faces = [](const Mesh& mesh, const char* name) {
+        return group_members(mesh, *mesh.find_group(name, GroupKind::element)).ids.size();
+    };
     EXPECT_EQ(faces(result.mesh, "GLUE"), 2 * faces(model.mesh, "GLUE"));
     EXPECT_EQ(faces(result.mesh, "CRACK_P"), faces(model.mesh, "GLUE"));
     EXPECT_EQ(faces(result.mesh, "CRACK_N"), faces(model.mesh, "GLUE"));
-    EXPECT_EQ(result.mesh.block(CellType::triangle).size(), model.mesh.block(CellType::triangle).size() + static_cast<Index>(faces(model.mesh, "GLUE")));
+    EXPECT_EQ(result.mesh.block(CellType::triangle).size(),
+              model.mesh.block(CellType::triangle).size() + static_cast<Index>(faces(model.mesh, "GLUE")));
     EXPECT_NEAR(group_sums(result.mesh)[*model.mesh.find_group("GLUE", GroupKind::element)].measure, 200, 1e-7);
 }
 
@@ -343,7 +370,8 @@ Result crack_and_check(const Mesh& mesh, const CutPlane& plane, const CrackOptio
 
 TEST(Crack, TJunctionOfShells) {
     Mesh mesh;
-    const FamilyIndex floor = family_of(mesh, "FLOOR", GroupKind::element), web = family_of(mesh, "WEB", GroupKind::element);
+    const FamilyIndex floor = family_of(mesh, "FLOOR", GroupKind::element),
+                      web = family_of(mesh, "WEB", GroupKind::element);
     add_plate(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 8, 4, floor);
     add_plate(mesh, {0, 2, 0}, {1, 0, 0}, {0, 0, 1}, 8, 2, web);
     // Across both plates, at right angles and slanting: three lines of lips meet in the junction.
@@ -352,7 +380,8 @@ TEST(Crack, TJunctionOfShells) {
         const Result result = crack_and_check(mesh, plane);
         // The node where the junction is cut was doubled once, not once per plate.
         int at_junction = 0;
-        for (const Vec3& x : result.mesh.points) at_junction += std::abs(x.y() - 2) < 1e-9 && std::abs(x.z()) < 1e-9 && std::abs(plane.distance(x)) < 1e-8;
+        for (const Vec3& x : result.mesh.points)
+            at_junction += std::abs(x.y() - 2) < 1e-9 && std::abs(x.z()) < 1e-9 && std::abs(plane.distance(x)) < 1e-8;
         EXPECT_EQ(at_junction, 2);
     }
     // Along the junction: floor from floor, the web stays with one side.
@@ -376,7 +405,8 @@ TEST(Crack, TJunctionOfShells) {
 TEST(Crack, MassAndSpringOnADoubledNode) {
     Mesh mesh = grid(4, 2, 2);
     const Index on = number_near(mesh, {2, 1, 1}), far = mesh.add_node({4, 4, 4}, 900);
-    const FamilyIndex mass = family_of(mesh, "MASS", GroupKind::element), spring = family_of(mesh, "SPRING", GroupKind::element);
+    const FamilyIndex mass = family_of(mesh, "MASS", GroupKind::element),
+                      spring = family_of(mesh, "SPRING", GroupKind::element);
     mesh.add_cell(CellType::vertex, std::array{on}, 5001, mass);
     mesh.add_cell(CellType::line, std::array{on, far}, 5002, spring);
     const CutPlane plane{{2, 0, 0}, {1, 0, 0}};
@@ -443,7 +473,8 @@ TEST(Crack, FacetGroupIsSplitAndKept) {
         for (int k = 0; k < 4; ++k) {
             std::array<Index, 3> key{n[faces[k][0]], n[faces[k][1]], n[faces[k][2]]};
             std::ranges::sort(key);
-            if (key == f.key) mesh.facets.push_back({CellType::tetra, static_cast<std::int8_t>(k + 1), top, f.cell.cell});
+            if (key == f.key)
+                mesh.facets.push_back({CellType::tetra, static_cast<std::int8_t>(k + 1), top, f.cell.cell});
         }
     }
     ASSERT_EQ(mesh.facets.size(), 24);
@@ -452,14 +483,16 @@ TEST(Crack, FacetGroupIsSplitAndKept) {
     EXPECT_NEAR(group_sums(result.mesh)[*mesh.find_group("TOP")].measure, 12, 1e-9);
     for (const Facet& f : result.mesh.facets) {
         constexpr int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
-        for (const int k : faces[f.face - 1]) EXPECT_NEAR(result.mesh.points[result.mesh.block(f.type).nodes(f.cell)[k]].z(), 2, 1e-12);
+        for (const int k : faces[f.face - 1])
+            EXPECT_NEAR(result.mesh.points[result.mesh.block(f.type).nodes(f.cell)[k]].z(), 2, 1e-12);
     }
 }
 
 TEST(Crack, FacetsOfShellsAreSplitAndKept) {
     Mesh mesh;
     add_plate(mesh, {0, 0, 0}, {1, 0, 0}, {0, 0.5, 0}, 8, 4);
-    const FamilyIndex pressed = family_of(mesh, "PRESSED", GroupKind::facet), edge = family_of(mesh, "EDGE", GroupKind::facet);
+    const FamilyIndex pressed = family_of(mesh, "PRESSED", GroupKind::facet),
+                      edge = family_of(mesh, "EDGE", GroupKind::facet);
     const CellBlock& b = mesh.block(CellType::triangle);
     for (Index c = 0; c < b.size(); ++c) {
         mesh.facets.push_back({CellType::triangle, 2, pressed, c});
@@ -498,7 +531,8 @@ TEST(Crack, ShellStandingOnASolid) {
 
 TEST(Crack, NodeGroupsFollowTheirBothEnds) {
     Mesh mesh = grid(6, 2, 2);
-    const GroupIndex bottom = mesh.add_group("BOTTOM", GroupKind::node), lonely = mesh.add_group("GAUGE", GroupKind::node);
+    const GroupIndex bottom = mesh.add_group("BOTTOM", GroupKind::node),
+                     lonely = mesh.add_group("GAUGE", GroupKind::node);
     for (std::size_t n = 0; n < mesh.points.size(); ++n)
         if (mesh.points[n].z() == 0) mesh.node_families[n] = mesh.families.with(0, bottom);
     const Index gauge = number_near(mesh, {3, 1, 1});
@@ -506,7 +540,8 @@ TEST(Crack, NodeGroupsFollowTheirBothEnds) {
     const Result result = crack_and_check(mesh, slanting);
     // Exactly the nodes of the bottom, new ones and doubles included.
     for (std::size_t n = 0; n < result.mesh.points.size(); ++n)
-        EXPECT_EQ(result.mesh.families.contains(result.mesh.node_families[n], bottom), std::abs(result.mesh.points[n].z()) < 1e-9)
+        EXPECT_EQ(result.mesh.families.contains(result.mesh.node_families[n], bottom),
+                  std::abs(result.mesh.points[n].z()) < 1e-9)
             << "node " << result.mesh.node_ids[n];
     EXPECT_THAT(members(result.mesh, "GAUGE", GroupKind::node), testing::ElementsAre(mesh.node_ids[gauge]));
     EXPECT_EQ(result.mesh.points[gauge], Vec3(3, 1, 1)) << "an isolated node of a group does not move";
@@ -514,7 +549,8 @@ TEST(Crack, NodeGroupsFollowTheirBothEnds) {
 
 /// Every error: of type E, says `text`, leaves the input as it was, by single call and by session.
 template <class E>
-void expect_error(const Mesh& mesh, const std::function<std::unique_ptr<Plane>()>& plane, const CrackOptions& options, const std::string& text) {
+void expect_error(const Mesh& mesh, const std::function<std::unique_ptr<Plane>()>& plane, const CrackOptions& options,
+                  const std::string& text) {
     const Mesh before = mesh;
     const auto attempt = [&](auto call) {
         try {
@@ -551,9 +587,9 @@ TEST(CrackErrors, PlaneThatCutsNothing) {
     const Mesh mesh = grid(6, 2, 2);
     expect_error<ToolError>(mesh, through({8, 1, 1}, {1, 0, 0}), {}, "misses");
     expect_error<ToolError>(mesh, through({-1e-3, 1, 1}, {1, 0, 0}), {}, "misses");
-    expect_error<ToolError>(mesh, through({6, 1, 1}, {1, 0, 0}), {}, "only");      // a whole face
-    expect_error<ToolError>(mesh, through({6, 2, 1}, {1, 1, 0}), {}, "only");      // an edge
-    expect_error<ToolError>(mesh, through({6, 2, 2}, {1, 1, 1}), {}, "only");      // a corner
+    expect_error<ToolError>(mesh, through({6, 1, 1}, {1, 0, 0}), {}, "only");  // a whole face
+    expect_error<ToolError>(mesh, through({6, 2, 1}, {1, 1, 0}), {}, "only");  // an edge
+    expect_error<ToolError>(mesh, through({6, 2, 2}, {1, 1, 1}), {}, "only");  // a corner
 }
 
 TEST(CrackErrors, Names) {
@@ -625,7 +661,8 @@ TEST(CrackErrors, BandThatReachesAHexahedron) {
     Mesh mesh = grid(8, 1, 1);
     const auto add_hexahedron = [](Mesh& to, double x) {
         std::array<Index, 8> n;
-        constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+        constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                      {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
         for (int k = 0; k < 8; ++k) {
             const Vec3 at(x + corner[k][0], corner[k][1], corner[k][2]);
             n[k] = corner[k][0] == 0 ? number_near(to, at) : to.add_node(at, to.largest_node_id() + 1);
@@ -641,7 +678,8 @@ TEST(CrackErrors, BandThatReachesAHexahedron) {
     const Result result = crack(mesh, Plane({2.4, 0, 0}, {1, 0.1, 0}));
     EXPECT_EQ(result.mesh.block(CellType::hexahedron).ids, mesh.block(CellType::hexahedron).ids);
     EXPECT_EQ(result.mesh.block(CellType::hexahedron).connectivity, mesh.block(CellType::hexahedron).connectivity);
-    for (const Index n : mesh.block(CellType::hexahedron).connectivity) EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
+    for (const Index n : mesh.block(CellType::hexahedron).connectivity)
+        EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
 }
 
 TEST(CrackErrors, EmptyMesh) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Whether second-order elements stay sound when a node moves: the quick answer is the one that looking at every element gives.
+// Whether second-order elements stay sound when a node moves: the quick answer is the one that looking at every element
+// gives.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -37,7 +38,8 @@ TEST(CurvedShape, QuickAnswersAreThoseOfEveryElement) {
             d.band.nodes[v].at = x;
             const double after = worst_around(d, v);
             d.band.nodes[v].at = home;
-            EXPECT_EQ(quick, after >= curved_limit || (before < curved_limit && after >= before)) << "node " << v << ": " << before << " -> " << after;
+            EXPECT_EQ(quick, after >= curved_limit || (before < curved_limit && after >= before))
+                << "node " << v << ": " << before << " -> " << after;
             ++(quick ? sound : spoiled);
         }
     }

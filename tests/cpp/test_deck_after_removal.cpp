@@ -40,22 +40,33 @@ protected:
 TEST_F(DeckAfterRemoval, LinesThatNameRemovedNodesGoAndAreReported) {
     const Index gone = node_at(2, 1, 1), stays = node_at(4, 0, 0);
     const auto line = [&](Index node, const char* rest) { return text(node) + rest; };
-    const std::string bad[] = {line(gone, ", 1, 3"), line(gone, ", 300."), line(gone, ", 1, 7."), line(gone, ", 20."), "SUBMODELLED, " + text(gone),
-                               line(gone, ", 1, 1., 1, 1, -1."), "PLANE, " + text(node_at(2, 0, 0)) + ", " + text(node_at(0, 0, 0)) + ", " + text(node_at(4, 0, 0)) + ", " + text(node_at(0, 1, 0))};
-    const std::string good[] = {line(stays, ", 1, 3"), line(stays, ", 400."), line(stays, ", 1, 8."), line(stays, ", 30."), line(stays, ", 1, 1., 1, 1, -1.")};
-    const Mesh mesh = block_with(
-        "*BOUNDARY\n" + bad[0] + "\n" + good[0] + "\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n" + bad[3] + "\n" + good[3] + "\n*EQUATION\n2\n" + bad[5] + "\n2\n" + good[4] +
-        "\n*MPC\n" + bad[6] + "\n*STEP\n*STATIC\n*CLOAD\n" + bad[2] + "\n" + good[2] + "\n*TEMPERATURE\n" + bad[1] + "\n" + good[1] + "\n*END STEP\n");
+    const std::string bad[] = {line(gone, ", 1, 3"),
+                               line(gone, ", 300."),
+                               line(gone, ", 1, 7."),
+                               line(gone, ", 20."),
+                               "SUBMODELLED, " + text(gone),
+                               line(gone, ", 1, 1., 1, 1, -1."),
+                               "PLANE, " + text(node_at(2, 0, 0)) + ", " + text(node_at(0, 0, 0)) + ", " +
+                                   text(node_at(4, 0, 0)) + ", " + text(node_at(0, 1, 0))};
+    const std::string good[] = {line(stays, ", 1, 3"), line(stays, ", 400."), line(stays, ", 1, 8."),
+                                line(stays, ", 30."), line(stays, ", 1, 1., 1, 1, -1.")};
+    const Mesh mesh = block_with("*BOUNDARY\n" + bad[0] + "\n" + good[0] + "\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n" +
+                                 bad[3] + "\n" + good[3] + "\n*EQUATION\n2\n" + bad[5] + "\n2\n" + good[4] +
+                                 "\n*MPC\n" + bad[6] + "\n*STEP\n*STATIC\n*CLOAD\n" + bad[2] + "\n" + good[2] +
+                                 "\n*TEMPERATURE\n" + bad[1] + "\n" + good[1] + "\n*END STEP\n");
     const Mesh after = slotted(mesh);
-    for (const int k : {0, 1, 2, 3, 5, 6}) EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(bad[k])), HasSubstr("was removed")))) << bad[k];
+    for (const int k : {0, 1, 2, 3, 5, 6})
+        EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(bad[k])), HasSubstr("was removed")))) << bad[k];
     EXPECT_THAT(rows(after, "BOUNDARY"), ElementsAre(ElementsAre(text(stays), "1", "3")));
     EXPECT_THAT(rows(after, "CLOAD"), ElementsAre(ElementsAre(text(stays), "1", "8.")));
     EXPECT_THAT(rows(after, "TEMPERATURE"), ElementsAre(ElementsAre(text(stays), "400.")));
     EXPECT_THAT(rows(after, "INITIALCONDITIONS"), ElementsAre(ElementsAre(text(stays), "30.")));
     // The whole equation goes, its number of terms too; the other stays.
-    EXPECT_THAT(rows(after, "EQUATION"), ElementsAre(ElementsAre("2"), ElementsAre(text(stays), "1", "1.", "1", "1", "-1.")));
+    EXPECT_THAT(rows(after, "EQUATION"),
+                ElementsAre(ElementsAre("2"), ElementsAre(text(stays), "1", "1.", "1", "1", "-1.")));
     // A list of nodes in a plane is one node shorter.
-    EXPECT_THAT(rows(after, "MPC"), ElementsAre(ElementsAre("PLANE", text(node_at(0, 0, 0)), text(node_at(4, 0, 0)), text(node_at(0, 1, 0)))));
+    EXPECT_THAT(rows(after, "MPC"), ElementsAre(ElementsAre("PLANE", text(node_at(0, 0, 0)), text(node_at(4, 0, 0)),
+                                                            text(node_at(0, 1, 0)))));
     try {
         slot(mesh, true);
         FAIL() << "strict accepts a deck that cannot follow";
@@ -74,19 +85,25 @@ TEST_F(DeckAfterRemoval, LinesThatNameRemovedElementsGoAndAreReported) {
         inner += text(element(1, o)) + ", " + text(element(2, o)) + "\n";
         mixed += text(element(2, o)) + ", " + text(element(3, o)) + "\n";
     }
-    const std::string stress = ", 1, 1., 2., 3., 0., 0., 0.", bad[] = {text(gone) + stress, text(gone) + ", P1, 3.", text(gone) + ", BX, 4.", text(gone), "INNER, GRAV, 9.81, 0., 0., -1."};
+    const std::string stress = ", 1, 1., 2., 3., 0., 0., 0.",
+                      bad[] = {text(gone) + stress, text(gone) + ", P1, 3.", text(gone) + ", BX, 4.", text(gone),
+                               "INNER, GRAV, 9.81, 0., 0., -1."};
     const std::string good[] = {text(stays) + stress, text(stays) + ", P1, 3.", text(stays) + ", BX, 4."};
     const std::string section = "*SOLID SECTION, ELSET=INNER, MATERIAL=M";
-    const Mesh mesh = block_with(inner + mixed + "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n" + section + "\n*INITIAL CONDITIONS, TYPE=STRESS\n" + bad[0] + "\n" + good[0] +
-                                 "\n*STEP\n*STATIC\n*DLOAD\n" + bad[1] + "\n" + good[1] + "\n" + bad[2] + "\n" + good[2] + "\n" + bad[4] + "\nMIXED, GRAV, 9.81, 0., 0., -1.\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n" +
-                                 bad[3] + "\n*END STEP\n");
+    const Mesh mesh = block_with(
+        inner + mixed + "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n" + section + "\n*INITIAL CONDITIONS, TYPE=STRESS\n" +
+        bad[0] + "\n" + good[0] + "\n*STEP\n*STATIC\n*DLOAD\n" + bad[1] + "\n" + good[1] + "\n" + bad[2] + "\n" +
+        good[2] + "\n" + bad[4] + "\nMIXED, GRAV, 9.81, 0., 0., -1.\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n" + bad[3] +
+        "\n*END STEP\n");
     const Mesh after = written(slot(mesh, false, width));
-    for (const std::string& line : {bad[0], bad[1], bad[2], bad[3], bad[4], section}) EXPECT_THAT(warnings_, Contains(HasSubstr(at_line(line)))) << line;
+    for (const std::string& line : {bad[0], bad[1], bad[2], bad[3], bad[4], section})
+        EXPECT_THAT(warnings_, Contains(HasSubstr(at_line(line)))) << line;
     EXPECT_THAT(element_set(after, "INNER"), IsEmpty());
     // The set keeps what is left of its elements: the cube from x = 3 to 4, cut at 3.1.
     double volume = 0;
     const NumberIndex numbers(after);
-    for (const Index e : element_set(after, "MIXED")) volume += cell_measure(after, CellType::tetra, numbers.cell(e)->cell);
+    for (const Index e : element_set(after, "MIXED"))
+        volume += cell_measure(after, CellType::tetra, numbers.cell(e)->cell);
     EXPECT_NEAR(volume, 0.9, 1e-9);
     for (const char* keyword : {"DLOAD", "INITIALCONDITIONS", "MODELCHANGE"})
         for (const Row& r : rows(after, keyword))
@@ -99,19 +116,23 @@ TEST_F(DeckAfterRemoval, LinesThatNameRemovedElementsGoAndAreReported) {
 
 TEST_F(DeckAfterRemoval, SetsAndSurfacesLoseWhatIsRemoved) {
     const auto on_top = [](const Vec3& p) { return std::abs(p.z() - nz) < 1e-12; };
-    std::string top = "*SURFACE, NAME=TOP, TYPE=ELEMENT\n", bottom = "*NSET, NSET=BOTTOM\n", middle = "*NSET, NSET=MIDDLE\n";
+    std::string top = "*SURFACE, NAME=TOP, TYPE=ELEMENT\n", bottom = "*NSET, NSET=BOTTOM\n",
+                middle = "*NSET, NSET=MIDDLE\n";
     for (const auto& [e, f] : top_faces()) top += text(e) + ", S" + text(f) + "\n";
     for (int j = 0; j <= ny; ++j) {
         for (int i = 0; i <= nx; ++i) bottom += text(node_at(i, j, 0)) + ",\n";
         for (int k = 0; k <= nz; ++k) middle += text(node_at(2, j, k)) + ",\n";
     }
     const std::string naming = "MIDDLE, 1, 1", printing = "*NODE PRINT, NSET=MIDDLE", tie = "MIDDLE_S, TOP";
-    const Mesh mesh = block_with(top + bottom + middle + "*SURFACE, NAME=MIDDLE_S, TYPE=NODE\nMIDDLE\n*TIE, NAME=T1\n" + tie + "\n*TRANSFORM, NSET=BOTTOM\n1, 0, 0, 0, 1, 0\n*BOUNDARY\nBOTTOM, 3, 3\n" + naming +
-                                 "\n*STEP\n*STATIC\n*DSLOAD\nTOP, P, 2.\n" + printing + "\nU\n*NODE PRINT, NSET=BOTTOM\nU\n*END STEP\n");
+    const Mesh mesh = block_with(top + bottom + middle + "*SURFACE, NAME=MIDDLE_S, TYPE=NODE\nMIDDLE\n*TIE, NAME=T1\n" +
+                                 tie + "\n*TRANSFORM, NSET=BOTTOM\n1, 0, 0, 0, 1, 0\n*BOUNDARY\nBOTTOM, 3, 3\n" +
+                                 naming + "\n*STEP\n*STATIC\n*DSLOAD\nTOP, P, 2.\n" + printing +
+                                 "\nU\n*NODE PRINT, NSET=BOTTOM\nU\n*END STEP\n");
     const Mesh after = slotted(mesh);
     EXPECT_NEAR(surface_area(after, "TOP", on_top), (nx - (high - low)) * ny, 1e-9);
     const auto found = node_set(after, "BOTTOM");
-    EXPECT_EQ(std::set<Index>(found.begin(), found.end()), nodes_where(after, [](const Vec3& p) { return p.z() == 0; }));
+    EXPECT_EQ(std::set<Index>(found.begin(), found.end()),
+              nodes_where(after, [](const Vec3& p) { return p.z() == 0; }));
     EXPECT_THAT(node_set(after, "MIDDLE"), IsEmpty());
     EXPECT_TRUE(after.find_group("MIDDLE", GroupKind::node)) << "an emptied set stays defined";
     // Who names the emptied sets is told, by line; who names what is left, not.
@@ -119,15 +140,18 @@ TEST_F(DeckAfterRemoval, SetsAndSurfacesLoseWhatIsRemoved) {
         EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("lost all its members")))) << line;
     EXPECT_THAT(warnings_, Not(Contains(AllOf(HasSubstr("deck.inp"), Not(HasSubstr("MIDDLE"))))));
     EXPECT_THAT(warnings_, Contains(HasSubstr("group 'MIDDLE' loses all its 9 member(s)")));
-    for (const char* keyword : {"TIE", "TRANSFORM", "BOUNDARY", "DSLOAD", "NODEPRINT"}) EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
+    for (const char* keyword : {"TIE", "TRANSFORM", "BOUNDARY", "DSLOAD", "NODEPRINT"})
+        EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
     EXPECT_THROW(slot(mesh, true), Error);
 }
 
 TEST_F(DeckAfterRemoval, NothingRemovedIsNamedNothingIsSaid) {
-    const Mesh mesh = block_with("*BOUNDARY\n" + text(node_at(0, 0, 0)) + ", 1, 3\n*STEP\n*STATIC\n*CLOAD\n" + text(node_at(4, 0, 0)) + ", 1, 1.\n*END STEP\n");
+    const Mesh mesh = block_with("*BOUNDARY\n" + text(node_at(0, 0, 0)) + ", 1, 3\n*STEP\n*STATIC\n*CLOAD\n" +
+                                 text(node_at(4, 0, 0)) + ", 1, 1.\n*END STEP\n");
     const Mesh after = written(slot(mesh, true));  // strict
     EXPECT_THAT(warnings_, Not(Contains(HasSubstr("deck.inp"))));
-    for (const char* keyword : {"BOUNDARY", "CLOAD"}) EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
+    for (const char* keyword : {"BOUNDARY", "CLOAD"})
+        EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
 }
 
 TEST_F(DeckAfterRemoval, LoadedAreaIsThatOfWhatIsLeft) {
@@ -154,11 +178,14 @@ TEST_F(DeckAfterRemoval, LoadedAreaIsThatOfWhatIsLeft) {
 }
 
 TEST_F(DeckAfterRemoval, ElementsOutsideTheMeshKeepTheirNodesOrItIsAnError) {
-    const std::string user = "*USER ELEMENT, TYPE=US3, NODES=2, INTEGRATION POINTS=1, MAXDOF=3\n*ELEMENT, TYPE=US3, ELSET=U\n500, ";
+    const std::string user =
+        "*USER ELEMENT, TYPE=US3, NODES=2, INTEGRATION POINTS=1, MAXDOF=3\n*ELEMENT, TYPE=US3, ELSET=U\n500, ";
     const Mesh far = block_with(user + text(node_at(4, 1, 2)) + ", 1\n");
     slotted(far);
     const Mesh held = block_with(user + text(node_at(2, 1, 2)) + ", 1\n");
-    EXPECT_THAT([&] { slot(held); }, testing::ThrowsMessage<Error>(AllOf(HasSubstr("deck.inp:"), HasSubstr("element 500 of type US3 needs node " + text(node_at(2, 1, 2))))));
+    EXPECT_THAT([&] { slot(held); }, testing::ThrowsMessage<Error>(AllOf(
+                                         HasSubstr("deck.inp:"),
+                                         HasSubstr("element 500 of type US3 needs node " + text(node_at(2, 1, 2))))));
 }
 
 TEST_F(DeckAfterRemoval, HolesDoAsSlots) {

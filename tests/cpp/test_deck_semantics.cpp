@@ -44,7 +44,8 @@ TEST_F(DeckSemantics, SupportsByNumberReachCopiesAndNodesBornBetweenThem) {
         const Mesh after = crack_at(mesh, x, "CRACK", Vec3(1, .2, .1));
         std::map<Index, std::set<int>> held;
         for (const Row& r : rows(after, "BOUNDARY"))
-            for (int dof = std::stoi(r[1]); dof <= std::stoi(r[2]); ++dof) EXPECT_TRUE(held[std::stoll(r[0])].insert(dof).second);
+            for (int dof = std::stoi(r[1]); dof <= std::stoi(r[2]); ++dof)
+                EXPECT_TRUE(held[std::stoll(r[0])].insert(dof).second);
         const auto wanted = nodes_where(after, [](const Vec3& p) { return p.z() == 0; });
         EXPECT_GT(wanted.size(), 15u);
         EXPECT_EQ(held.size(), wanted.size());
@@ -56,7 +57,8 @@ TEST_F(DeckSemantics, SupportsThatASetAndNumbersShareReachNodesBetweenThem) {
     // The set ends at x = 1, numbers go on: an edge between them is held at both ends.
     std::string cards = "*NSET, NSET=LEFT\n", numbers;
     for (int j = 0; j <= ny; ++j)
-        for (int i = 0; i <= nx; ++i) (i <= 1 ? cards : numbers) += std::to_string(node_at(i, j, 0)) + (i <= 1 ? "\n" : ", 3, 3\n");
+        for (int i = 0; i <= nx; ++i)
+            (i <= 1 ? cards : numbers) += std::to_string(node_at(i, j, 0)) + (i <= 1 ? "\n" : ", 3, 3\n");
     const Mesh after = crack_at(block_with(cards + "*BOUNDARY\nLEFT, 3, 3\n*BOUNDARY\n" + numbers), 1.5);
     std::set<Index> held;
     for (const Row& r : rows(after, "BOUNDARY"))
@@ -68,7 +70,8 @@ TEST_F(DeckSemantics, PrescribedDisplacementsAreInterpolated) {
     // A rigid rotation about y: u_z = 0.1 x on the bottom, by number, with a value of its own per node.
     std::string cards = "*STEP\n*STATIC\n*BOUNDARY\n";
     for (int j = 0; j <= ny; ++j)
-        for (int i = 0; i <= nx; ++i) cards += std::to_string(node_at(i, j, 0)) + ", 3, 3, " + std::to_string(0.1 * i) + "\n";
+        for (int i = 0; i <= nx; ++i)
+            cards += std::to_string(node_at(i, j, 0)) + ", 3, 3, " + std::to_string(0.1 * i) + "\n";
     const Mesh after = crack_at(block_with(cards + "*END STEP\n"), 1.6);
     std::map<Index, double> value;
     for (const Row& r : rows(after, "BOUNDARY")) value[std::stoll(r[0])] = r.size() > 3 ? std::stod(r[3]) : 0;
@@ -80,7 +83,8 @@ TEST_F(DeckSemantics, NodeFieldsAreInterpolatedWhereNodesAreNow) {
     std::string cards = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 20.\n*STEP\n*STATIC\n*TEMPERATURE\n";
     for (int k = 0; k <= nz; ++k)
         for (int j = 0; j <= ny; ++j)
-            for (int i = 0; i <= nx; ++i) cards += std::to_string(node_at(i, j, k)) + ", " + std::to_string(i + 10 * j + 100 * k) + "\n";
+            for (int i = 0; i <= nx; ++i)
+                cards += std::to_string(node_at(i, j, k)) + ", " + std::to_string(i + 10 * j + 100 * k) + "\n";
     const Mesh mesh = block_with(cards + "*END STEP\n");
     const Mesh after = crack_at(mesh, 1.7, "CRACK", Vec3(1, .3, -.2));
     std::map<Index, double> t;
@@ -97,7 +101,8 @@ TEST_F(DeckSemantics, ConcentratedLoadOnADoubledNodeStaysWholeAndIsReported) {
     const Mesh mesh = block_with("*STEP\n*STATIC\n*CLOAD\n" + line + "\n*END STEP\n");
     const Mesh after = crack_at(mesh, 2);
     EXPECT_THAT(rows(after, "CLOAD"), ElementsAre(ElementsAre(std::to_string(node_at(2, 2, 2)), "2", "-7.5")));
-    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("*CLOAD names node 43"), HasSubstr("negative side"))));
+    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("*CLOAD names node 43"),
+                                          HasSubstr("negative side"))));
     // It is known what happens to it: strict accepts that.
     crack_at(mesh, 2, "CRACK", Vec3(1, 0, 0), true);
     // The original is on the negative side.
@@ -184,7 +189,8 @@ TEST_F(DeckSemantics, FaceLoadsReachAllPiecesAndKeepTheirArea) {
         flux += std::to_string(e) + ", S" + face + ", 1.\n";
         film += std::to_string(e) + ", F" + face + ", 20., " + (x < 2 ? "3." : "4.") + "\n";
     }
-    const Mesh mesh = block_with("*STEP\n*STATIC\n*DLOAD\n" + pressure + "*DFLUX\n" + flux + "*FILM\n" + film + "*END STEP\n");
+    const Mesh mesh =
+        block_with("*STEP\n*STATIC\n*DLOAD\n" + pressure + "*DFLUX\n" + flux + "*FILM\n" + film + "*END STEP\n");
     const auto area = loaded_area(mesh, "DLOAD");
     EXPECT_NEAR(area.at("5."), 3, 1e-12);
     for (const double x : {1.5, 2.0, 2.35})
@@ -194,7 +200,8 @@ TEST_F(DeckSemantics, FaceLoadsReachAllPiecesAndKeepTheirArea) {
             for (const char* keyword : {"DLOAD", "DFLUX", "FILM"}) {
                 const auto before_area = loaded_area(mesh, keyword), after_area = loaded_area(after, keyword);
                 ASSERT_EQ(before_area.size(), after_area.size());
-                for (const auto& [value, a] : before_area) EXPECT_NEAR(after_area.at(value), a, 1e-12) << keyword << value;
+                for (const auto& [value, a] : before_area)
+                    EXPECT_NEAR(after_area.at(value), a, 1e-12) << keyword << value;
             }
             EXPECT_THAT(warnings_, Not(Contains(HasSubstr("deck.inp"))));
         }
@@ -208,7 +215,8 @@ TEST_F(DeckSemantics, FaceLoadsBySetAndLabelReachAllPieces) {
         define += "*ELSET, ELSET=TOP_S" + std::to_string(f) + "\n" + members;
         load += "TOP_S" + std::to_string(f) + ", P" + std::to_string(f) + ", 5.\n";
     }
-    const Mesh mesh = block_with(define + "*STEP\n*STATIC\n*DLOAD\n" + load + "EALL, GRAV, 9.81, 0., 0., -1.\n*END STEP\n");
+    const Mesh mesh =
+        block_with(define + "*STEP\n*STATIC\n*DLOAD\n" + load + "EALL, GRAV, 9.81, 0., 0., -1.\n*END STEP\n");
     const Mesh after = crack_at(mesh, 1.5, "CRACK", Vec3(1, .3, .4));
     const auto is_pressure = [](const Row& r) { return r[1].starts_with("P"); };
     Mesh pressure_only = after;
@@ -217,8 +225,10 @@ TEST_F(DeckSemantics, FaceLoadsBySetAndLabelReachAllPieces) {
         if (card.keyword == "DLOAD") {
             std::string text = "*DLOAD\n";
             for (const Row& r : rows(after, "DLOAD"))
-                if (is_pressure(r)) text += r[0] + "," + r[1] + "," + r[2] + "\n";
-                else EXPECT_THAT(r, ElementsAre("EALL", "GRAV", "9.81", "0.", "0.", "-1."));
+                if (is_pressure(r))
+                    text += r[0] + "," + r[1] + "," + r[2] + "\n";
+                else
+                    EXPECT_THAT(r, ElementsAre("EALL", "GRAV", "9.81", "0.", "0.", "-1."));
             card.set_text(text);
         }
     pressure_only.solver_input = deck;
@@ -301,7 +311,8 @@ TEST_F(DeckSemantics, EquationsStayWithTheOriginalsAndTheirNodesDoNotMove) {
     EXPECT_THAT(warnings_, Not(Contains(HasSubstr("EQUATION"))));
     const Mesh after = crack_at(mesh, 2);
     EXPECT_THAT(rows(after, "EQUATION"), ElementsAre(ElementsAre("2"), ElementsAre(a, "1", "1.", b, "1", "-1.")));
-    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line) + "*EQUATION names node " + a), HasSubstr("negative side"))));
+    EXPECT_THAT(warnings_,
+                Contains(AllOf(HasSubstr(at_line(line) + "*EQUATION names node " + a), HasSubstr("negative side"))));
     try {
         crack_at(mesh, 2, "CRACK", Vec3(1, 0, 0), true);
         FAIL() << "strict accepted a doubled term";
@@ -318,8 +329,9 @@ TEST_F(DeckSemantics, SetsInEquationsKeepTheirSize) {
     }
     const Mesh mesh = block_with(cards + other + "*EQUATION\n3\nA, 1, 1., B, 1, -1.,\n13, 1, .5\n*CLOAD\nA, 1, 1.\n");
     const Mesh after = crack_at(mesh, 1.5, "CRACK", Vec3(1, 0, 0));
-    EXPECT_THAT(rows(after, "EQUATION"), ElementsAre(ElementsAre("3"), ElementsAre("A_LOAD1", "1", "1.", "B_LOAD1", "1", "-1."),
-                                                     ElementsAre("13", "1", ".5")));
+    EXPECT_THAT(rows(after, "EQUATION"),
+                ElementsAre(ElementsAre("3"), ElementsAre("A_LOAD1", "1", "1.", "B_LOAD1", "1", "-1."),
+                            ElementsAre("13", "1", ".5")));
     EXPECT_THAT(rows(after, "CLOAD"), ElementsAre(ElementsAre("A_LOAD1", "1", "1.")));
     EXPECT_EQ(node_set(after, "A_LOAD1").size(), 5u);
     for (int i = 0; i <= nx; ++i) EXPECT_EQ(place(after, node_at(i, 0, 2)), Vec3(i, 0, 2));
@@ -339,18 +351,22 @@ TEST_F(DeckSemantics, PlanesOfMpcsTakeInNewNodesOthersAreReported) {
             for (std::size_t k = 1; k < r.size(); ++k) on_plane.insert(std::stoll(r[k]));
     EXPECT_EQ(on_plane, nodes_where(after, [](const Vec3& p) { return p.z() == 2; }));
     EXPECT_EQ(rows(after, "MPC").back()[0], "MEANROT");
-    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("node 33 and 2 more"), HasSubstr("MEANROT"))));
+    EXPECT_THAT(warnings_,
+                Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("node 33 and 2 more"), HasSubstr("MEANROT"))));
 }
 
 TEST_F(DeckSemantics, ReferencesToDoubledNodesAreReported) {
     const std::string node = std::to_string(node_at(2, 1, 2));
-    const std::string rigid = "*RIGID BODY, NSET=END, REF NODE=" + node, coupling = "*COUPLING, CONSTRAINT NAME=C, SURFACE=S, REF NODE=" + node;
+    const std::string rigid = "*RIGID BODY, NSET=END, REF NODE=" + node,
+                      coupling = "*COUPLING, CONSTRAINT NAME=C, SURFACE=S, REF NODE=" + node;
     const std::string film = "1, F1FC, " + node + ", 3.", weights = node + ", .5", kept = node + ", 1, 3";
-    const Mesh mesh = block_with("*NSET, NSET=END\n1\n" + rigid + "\n" + coupling + "\n*KINEMATIC\n1, 3\n*DISTRIBUTING COUPLING, ELSET=EALL\n" + weights +
+    const Mesh mesh = block_with("*NSET, NSET=END\n1\n" + rigid + "\n" + coupling +
+                                 "\n*KINEMATIC\n1, 3\n*DISTRIBUTING COUPLING, ELSET=EALL\n" + weights +
                                  "\n*STEP\n*STATIC\n*FILM\n" + film + "\n*RETAINED NODAL DOFS\n" + kept +
                                  "\n*RESTART, READ\n*VIEWFACTOR, READ\n*END STEP\n*NOTACARD\n*NOTACARD\n");
     crack_at(mesh, 2);
-    for (const std::string& line : {rigid, coupling, film, weights, kept, std::string("*RESTART, READ"), std::string("*VIEWFACTOR, READ")})
+    for (const std::string& line :
+         {rigid, coupling, film, weights, kept, std::string("*RESTART, READ"), std::string("*VIEWFACTOR, READ")})
         EXPECT_THAT(warnings_, Contains(HasSubstr(at_line(line)))) << line;
     EXPECT_EQ(std::ranges::count_if(warnings_, [](const std::string& w) { return w.find("NOTACARD") != w.npos; }), 1);
 }
@@ -367,7 +383,9 @@ TEST_F(DeckSemantics, SubmodelNodesIncludeNewOnes) {
 
 TEST_F(DeckSemantics, OtherElementsKeepTheirNodesAndAreReported) {
     const std::string node = std::to_string(node_at(2, 1, 2));
-    const Mesh mesh = block_with("*USER ELEMENT, TYPE=US3, NODES=2, INTEGRATION POINTS=1, MAXDOF=3\n*ELEMENT, TYPE=US3, ELSET=U\n500, " + node + ", 1\n");
+    const Mesh mesh = block_with(
+        "*USER ELEMENT, TYPE=US3, NODES=2, INTEGRATION POINTS=1, MAXDOF=3\n*ELEMENT, TYPE=US3, ELSET=U\n500, " + node +
+        ", 1\n");
     ASSERT_EQ(mesh.solver_input->other_elements().size(), 1u);
     crack_at(mesh, 2);
     EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr("node " + node), HasSubstr("element 500 of type US3"))));
@@ -384,7 +402,8 @@ std::string sheet(const std::string& type) {
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) {
             const int a = 1 + i + 5 * j;
-            out << e + 1 << ", " << a << ", " << a + 1 << ", " << a + 6 << "\n" << e + 2 << ", " << a << ", " << a + 6 << ", " << a + 5 << "\n";
+            out << e + 1 << ", " << a << ", " << a + 1 << ", " << a + 6 << "\n"
+                << e + 2 << ", " << a << ", " << a + 6 << ", " << a + 5 << "\n";
             e += 2;
         }
     return out.str();
@@ -397,7 +416,8 @@ TEST_F(DeckSemantics, ShellNormalsThicknessesAndEdgeLoads) {
     for (const int e : {1, 3, 5, 7}) edges += std::to_string(e) + ", EDNOR1, 3.\n";  // y = 0
     for (int n = 1; n <= 15; ++n) thickness += std::to_string(n) + ", " + std::to_string(1 + (n - 1) % 5) + "\n";
     normals += "3, 3, 0., 0., 1.\n";
-    const Mesh mesh = read(sheet("S3") + thickness + normals + "*STEP\n*STATIC\n*DLOAD\n" + pressure + edges + "*FILM\n" + film + "*END STEP\n");
+    const Mesh mesh = read(sheet("S3") + thickness + normals + "*STEP\n*STATIC\n*DLOAD\n" + pressure + edges +
+                           "*FILM\n" + film + "*END STEP\n");
     for (const double x : {1.5, 2.0, 2.3}) {
         SCOPED_TRACE(x);
         const Mesh after = crack_at(mesh, x, "CRACK", Vec3(1, .2, 0));
@@ -458,11 +478,14 @@ TEST_F(DeckSemantics, PlaneElementsCountTheirEdgesDifferently) {
 
 TEST_F(DeckSemantics, WhatIsRemovedIsReportedAndLeavesItsCards) {
     const std::string top = std::to_string(top_faces()[0].first);
-    const std::string lines[] = {"45, 1, 1.",       "GONE, 2, 1.",     top + ", P" + std::to_string(top_faces()[0].second) + ", 5.",
-                                 top + ", BF, 1.",  "45, 1, 3",        "45, 300.",
-                                 "45, 1, 1., 1, 1, -1."};
-    const Mesh mesh = block_with("*NSET, NSET=GONE\n45, 1\n*BOUNDARY\n" + lines[4] + "\n*EQUATION\n2\n" + lines[6] + "\n*RIGID BODY, NSET=GONE, REF NODE=45\n*STEP\n*STATIC\n*CLOAD\n" +
-                                 lines[0] + "\n" + lines[1] + "\n*DLOAD\n" + lines[2] + "\n" + lines[3] + "\n*TEMPERATURE\n" + lines[5] + "\n*END STEP\n");
+    const std::string lines[] = {
+        "45, 1, 1.",           "GONE, 2, 1.", top + ", P" + std::to_string(top_faces()[0].second) + ", 5.",
+        top + ", BF, 1.",      "45, 1, 3",    "45, 300.",
+        "45, 1, 1., 1, 1, -1."};
+    const Mesh mesh =
+        block_with("*NSET, NSET=GONE\n45, 1\n*BOUNDARY\n" + lines[4] + "\n*EQUATION\n2\n" + lines[6] +
+                   "\n*RIGID BODY, NSET=GONE, REF NODE=45\n*STEP\n*STATIC\n*CLOAD\n" + lines[0] + "\n" + lines[1] +
+                   "\n*DLOAD\n" + lines[2] + "\n" + lines[3] + "\n*TEMPERATURE\n" + lines[5] + "\n*END STEP\n");
     const DeckMarks marks = mark_deck(mesh);
     ASSERT_TRUE(marks.mesh);
     // Node 45 goes, and every element that needs it, and the loaded one.
@@ -522,8 +545,10 @@ TEST_F(DeckSemantics, LinesKeepTheirPlaceAndNewOnesSayWhereTheyAreFrom) {
 
 TEST_F(DeckSemantics, CardsThatNameNothingTouchedKeepTheirText) {
     const std::string cards =
-        "*BOUNDARY\n1, 1, 3\n*TRANSFORM, NSET=NALL, TYPE=C\n0.,0.,0.,0.,0.,1.\n*ORIENTATION, NAME=OR\n1.,0.,0.,0.,1.,0.\n"
-        "*STEP\n*STATIC\n*CLOAD\n1, 2, 3.\n*DLOAD\nEALL, GRAV, 9.81, 0., 0., -1.\n*NODE PRINT, NSET=NALL\nU\n*EL PRINT, ELSET=EALL\nS\n*END STEP\n";
+        "*BOUNDARY\n1, 1, 3\n*TRANSFORM, NSET=NALL, TYPE=C\n0.,0.,0.,0.,0.,1.\n*ORIENTATION, "
+        "NAME=OR\n1.,0.,0.,0.,1.,0.\n"
+        "*STEP\n*STATIC\n*CLOAD\n1, 2, 3.\n*DLOAD\nEALL, GRAV, 9.81, 0., 0., -1.\n*NODE PRINT, NSET=NALL\nU\n*EL "
+        "PRINT, ELSET=EALL\nS\n*END STEP\n";
     const Mesh mesh = block_with(cards);
     const Result result = crack(mesh, Plane(Vec3(2.5, 1, 1), Vec3(1, 0, 0)));
     std::string text;
@@ -537,7 +562,8 @@ TEST_F(DeckSemantics, CardsThatNameNothingTouchedKeepTheirText) {
 TEST_F(DeckSemantics, SurfacesOfTiesContactAndLoadsFollow) {
     const auto on_top = [](const Vec3& p) { return p.z() == nz; };
     const auto on_end = [](const Vec3& p) { return p.x() == nx; };
-    std::string top = "*SURFACE, NAME=TOP, TYPE=ELEMENT\n", end = "*SURFACE, NAME=END\n", nodes = "*SURFACE, NAME=BOTTOM, TYPE=NODE\n", set;
+    std::string top = "*SURFACE, NAME=TOP, TYPE=ELEMENT\n", end = "*SURFACE, NAME=END\n",
+                nodes = "*SURFACE, NAME=BOTTOM, TYPE=NODE\n", set;
     for (const auto& [e, f] : top_faces()) top += std::to_string(e) + ", S" + std::to_string(f) + "\n";
     const Block b = block();
     for (std::size_t e = 0; e < b.tetras.size(); ++e)
@@ -550,11 +576,15 @@ TEST_F(DeckSemantics, SurfacesOfTiesContactAndLoadsFollow) {
             set += std::to_string(node_at(i, j, 2)) + ",\n";
         }
     const std::string naming =
-        "*TIE, NAME=T1, POSITION TOLERANCE=.01\nBOTTOM, TOP\n*SURFACE INTERACTION, NAME=SI\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
-        "*CONTACT PAIR, INTERACTION=SI, TYPE=NODE TO SURFACE\nHELD, TOP\n*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE\nTOP, END\n"
+        "*TIE, NAME=T1, POSITION TOLERANCE=.01\nBOTTOM, TOP\n*SURFACE INTERACTION, NAME=SI\n*SURFACE BEHAVIOR, "
+        "PRESSURE-OVERCLOSURE=HARD\n"
+        "*CONTACT PAIR, INTERACTION=SI, TYPE=NODE TO SURFACE\nHELD, TOP\n*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE "
+        "TO SURFACE\nTOP, END\n"
         "*COUPLING, CONSTRAINT NAME=C1, SURFACE=TOP, REF NODE=900\n*KINEMATIC\n1, 3\n"
-        "*STEP\n*STATIC\n*DSLOAD\nEND, P, 2.\n*SECTION PRINT, SURFACE=END, NAME=SP\nSOF\n*FACE PRINT, SURFACE=END\nSOF\n*CONTACT PRINT\nCDIS\n*END STEP\n";
-    const Mesh mesh = block_with("*NODE\n900, 9., 9., 9.\n" + top + end + nodes + "*NSET, NSET=HELD_N\n" + set + "*SURFACE, NAME=HELD, TYPE=NODE\nHELD_N\n" + naming);
+        "*STEP\n*STATIC\n*DSLOAD\nEND, P, 2.\n*SECTION PRINT, SURFACE=END, NAME=SP\nSOF\n*FACE PRINT, "
+        "SURFACE=END\nSOF\n*CONTACT PRINT\nCDIS\n*END STEP\n";
+    const Mesh mesh = block_with("*NODE\n900, 9., 9., 9.\n" + top + end + nodes + "*NSET, NSET=HELD_N\n" + set +
+                                 "*SURFACE, NAME=HELD, TYPE=NODE\nHELD_N\n" + naming);
     ASSERT_NEAR(surface_area(mesh, "TOP", on_top), nx * ny, 1e-12);
     for (const double x : {1.5, 2.0, 2.3})
         for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(1, .3, .4), Vec3(.3, 1, .2)}) {
@@ -565,10 +595,13 @@ TEST_F(DeckSemantics, SurfacesOfTiesContactAndLoadsFollow) {
             EXPECT_NEAR(surface_area(after, "END", on_end), ny * nz, 1e-12);
             for (const auto& [name, z] : {std::pair("BOTTOM", 0), std::pair("HELD", nz), std::pair("HELD_N", nz)}) {
                 const auto found = node_set(after, name);
-                EXPECT_EQ(std::set<Index>(found.begin(), found.end()), nodes_where(after, [&](const Vec3& p) { return p.z() == z; })) << name;
+                EXPECT_EQ(std::set<Index>(found.begin(), found.end()),
+                          nodes_where(after, [&](const Vec3& p) { return p.z() == z; }))
+                    << name;
             }
             // The cards that name them say what they said.
-            for (const char* keyword : {"TIE", "CONTACTPAIR", "COUPLING", "KINEMATIC", "DSLOAD", "SECTIONPRINT", "FACEPRINT", "CONTACTPRINT"})
+            for (const char* keyword :
+                 {"TIE", "CONTACTPAIR", "COUPLING", "KINEMATIC", "DSLOAD", "SECTIONPRINT", "FACEPRINT", "CONTACTPRINT"})
                 EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
         }
 }
@@ -577,16 +610,26 @@ TEST_F(DeckSemantics, DiscreteElementsStayWholeInTheirSetsAndAreReported) {
     // Two of each at nodes that are doubled: masses, springs to ground and between nodes, dashpots, gaps.
     const auto at = [](int j, int k) { return std::to_string(node_at(2, j, k)); };
     const std::string right = std::to_string(node_at(4, 2, 0)), left = std::to_string(node_at(0, 2, 0));
-    const Mesh mesh = block_with(
-        "*ELEMENT, TYPE=MASS, ELSET=M\n901, " + at(0, 0) + "\n902, " + at(2, 2) + "\n*MASS, ELSET=M\n1.\n"
-        "*ELEMENT, TYPE=SPRING1, ELSET=G\n903, " + at(0, 1) + "\n904, " + at(1, 1) + "\n*SPRING, ELSET=G\n1\n5.\n"
-        "*ELEMENT, TYPE=SPRINGA, ELSET=S\n905, " + at(0, 2) + ", " + right + "\n906, " + left + ", " + at(1, 2) + "\n*SPRING, ELSET=S\n\n5.\n"
-        "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n907, " + right + ", " + at(2, 0) + "\n908, " + at(1, 0) + ", " + left + "\n*DASHPOT, ELSET=D\n\n5.\n"
-        "*ELEMENT, TYPE=GAPUNI, ELSET=U\n909, " + at(2, 1) + ", " + right + "\n910, " + at(0, 0) + ", " + left + "\n*GAP, ELSET=U\n0., 1., 0., 0.\n");
+    const Mesh mesh =
+        block_with("*ELEMENT, TYPE=MASS, ELSET=M\n901, " + at(0, 0) + "\n902, " + at(2, 2) +
+                   "\n*MASS, ELSET=M\n1.\n"
+                   "*ELEMENT, TYPE=SPRING1, ELSET=G\n903, " +
+                   at(0, 1) + "\n904, " + at(1, 1) +
+                   "\n*SPRING, ELSET=G\n1\n5.\n"
+                   "*ELEMENT, TYPE=SPRINGA, ELSET=S\n905, " +
+                   at(0, 2) + ", " + right + "\n906, " + left + ", " + at(1, 2) +
+                   "\n*SPRING, ELSET=S\n\n5.\n"
+                   "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n907, " +
+                   right + ", " + at(2, 0) + "\n908, " + at(1, 0) + ", " + left +
+                   "\n*DASHPOT, ELSET=D\n\n5.\n"
+                   "*ELEMENT, TYPE=GAPUNI, ELSET=U\n909, " +
+                   at(2, 1) + ", " + right + "\n910, " + at(0, 0) + ", " + left + "\n*GAP, ELSET=U\n0., 1., 0., 0.\n");
     const Mesh after = crack_at(mesh, 2, "CRACK", Vec3(1, 0, 0), true);
-    for (const auto& [name, first] : {std::pair("M", 901), std::pair("G", 903), std::pair("S", 905), std::pair("D", 907), std::pair("U", 909)})
+    for (const auto& [name, first] :
+         {std::pair("M", 901), std::pair("G", 903), std::pair("S", 905), std::pair("D", 907), std::pair("U", 909)})
         EXPECT_THAT(element_set(after, name), ElementsAre(first, first + 1)) << name;
-    for (const char* keyword : {"MASS", "SPRING", "DASHPOT", "GAP"}) EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword));
+    for (const char* keyword : {"MASS", "SPRING", "DASHPOT", "GAP"})
+        EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword));
     // On which side a node is: where the solid elements that have it lie.
     std::map<Index, double> middle;
     const CellBlock& tetras = after.block(CellType::tetra);
@@ -619,7 +662,8 @@ TEST_F(DeckSemantics, SetsOfTransformsRigidBodiesAndRequestsTakeInNewNodes) {
         }
     const std::string cards =
         "*TRANSFORM, NSET=BOTTOM, TYPE=C\n0.,0.,0.,0.,0.,1.\n*RIGID BODY, NSET=BOTTOM, REF NODE=900\n"
-        "*STEP\n*STATIC\n*BOUNDARY\nBOTTOM, 1, 3\n*NODE PRINT, NSET=BOTTOM, TOTALS=YES\nRF\n*EL PRINT, ELSET=EALL, TOTALS=ONLY\nELSE\n"
+        "*STEP\n*STATIC\n*BOUNDARY\nBOTTOM, 1, 3\n*NODE PRINT, NSET=BOTTOM, TOTALS=YES\nRF\n*EL PRINT, ELSET=EALL, "
+        "TOTALS=ONLY\nELSE\n"
         "*NODE FILE, NSET=BOTTOM\nU\n*EL FILE\nS\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS\n*END STEP\n";
     const Mesh mesh = block_with("*NODE\n900, 9., 9., 9.\n" + set + "*INITIAL CONDITIONS, TYPE=VELOCITY\n" + velocity +
                                  "*INITIAL CONDITIONS, TYPE=DISPLACEMENT\n" + displacement + cards);
@@ -629,7 +673,8 @@ TEST_F(DeckSemantics, SetsOfTransformsRigidBodiesAndRequestsTakeInNewNodes) {
     const auto found = node_set(after, "BOTTOM");
     EXPECT_EQ(std::set<Index>(found.begin(), found.end()), wanted);
     EXPECT_EQ(element_set(after, "EALL").size(), static_cast<std::size_t>(after.block(CellType::tetra).size()));
-    for (const char* keyword : {"TRANSFORM", "RIGIDBODY", "BOUNDARY", "NODEPRINT", "ELPRINT", "NODEFILE", "ELFILE", "NODEOUTPUT", "ELEMENTOUTPUT"})
+    for (const char* keyword : {"TRANSFORM", "RIGIDBODY", "BOUNDARY", "NODEPRINT", "ELPRINT", "NODEFILE", "ELFILE",
+                                "NODEOUTPUT", "ELEMENTOUTPUT"})
         EXPECT_EQ(text_of(after, keyword), text_of(mesh, keyword)) << keyword;
     // Initial velocities 1 per unit of x, and displacements, at every node that is there now.
     std::map<Index, double> v, u;
@@ -646,7 +691,8 @@ TEST_F(DeckSemantics, StrictRefusesEveryCardThatCannotFollow) {
         {"EQUATION", "*EQUATION\n2\n" + node + ", 1, 1., " + other + ", 1, -1.\n"},
         {"MPC", "*MPC\nBEAM, " + node + ", " + other + "\n"},
         {"RIGID BODY", "*NSET, NSET=R\n1\n*RIGID BODY, NSET=R, REF NODE=" + node + "\n"},
-        {"COUPLING", "*SURFACE, NAME=S, TYPE=ELEMENT\n1, S1\n*COUPLING, CONSTRAINT NAME=C, SURFACE=S, REF NODE=" + node + "\n*KINEMATIC\n1, 3\n"},
+        {"COUPLING", "*SURFACE, NAME=S, TYPE=ELEMENT\n1, S1\n*COUPLING, CONSTRAINT NAME=C, SURFACE=S, REF NODE=" +
+                         node + "\n*KINEMATIC\n1, 3\n"},
         {"DISTRIBUTING COUPLING", "*DISTRIBUTING COUPLING, ELSET=EALL\n" + node + ", 1.\n"},
         {"RESTART", "*STEP\n*STATIC\n*RESTART, READ\n*END STEP\n"},
         {"an unknown card", "*NOTACARD\n" + node + ", 1\n"},
@@ -670,7 +716,8 @@ TEST(LoadLabels, AreTakenApart) {
     EXPECT_EQ(LoadLabel("P2").with_face(5, true), "P3");
     EXPECT_EQ(LoadLabel("P5").face(CellType::tetra, false), 0);
     EXPECT_EQ(LoadLabel("P1").face(CellType::line, false), 0);
-    for (const char* whole : {"GRAV", "CENTRIF", "BF", "P", "SPOS", "FNEG", "NEWTON"}) EXPECT_EQ(LoadLabel(whole).number, 0) << whole;
+    for (const char* whole : {"GRAV", "CENTRIF", "BF", "P", "SPOS", "FNEG", "NEWTON"})
+        EXPECT_EQ(LoadLabel(whole).number, 0) << whole;
 }
 
 TEST(CardContents, EveryCardOfCalculixsDecksIsKnown) {

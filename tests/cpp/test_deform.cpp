@@ -63,7 +63,8 @@ Mesh cube(Split split, double jitter) {
                 for (int t = 0; t < (split == Split::six ? 6 : 5); ++t) {
                     const int* corners = split == Split::six ? six[t] : five[(i + j + k) % 2][t];
                     std::array<Index, 4> v;
-                    for (int c = 0; c < 4; ++c) v[c] = node(i + (corners[c] >> 2), j + (corners[c] >> 1 & 1), k + (corners[c] & 1));
+                    for (int c = 0; c < 4; ++c)
+                        v[c] = node(i + (corners[c] >> 2), j + (corners[c] >> 1 & 1), k + (corners[c] & 1));
                     const auto& p = mesh.points;
                     if ((p[v[1]] - p[v[0]]).cross(p[v[2]] - p[v[0]]).dot(p[v[3]] - p[v[0]]) < 0) std::swap(v[2], v[3]);
                     mesh.add_cell(CellType::tetra, v, ++id);
@@ -87,8 +88,10 @@ Mesh plate(double jitter) {
     id = 0;
     for (int i = 0; i < cells; ++i)
         for (int j = 0; j < cells; ++j) {
-            mesh.add_cell(CellType::triangle, std::array<Index, 3>{node(i, j), node(i + 1, j), node(i + 1, j + 1)}, ++id);
-            mesh.add_cell(CellType::triangle, std::array<Index, 3>{node(i, j), node(i + 1, j + 1), node(i, j + 1)}, ++id);
+            mesh.add_cell(CellType::triangle, std::array<Index, 3>{node(i, j), node(i + 1, j), node(i + 1, j + 1)},
+                          ++id);
+            mesh.add_cell(CellType::triangle, std::array<Index, 3>{node(i, j), node(i + 1, j + 1), node(i, j + 1)},
+                          ++id);
         }
     return mesh;
 }
@@ -136,7 +139,9 @@ void attempt(const Mesh& mesh, const Plane& plane, Tally& tally) {
     tally.worst = std::min(tally.worst, worst);
     EXPECT_NEAR(measure(m, type), measure(mesh, type), 1e-9 * measure(mesh, type));
     // The whole section is opened, on both sides alike.
-    const auto lip = [&](const char* name) { return *std::ranges::find(result->report.groups, name, &GroupRecord::name); };
+    const auto lip = [&](const char* name) {
+        return *std::ranges::find(result->report.groups, name, &GroupRecord::name);
+    };
     EXPECT_EQ(lip("CRACK_P").count_after, lip("CRACK_N").count_after);
     const double area = section(mesh, plane);
     EXPECT_NEAR(lip("CRACK_P").measure_after, area, 1e-9 * area);
@@ -153,8 +158,9 @@ void attempt(const Mesh& mesh, const Plane& plane, Tally& tally) {
 }
 
 void print(const char* what, const Tally& t) {
-    std::cout << "[ SUCCESS ] deform, " << what << ": " << t.done << " of " << t.tried << ", worst mean ratio " << t.worst << ", "
-              << (t.done > 0 ? static_cast<double>(t.added) / t.done : 0) << " nodes added on average\n";
+    std::cout << "[ SUCCESS ] deform, " << what << ": " << t.done << " of " << t.tried << ", worst mean ratio "
+              << t.worst << ", " << (t.done > 0 ? static_cast<double>(t.added) / t.done : 0)
+              << " nodes added on average\n";
 }
 
 class DeformCube : public testing::TestWithParam<std::pair<Split, double>> {};
@@ -175,7 +181,9 @@ TEST_P(DeformCube, ObliquePlanes) {
     for (int i = 0; i < 15; ++i) {
         const Vec3 axis = Vec3::Unit(i % 3), side = axis.cross(random.direction()).normalized();
         const double angle = random(0, std::numbers::pi / 6);
-        attempt(mesh, Plane(Vec3(random(4, 6), random(4, 6), random(4, 6)), std::cos(angle) * axis + std::sin(angle) * side), tally);
+        attempt(mesh,
+                Plane(Vec3(random(4, 6), random(4, 6), random(4, 6)), std::cos(angle) * axis + std::sin(angle) * side),
+                tally);
     }
     print("oblique planes", tally);
     EXPECT_GE(tally.rate(), 0.8);
@@ -185,13 +193,15 @@ TEST_P(DeformCube, RandomPlanes) {
     const Mesh mesh = cube(GetParam().first, GetParam().second);
     Random random(3);
     Tally tally;
-    for (int i = 0; i < 15; ++i) attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), random(2, 8)), random.direction()), tally);
+    for (int i = 0; i < 15; ++i)
+        attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), random(2, 8)), random.direction()), tally);
     print("random planes", tally);
     EXPECT_GE(tally.rate(), 0.6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cubes, DeformCube,
-                         testing::Values(std::pair(Split::six, 0.0), std::pair(Split::six, 0.15), std::pair(Split::five, 0.15)));
+                         testing::Values(std::pair(Split::six, 0.0), std::pair(Split::six, 0.15),
+                                         std::pair(Split::five, 0.15)));
 
 /// A tip smaller than an element must not silently stay uncut.
 TEST(Deform, CornerTip) {
@@ -215,7 +225,9 @@ TEST(Deform, Plate) {
     Tally tally;
     for (int i = 0; i < 30; ++i) {
         const double angle = random(0, 2 * std::numbers::pi);
-        attempt(mesh, Plane(Vec3(random(2, 8), random(2, 8), 0), Vec3(std::cos(angle), std::sin(angle), random(-0.5, 0.5))), tally);
+        attempt(mesh,
+                Plane(Vec3(random(2, 8), random(2, 8), 0), Vec3(std::cos(angle), std::sin(angle), random(-0.5, 0.5))),
+                tally);
     }
     print("planes through a plate", tally);
     EXPECT_GE(tally.rate(), 0.8);
@@ -258,9 +270,11 @@ void attempt_hole(const Mesh& mesh, const Cylinder& cylinder, double length, Tal
     EXPECT_GE(on, sets.at("IHN").size() + sets.at("EHN").size());
     EXPECT_EQ(result->report.constraints.at("cylinder"), sets.at("IHN").size() + sets.at("EHN").size());
     const auto exterior = sets.at("EHN").size() + sets.at("ETN").size();
-    EXPECT_EQ(result->report.constraints.at("tangent plane"), type == CellType::tetra ? exterior : exterior + sets.at("IHN").size() + sets.at("ITN").size());
+    EXPECT_EQ(result->report.constraints.at("tangent plane"),
+              type == CellType::tetra ? exterior : exterior + sets.at("IHN").size() + sets.at("ITN").size());
     // A polygon with its corners on the circle is taken out.
-    const double removed = measure(mesh, type) - measure(m, type), exact = std::numbers::pi * cylinder.radius() * cylinder.radius() * length;
+    const double removed = measure(mesh, type) - measure(m, type),
+                 exact = std::numbers::pi * cylinder.radius() * cylinder.radius() * length;
     if (length > 0) {
         EXPECT_LT(removed, exact * (1 + 1e-9));
         EXPECT_GT(removed, 0.7 * exact);
@@ -281,7 +295,9 @@ TEST(DeformHole, AlongAnAxisOfTheCube) {
         Random random(5);
         Tally tally;
         for (int i = 0; i < 15; ++i)
-            attempt_hole(mesh, Cylinder(Vec3(random(4, 6), random(4, 6), random(4, 6)), Vec3::Unit(i % 3), random(1.5, 3)), cells, tally);
+            attempt_hole(mesh,
+                         Cylinder(Vec3(random(4, 6), random(4, 6), random(4, 6)), Vec3::Unit(i % 3), random(1.5, 3)),
+                         cells, tally);
         print("holes along an axis", tally);
         EXPECT_GE(tally.rate(), 0.9);
     }
@@ -303,7 +319,9 @@ TEST(DeformHole, InAPlate) {
     const Mesh mesh = plate(0.2);
     Random random(8);
     Tally tally;
-    for (int i = 0; i < 30; ++i) attempt_hole(mesh, Cylinder(Vec3(random(3.5, 6.5), random(3.5, 6.5), 0), Vec3(0, 0, 1), random(1.2, 3)), 1, tally);
+    for (int i = 0; i < 30; ++i)
+        attempt_hole(mesh, Cylinder(Vec3(random(3.5, 6.5), random(3.5, 6.5), 0), Vec3(0, 0, 1), random(1.2, 3)), 1,
+                     tally);
     print("holes in a plate", tally);
     EXPECT_GE(tally.rate(), 0.8);
 }
@@ -311,7 +329,8 @@ TEST(DeformHole, InAPlate) {
 TEST(DeformHole, OneSurfaceAtATime) {
     const Mesh mesh = cube(Split::six, 0.15);
     const auto refused = [](const auto& call) {
-        EXPECT_THAT(call, testing::ThrowsMessage<ToolError>(testing::AllOf(testing::HasSubstr("single surface"), testing::HasSubstr("snap"))));
+        EXPECT_THAT(call, testing::ThrowsMessage<ToolError>(
+                              testing::AllOf(testing::HasSubstr("single surface"), testing::HasSubstr("snap"))));
     };
     const Cylinder one(Vec3(3, 5, 5), Vec3(0, 0, 1), 1.5), two(Vec3(7, 5, 5), Vec3(0, 0, 1), 1.5);
     DrillOptions holes;

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -57,7 +57,8 @@ TEST(Face, PlaneIsThePlane) {
         // The border is the square |u|, |v| = 4 in the plane.
         const gp_Dir u = frame.XDirection(), v = frame.YDirection();
         const Vec3 r = plane.project(x) - Vec3(6, 5, 5);
-        const double a = std::abs(r.dot(Vec3(u.X(), u.Y(), u.Z()))) - 4, b = std::abs(r.dot(Vec3(v.X(), v.Y(), v.Z()))) - 4;
+        const double a = std::abs(r.dot(Vec3(u.X(), u.Y(), u.Z()))) - 4,
+                     b = std::abs(r.dot(Vec3(v.X(), v.Y(), v.Z()))) - 4;
         const double beyond = a > 0 && b > 0 ? std::hypot(a, b) : std::max(a, b);
         EXPECT_NEAR(face.beyond(x), beyond, 1e-9);
     }
@@ -95,7 +96,8 @@ TEST(Face, PartOfACylinder) {
 TEST(Face, SplineIsConsistent) {
     TColgp_Array2OfPnt points(1, 9, 1, 9);
     for (int i = 1; i <= 9; ++i)
-        for (int j = 1; j <= 9; ++j) points.SetValue(i, j, gp_Pnt(i - 5, j - 5, 0.5 * std::sin(0.7 * (i - 5)) * std::cos(0.5 * (j - 5))));
+        for (int j = 1; j <= 9; ++j)
+            points.SetValue(i, j, gp_Pnt(i - 5, j - 5, 0.5 * std::sin(0.7 * (i - 5)) * std::cos(0.5 * (j - 5))));
     const Handle(Geom_BSplineSurface) surface = GeomAPI_PointsToBSplineSurface(points).Surface();
     const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(surface, 1e-6)));
     EXPECT_GT(face.feature_size(), 2);
@@ -110,7 +112,10 @@ TEST(Face, SplineIsConsistent) {
         EXPECT_NEAR((x - foot).norm(), std::abs(distance), 1e-10);
         const double step = 1e-6;
         if (std::abs(distance) < 1e-4) continue;
-        for (int a = 0; a < 3; ++a) EXPECT_NEAR((face.distance(x + step * Vec3::Unit(a)) - face.distance(x - step * Vec3::Unit(a))) / (2 * step), normal[a], 1e-5);
+        for (int a = 0; a < 3; ++a)
+            EXPECT_NEAR(
+                (face.distance(x + step * Vec3::Unit(a)) - face.distance(x - step * Vec3::Unit(a))) / (2 * step),
+                normal[a], 1e-5);
     }
 }
 
@@ -120,7 +125,8 @@ TEST(Face, BadShapes) {
     EXPECT_THAT([] { Face::read("no such file.step"); }, testing::ThrowsMessage<ReadError>(what("no such file.step")));
     const auto folder = std::filesystem::temp_directory_path();
     std::ofstream(folder / "femscalpel_bad.step") << "not a STEP file";
-    EXPECT_THAT([&] { Face::read(folder / "femscalpel_bad.step"); }, testing::ThrowsMessage<ReadError>(what("femscalpel_bad.step")));
+    EXPECT_THAT([&] { Face::read(folder / "femscalpel_bad.step"); },
+                testing::ThrowsMessage<ReadError>(what("femscalpel_bad.step")));
     std::ofstream(folder / "femscalpel_bad.stl") << "";
     EXPECT_THAT([&] { Face::read(folder / "femscalpel_bad.stl"); }, testing::ThrowsMessage<ReadError>(what(".brep")));
     // A wire has no face; two faces at a right angle fold.
@@ -130,7 +136,8 @@ TEST(Face, BadShapes) {
     sewing.Add(BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 0, 1, 0, 1));
     sewing.Add(BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0), gp_Dir(0, 1, 0))), 0, 1, 0, 1));
     sewing.Perform();
-    EXPECT_THAT([&] { Face::from_brep(brep(sewing.SewedShape())); }, testing::ThrowsMessage<ToolError>(what("cannot fold")));
+    EXPECT_THAT([&] { Face::from_brep(brep(sewing.SewedShape())); },
+                testing::ThrowsMessage<ToolError>(what("cannot fold")));
 }
 
 TEST(Face, CracksAsThePlaneDoes) {
@@ -140,12 +147,14 @@ TEST(Face, CracksAsThePlaneDoes) {
     const Face large = Face::from_brep(brep(BRepBuilderAPI_MakeFace(pln, -9, 9, -9, 9)));
     const Result result = crack(model.mesh, large);
     // Counted as "face", not as "plane".
-    EXPECT_THAT(checks::check_crack(model, plane, result, "CRACK"), testing::Each(testing::HasSubstr("plane constraints are not as many")));
+    EXPECT_THAT(checks::check_crack(model, plane, result, "CRACK"),
+                testing::Each(testing::HasSubstr("plane constraints are not as many")));
     EXPECT_GT(result.report.constraints.at("face"), 20);
     EXPECT_GE(result.report.quality_after.minimum, 0.3);
     CrackOptions deform;
     deform.method = Method::deform;
-    EXPECT_THAT([&] { crack(model.mesh, large, deform); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("snap")));
+    EXPECT_THAT([&] { crack(model.mesh, large, deform); },
+                testing::ThrowsMessage<ToolError>(testing::HasSubstr("snap")));
 }
 
 /// What a crack along a face that ends inside the material has to be.
@@ -162,7 +171,8 @@ struct FrontOfFace {
             EXPECT_GT(v, 0);
             volume += v;
         }
-        for (Index c = 0; c < input.block(CellType::tetra).size(); ++c) before += cell_measure(input, CellType::tetra, c);
+        for (Index c = 0; c < input.block(CellType::tetra).size(); ++c)
+            before += cell_measure(input, CellType::tetra, c);
         EXPECT_NEAR(volume, before, 1e-9 * before);
         area = checks::group_sums(mesh)[*mesh.find_group("CRACK_P")].measure;
         EXPECT_NEAR(area, checks::group_sums(mesh)[*mesh.find_group("CRACK_N")].measure, 1e-9);
@@ -177,7 +187,9 @@ struct FrontOfFace {
             for (const Index v : n) EXPECT_LT(std::abs(face.distance(mesh.points[v])), 1e-9);
         });
         faces = positive.size();
-        in_group(CellType::triangle, "CRACK_N", [&](const auto& n) { closed += positive.contains({n.begin(), n.end()}); });
+        in_group(CellType::triangle, "CRACK_N", [&](const auto& n) {
+            closed += positive.contains({n.begin(), n.end()});
+        });
         EXPECT_EQ(closed, 0) << "faces of the crack that cannot open";
         in_group(CellType::line, "CRACK_FRONT", [&](const auto& n) {
             if (nodes.empty()) nodes.push_back(mesh.points[n[0]]);
@@ -190,10 +202,12 @@ struct FrontOfFace {
 TEST(Face, ThatEndsInsideCracksUpToItsBorder) {
     const Mesh mesh = read_inp(FEMSCALPEL_TEST_MESHES "/two_boxes.inp");
     const gp_Pln pln(gp_Ax3(gp_Pnt(6, 5, 5), gp_Dir(1, 0.3, 0.2), gp_Dir(-0.3, 1, 0)));
-    const Vec3 middle(6, 5, 5), normal = Vec3(1, 0.3, 0.2).normalized(), u = Vec3(-0.3, 1, 0).normalized(), v = normal.cross(u);
+    const Vec3 middle(6, 5, 5), normal = Vec3(1, 0.3, 0.2).normalized(), u = Vec3(-0.3, 1, 0).normalized(),
+                                v = normal.cross(u);
     {
         SCOPED_TRACE("round");
-        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(pln, BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(pln.Position().Ax2(), 2.7))).Wire())));
+        const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(
+            pln, BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(pln.Position().Ax2(), 2.7))).Wire())));
         const Result result = crack(mesh, face);
         const FrontOfFace front(result.mesh, face, mesh);
         EXPECT_GT(front.nodes.size(), 12);
@@ -262,14 +276,17 @@ TEST(Face, CracksAlongASpline) {
     TColgp_Array2OfPnt points(1, 9, 1, 9);
     for (int i = 1; i <= 9; ++i)
         for (int j = 1; j <= 9; ++j) points.SetValue(i, j, gp_Pnt(6 + 0.6 * std::sin(0.5 * i), 2 * i - 5, 2 * j - 5));
-    const Face face = Face::from_brep(brep(BRepBuilderAPI_MakeFace(GeomAPI_PointsToBSplineSurface(points).Surface(), 1e-6)));
+    const Face face =
+        Face::from_brep(brep(BRepBuilderAPI_MakeFace(GeomAPI_PointsToBSplineSurface(points).Surface(), 1e-6)));
     const Result result = crack(mesh, face);
     EXPECT_GE(result.report.quality_after.minimum, 0.25);
     const auto sums = checks::group_sums(result.mesh);
-    EXPECT_NEAR(sums[*result.mesh.find_group("CRACK_P")].measure, sums[*result.mesh.find_group("CRACK_N")].measure, 1e-9);
+    EXPECT_NEAR(sums[*result.mesh.find_group("CRACK_P")].measure, sums[*result.mesh.find_group("CRACK_N")].measure,
+                1e-9);
     EXPECT_GT(sums[*result.mesh.find_group("CRACK_P")].measure, 100);
     EXPECT_LT(sums[*result.mesh.find_group("CRACK_P")].measure, 115);
-    EXPECT_TRUE(std::ranges::none_of(result.mesh.groups, [](const Group& g) { return g.name == "CRACK_FRONT"; })) << "it is cut through";
+    EXPECT_TRUE(std::ranges::none_of(result.mesh.groups, [](const Group& g) { return g.name == "CRACK_FRONT"; }))
+        << "it is cut through";
 }
 
 }  // namespace

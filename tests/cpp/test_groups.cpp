@@ -36,7 +36,8 @@ std::multiset<Nodes> faces_of(const BoundaryPart& p) {
     return out;
 }
 
-GroupIndex add_group(Mesh& mesh, const std::string& name, GroupKind kind, std::vector<Index> ids, std::vector<Index> faces = {}) {
+GroupIndex add_group(Mesh& mesh, const std::string& name, GroupKind kind, std::vector<Index> ids,
+                     std::vector<Index> faces = {}) {
     const GroupIndex g = mesh.add_group(name, kind);
     set_group_members(mesh, g, {kind, std::move(ids), std::move(faces)});
     return g;
@@ -220,7 +221,8 @@ TEST(ElementaryGroups, DisjointClasses) {
     set_group_members(mesh, hidden, {GroupKind::element, {2, 8}, {}});
     const auto classes = elementary_groups(mesh);
     ASSERT_EQ(classes.size(), 7u);
-    const auto expect = [&](std::size_t k, GroupKind kind, int dimension, std::vector<GroupIndex> groups, std::vector<Index> ids) {
+    const auto expect = [&](std::size_t k, GroupKind kind, int dimension, std::vector<GroupIndex> groups,
+                            std::vector<Index> ids) {
         EXPECT_EQ(classes[k].kind, kind) << k;
         EXPECT_EQ(classes[k].dimension, dimension) << k;
         EXPECT_EQ(classes[k].groups, groups) << k;
@@ -239,7 +241,9 @@ TEST(ElementaryGroups, DisjointClasses) {
 // ---- Random meshes and groups against the definition, worked out the slow way ----
 
 template <class T>
-std::multiset<T> multi(const std::set<T>& set) { return {set.begin(), set.end()}; }
+std::multiset<T> multi(const std::set<T>& set) {
+    return {set.begin(), set.end()};
+}
 
 class RandomGroups : public testing::TestWithParam<int> {};
 
@@ -254,7 +258,8 @@ TEST_P(RandomGroups, BoundaryIsTheDefinition) {
         const VirtualBoundary b = finder.find(g);
         const Expected e = slow_boundary(mesh, g);
         std::multiset<Nodes> area;
-        for (const CellRef& c : b.enclosed) area.insert(Nodes(mesh.block(c.type).nodes(c.cell).begin(), mesh.block(c.type).nodes(c.cell).end()));
+        for (const CellRef& c : b.enclosed)
+            area.insert(Nodes(mesh.block(c.type).nodes(c.cell).begin(), mesh.block(c.type).nodes(c.cell).end()));
         EXPECT_EQ(area, multi(e.area));
         EXPECT_EQ(dimension == 3 ? faces_of(b.bounding) : edges_of(b.bounding), multi(e.bounding));
         EXPECT_EQ(faces_of(b.linking), multi(e.linking_faces));
@@ -266,7 +271,8 @@ TEST_P(RandomGroups, BoundaryIsTheDefinition) {
             const Nodes edge(b.linking.edges[k].begin(), b.linking.edges[k].end());
             bool exists = false;
             const CellBlock& lines = mesh.block(CellType::line);
-            for (Index l = 0; l < lines.size(); ++l) exists = exists || Nodes(lines.nodes(l).begin(), lines.nodes(l).end()) == edge;
+            for (Index l = 0; l < lines.size(); ++l)
+                exists = exists || Nodes(lines.nodes(l).begin(), lines.nodes(l).end()) == edge;
             EXPECT_EQ(c.cell >= 0, exists);
             if (c.cell >= 0) {
                 EXPECT_EQ(Nodes(lines.nodes(c.cell).begin(), lines.nodes(c.cell).end()), edge);
@@ -294,7 +300,8 @@ TEST_P(RandomGroups, ElementaryGroupsPartTheMesh) {
     }
     for (GroupIndex g = 0; g < 30; ++g) {
         const GroupMembers m = group_members(mesh, g);
-        for (std::size_t k = 0; k < m.ids.size(); ++k) expected[g].emplace(m.ids[k], m.kind == GroupKind::facet ? m.faces[k] : 0);
+        for (std::size_t k = 0; k < m.ids.size(); ++k)
+            expected[g].emplace(m.ids[k], m.kind == GroupKind::facet ? m.faces[k] : 0);
     }
     EXPECT_EQ(found, expected);
 }
@@ -364,7 +371,9 @@ TEST_P(RandomGroups, BandHasTheBoundaries) {
         if (dimension == 2) wanted = e.area;  // shells are listed with what they are part of
         const auto on_kept_face_of_group = [&](Index n) {
             return std::ranges::any_of(kept_anyway, [&](const Nodes& s) {
-                return s.contains(n) && std::ranges::all_of(s, [&](Index v) { return mesh.families.contains(mesh.node_families[v], g); });
+                return s.contains(n) && std::ranges::all_of(s, [&](Index v) {
+                           return mesh.families.contains(mesh.node_families[v], g);
+                       });
             });
         };
         const auto is_shortcut = [&](const Nodes& entity) {
@@ -399,16 +408,19 @@ TEST(BandBoundaries, ShortcutsThroughTheMaterialAreNotKept) {
     for (const Vec3& p : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0),
                           Vec3(1, -1, 2), Vec3(1, 1, 2), Vec3(1, -1, -2), Vec3(1, 1, -2)})
         mesh.add_node(p, mesh.node_count() + 1);
-    add_cells(mesh, CellType::tetra, {{1, 2, 3, 0}, {1, 3, 4, 0}, {1, 4, 5, 0}, {1, 5, 2, 0}, {0, 2, 6, 7}, {1, 2, 9, 8}});
+    add_cells(mesh, CellType::tetra,
+              {{1, 2, 3, 0}, {1, 3, 4, 0}, {1, 4, 5, 0}, {1, 5, 2, 0}, {0, 2, 6, 7}, {1, 2, 9, 8}});
     const GroupIndex ends = add_group(mesh, "ENDS", GroupKind::node, {1, 2});
     const GroupIndex sides = add_group(mesh, "SIDES", GroupKind::node, {1, 2, 7, 8, 9, 10});
-    for (const GroupIndex g : {ends, sides}) EXPECT_EQ(edges_of(virtual_boundary(mesh, g).linking), (std::multiset<Nodes>{{0, 1}}));
+    for (const GroupIndex g : {ends, sides})
+        EXPECT_EQ(edges_of(virtual_boundary(mesh, g).linking), (std::multiset<Nodes>{{0, 1}}));
 
     const BandMesh band = extract_band(mesh, std::vector<std::int8_t>(10, 0));
     const BandBoundaries boundaries(band, mesh);
     ASSERT_EQ(boundaries.lines().size(), 1u);
     EXPECT_THAT(boundaries.lines()[0].nodes, UnorderedElementsAre(0, 1));
-    EXPECT_THAT(boundaries.groups(boundaries.lines()[0].kind), ElementsAre(ends)) << "the only link of its nodes is kept";
+    EXPECT_THAT(boundaries.groups(boundaries.lines()[0].kind), ElementsAre(ends))
+        << "the only link of its nodes is kept";
     int faces_of_sides = 0;
     for (const auto& f : boundaries.faces())
         if (f.kind != 0) {

@@ -41,7 +41,8 @@ double farthest(const Mesh& mesh, const std::string& name, GroupKind kind, const
     const GroupIndex g = *mesh.find_group(name, kind);
     double out = 0;
     for (Index n = 0; n < mesh.node_count(); ++n)
-        if (kind == GroupKind::node && mesh.families.contains(mesh.node_families[n], g)) out = std::max(out, std::abs(plane.distance(mesh.points[n])));
+        if (kind == GroupKind::node && mesh.families.contains(mesh.node_families[n], g))
+            out = std::max(out, std::abs(plane.distance(mesh.points[n])));
     for (const CellBlock& b : mesh.blocks())
         for (Index c = 0; c < b.size(); ++c)
             if (kind == GroupKind::element && mesh.families.contains(b.families[c], g))
@@ -72,14 +73,18 @@ TEST_F(Figure12, BorderStaysThePlane) {
         EXPECT_LE(record(result, name, kind).boundary_drift, 1e-12 * size_);
     }
     const auto sums = group_sums(result.mesh);
-    for (const char* name : {"LEFT", "RIGHT"}) EXPECT_NEAR(sums[*mesh_.find_group(name, GroupKind::element)].measure, 1000, 1e-6) << name;
+    for (const char* name : {"LEFT", "RIGHT"})
+        EXPECT_NEAR(sums[*mesh_.find_group(name, GroupKind::element)].measure, 1000, 1e-6) << name;
     EXPECT_NEAR(sums[*mesh_.find_group("GLUE", GroupKind::element)].measure, 100, 1e-7);
-    EXPECT_GT(record(result, "GLUE", GroupKind::element).nodes_moved, 10) << "nodes slid along the border: the case is not trivial";
+    EXPECT_GT(record(result, "GLUE", GroupKind::element).nodes_moved, 10)
+        << "nodes slid along the border: the case is not trivial";
     EXPECT_TRUE(record(result, "GLUE", GroupKind::element).boundary_kept);
     // The border between the elements of the two groups is the same plane too, not only what is called GLUE.
     std::map<std::array<Index, 3>, int> sides;
     const GroupIndex left = *mesh_.find_group("LEFT", GroupKind::element);
-    for (const TetraFace& f : tetra_faces(result.mesh)) sides[f.key] += result.mesh.families.contains(result.mesh.block(f.cell.type).families[f.cell.cell], left) ? 1 : 100;
+    for (const TetraFace& f : tetra_faces(result.mesh))
+        sides[f.key] +=
+            result.mesh.families.contains(result.mesh.block(f.cell.type).families[f.cell.cell], left) ? 1 : 100;
     int border = 0;
     for (const auto& [key, count] : sides)
         if (count == 101) {
@@ -91,15 +96,19 @@ TEST_F(Figure12, BorderStaysThePlane) {
 
 TEST_F(Figure12, BorderDriftsWhenItMay) {
     const Result result = crack_preserving(std::vector<std::string>{});
-    EXPECT_GT(farthest(result.mesh, "GLUE", GroupKind::element, border_), 0.2) << "visible: the mesh's edges are 1.25 long";
+    EXPECT_GT(farthest(result.mesh, "GLUE", GroupKind::element, border_), 0.2)
+        << "visible: the mesh's edges are 1.25 long";
     const auto sums = group_sums(result.mesh);
-    const double left = sums[*mesh_.find_group("LEFT", GroupKind::element)].measure, right = sums[*mesh_.find_group("RIGHT", GroupKind::element)].measure;
+    const double left = sums[*mesh_.find_group("LEFT", GroupKind::element)].measure,
+                 right = sums[*mesh_.find_group("RIGHT", GroupKind::element)].measure;
     EXPECT_GT(std::abs(left - 1000), 0.1);
     EXPECT_NEAR(left + right, 2000, 1e-6) << "the skin is kept all the same";
-    for (const auto& [name, kind] : {std::pair("GLUE", GroupKind::element), std::pair("LEFT", GroupKind::element), std::pair("GLUE", GroupKind::node)}) {
+    for (const auto& [name, kind] : {std::pair("GLUE", GroupKind::element), std::pair("LEFT", GroupKind::element),
+                                     std::pair("GLUE", GroupKind::node)}) {
         const GroupRecord& r = record(result, name, kind);
         EXPECT_FALSE(r.boundary_kept);
-        EXPECT_NEAR(r.boundary_drift, farthest(result.mesh, "GLUE", GroupKind::element, border_), 1e-12) << name << ": the report says how far";
+        EXPECT_NEAR(r.boundary_drift, farthest(result.mesh, "GLUE", GroupKind::element, border_), 1e-12)
+            << name << ": the report says how far";
         EXPECT_EQ(r.nodes_on_surface + r.nodes_on_line + r.nodes_fixed, 0);
     }
     EXPECT_LE(record(result, "ALL", GroupKind::element).boundary_drift, 1e-9) << "its boundary is the skin";
@@ -167,7 +176,8 @@ TEST_F(Figure12, HoleAcrossTheBorder) {
     const auto sums = group_sums(kept.mesh);
     // Where the wall meets the border it lies on both, so that exactly a strip of the hole's width is gone from it.
     EXPECT_NEAR(sums[*mesh_.find_group("GLUE", GroupKind::element)].measure, 100 - 2 * radius * 10, 1e-7);
-    const double left = sums[*mesh_.find_group("LEFT", GroupKind::element)].measure, right = sums[*mesh_.find_group("RIGHT", GroupKind::element)].measure;
+    const double left = sums[*mesh_.find_group("LEFT", GroupKind::element)].measure,
+                 right = sums[*mesh_.find_group("RIGHT", GroupKind::element)].measure;
     const double half = std::numbers::pi * radius * radius * 10 / 2;
     for (const double volume : {left, right}) {
         EXPECT_GT(volume, 1000 - half - 1e-9) << "walls of flat faces take less than the round hole";
@@ -176,7 +186,8 @@ TEST_F(Figure12, HoleAcrossTheBorder) {
     // Each group lost what the faces of the wall in its own elements enclose, to rounding: the divergence theorem over
     // its wall, with the border as the plane it is.
     for (const auto& [name, sign, volume] : {std::tuple("LEFT", -1.0, left), std::tuple("RIGHT", 1.0, right)}) {
-        const GroupIndex group = *mesh_.find_group(name, GroupKind::element), wall = *kept.mesh.find_group("HOLE_WALL", GroupKind::element);
+        const GroupIndex group = *mesh_.find_group(name, GroupKind::element),
+                         wall = *kept.mesh.find_group("HOLE_WALL", GroupKind::element);
         std::set<std::array<Index, 3>> of_wall;
         const CellBlock& triangles = kept.mesh.block(CellType::triangle);
         for (Index c = 0; c < triangles.size(); ++c)
@@ -187,10 +198,13 @@ TEST_F(Figure12, HoleAcrossTheBorder) {
             }
         double removed = 0;
         for (const TetraFace& f : tetra_faces(kept.mesh)) {
-            if (!of_wall.contains(f.key) || !kept.mesh.families.contains(kept.mesh.block(f.cell.type).families[f.cell.cell], group)) continue;
+            if (!of_wall.contains(f.key) ||
+                !kept.mesh.families.contains(kept.mesh.block(f.cell.type).families[f.cell.cell], group))
+                continue;
             const auto& p = kept.mesh.points;
             const Vec3 a = p[f.outward[0]], b = p[f.outward[1]], c = p[f.outward[2]];
-            removed += (b - a).cross(c - a).x() / 2 * -((a + b + c) / 3 - Vec3(10, 5, 5)).x();  // x = 0 on the border: no flux there
+            removed += (b - a).cross(c - a).x() / 2 *
+                       -((a + b + c) / 3 - Vec3(10, 5, 5)).x();  // x = 0 on the border: no flux there
         }
         EXPECT_NEAR(volume, 1000 - removed, 1e-6) << name;
         EXPECT_GT(removed, 0.9 * half) << name << sign;
@@ -223,14 +237,18 @@ TEST(Figure9, NodeBornBetweenLinkedNodesJoinsAndIsolatedOnesStayAlone) {
     std::set<double> places;
     for (Index n = 0; n < result.mesh.node_count(); ++n) {
         const Vec3& x = result.mesh.points[n];
-        EXPECT_EQ(result.mesh.families.contains(result.mesh.node_families[n], gn), x.y() == 0) << "node " << result.mesh.node_ids[n];
+        EXPECT_EQ(result.mesh.families.contains(result.mesh.node_families[n], gn), x.y() == 0)
+            << "node " << result.mesh.node_ids[n];
         if (x.y() == 0) places.insert(x.x());
     }
     EXPECT_EQ(places.size(), 10u) << "nine nodes, and the one that was born between n1 and n2";
-    EXPECT_THAT(members(result.mesh, "LONE", GroupKind::node), testing::UnorderedElementsAre(mesh.node_ids[alone[0]], mesh.node_ids[alone[1]], mesh.node_ids[alone[2]]));
+    EXPECT_THAT(
+        members(result.mesh, "LONE", GroupKind::node),
+        testing::UnorderedElementsAre(mesh.node_ids[alone[0]], mesh.node_ids[alone[1]], mesh.node_ids[alone[2]]));
     for (const Index n : alone) {
         EXPECT_EQ(result.mesh.points[n], mesh.points[n]) << "an isolated node stays where it is";
-        EXPECT_THAT(result.mesh.families.groups(result.mesh.node_families[n]), ElementsAre(lonely)) << "single-membered";
+        EXPECT_THAT(result.mesh.families.groups(result.mesh.node_families[n]), ElementsAre(lonely))
+            << "single-membered";
     }
     EXPECT_EQ(record(result, "LONE", GroupKind::node).nodes_fixed, 3);
     EXPECT_GT(record(result, "GN", GroupKind::node).nodes_on_line, 3);
@@ -239,7 +257,8 @@ TEST(Figure9, NodeBornBetweenLinkedNodesJoinsAndIsolatedOnesStayAlone) {
 TEST(NodeMembership, MergingMustNotLinkIsolatedMembers) {
     // A fan of four triangles around the new node p = 5, born on the edge 0-2, which two triangles shared.
     Mesh mesh;
-    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, -1, 0), Vec3(2, 0, 0), Vec3(1, 1, 0), Vec3(-1, 0, 0)}) mesh.add_node(x, mesh.node_count() + 1);
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, -1, 0), Vec3(2, 0, 0), Vec3(1, 1, 0), Vec3(-1, 0, 0)})
+        mesh.add_node(x, mesh.node_count() + 1);
     add_cells(mesh, CellType::triangle, {{0, 1, 2}, {0, 2, 3}, {4, 1, 0}, {4, 0, 3}});
     const FamilyIndex lone = family_of(mesh, "LONE", GroupKind::node), row = family_of(mesh, "ROW", GroupKind::node);
     mesh.node_families[1] = mesh.node_families[3] = lone;  // no edge joins them
@@ -266,7 +285,9 @@ TEST(FixedMiddle, EdgeIsSplitThere) {
         std::vector<Index> nodes(n.begin(), n.end());
         for (const auto& e : edges) {
             const auto [at, fresh] = middles.try_emplace({n[e[0]], n[e[1]]}, 0);
-            if (fresh) at->second = mesh.add_node((mesh.points[n[e[0]]] + mesh.points[n[e[1]]]) / 2, mesh.largest_node_id() + 1);
+            if (fresh)
+                at->second =
+                    mesh.add_node((mesh.points[n[e[0]]] + mesh.points[n[e[1]]]) / 2, mesh.largest_node_id() + 1);
             nodes.push_back(at->second);
         }
         mesh.add_cell(CellType::tetra10, nodes, tetras.ids[c]);
@@ -293,7 +314,8 @@ TEST(FixedMiddle, EdgeIsSplitThere) {
 TEST(DiscreteElements, StayOnTheSideWithMoreElements) {
     // Two layers left of the crack's node, or right: the mass goes with the side that has more elements at its node.
     Mesh mesh = grid(4, 2, 2);
-    const FamilyIndex mass = family_of(mesh, "MASS", GroupKind::element), gap = family_of(mesh, "GAP", GroupKind::element);
+    const FamilyIndex mass = family_of(mesh, "MASS", GroupKind::element),
+                      gap = family_of(mesh, "GAP", GroupKind::element);
     std::map<Index, int> balance;  // positive elements less negative ones, by node in the plane
     const CellBlock& tetras = mesh.block(CellType::tetra);
     for (Index c = 0; c < tetras.size(); ++c) {
@@ -331,8 +353,9 @@ TEST(DiscreteElements, StayOnTheSideWithMoreElements) {
     const auto ends = result.mesh.block(CellType::line).nodes(0);
     EXPECT_EQ(is_positive(ends[0]), balance.at(from) + balance.at(to) > 0);
     EXPECT_EQ(is_positive(ends[1]), is_positive(ends[0])) << "whole on one side";
-    EXPECT_THAT(result.report.warnings, testing::Contains(testing::AllOf(HasSubstr(std::to_string(balance.size()) + " point element(s)"),
-                                                                         HasSubstr(std::to_string(positive) + " on the positive"))));
+    EXPECT_THAT(result.report.warnings,
+                testing::Contains(testing::AllOf(HasSubstr(std::to_string(balance.size()) + " point element(s)"),
+                                                 HasSubstr(std::to_string(positive) + " on the positive"))));
     EXPECT_THAT(result.report.warnings, testing::Contains(HasSubstr("1 segment element(s)")));
 }
 
@@ -346,7 +369,8 @@ double distance_to(const Mesh& mesh, const Nodes& simplex, const Vec3& x) {
     const std::vector<Index> n(simplex.begin(), simplex.end());
     if (n.size() == 1) return (mesh.points[n[0]] - x).norm();
     Eigen::MatrixXd edges(3, static_cast<Eigen::Index>(n.size()) - 1);
-    for (std::size_t k = 1; k < n.size(); ++k) edges.col(static_cast<Eigen::Index>(k) - 1) = mesh.points[n[k]] - mesh.points[n[0]];
+    for (std::size_t k = 1; k < n.size(); ++k)
+        edges.col(static_cast<Eigen::Index>(k) - 1) = mesh.points[n[k]] - mesh.points[n[0]];
     const Eigen::VectorXd l = (edges.transpose() * edges).inverse() * edges.transpose() * (x - mesh.points[n[0]]);
     if (l.minCoeff() >= 0 && l.sum() <= 1) return (edges * l - (x - mesh.points[n[0]])).norm();
     double best = std::numeric_limits<double>::infinity();
@@ -361,7 +385,8 @@ bool lies_on(const Mesh& mesh, const Nodes& simplex, const Vec3& x) {
         high = high.cwiseMax(mesh.points[n]);
     }
     for (int a = 0; a < 3; ++a)  // not in the simplex's box: x made it larger
-        if (std::ranges::all_of(simplex, [&](Index n) { return mesh.points[n][a] > x[a] + near || mesh.points[n][a] < x[a] - near; }) &&
+        if (std::ranges::all_of(
+                simplex, [&](Index n) { return mesh.points[n][a] > x[a] + near || mesh.points[n][a] < x[a] - near; }) &&
             (low[a] == x[a] || high[a] == x[a]))
             return false;
     return distance_to(mesh, simplex, x) < near;
@@ -381,9 +406,12 @@ std::set<Nodes> member_places(const Mesh& mesh, GroupIndex group) {
         if (!mesh.families.contains(f.family, group)) continue;
         constexpr int table[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
         const auto n = mesh.block(f.type).nodes(f.cell);
-        if (n.size() == 4) out.insert({n[table[f.face - 1][0]], n[table[f.face - 1][1]], n[table[f.face - 1][2]]});
-        else if (f.face <= 2) out.insert(Nodes(n.begin(), n.end()));
-        else out.insert({n[f.face - 3], n[(f.face - 2) % 3]});
+        if (n.size() == 4)
+            out.insert({n[table[f.face - 1][0]], n[table[f.face - 1][1]], n[table[f.face - 1][2]]});
+        else if (f.face <= 2)
+            out.insert(Nodes(n.begin(), n.end()));
+        else
+            out.insert({n[f.face - 3], n[(f.face - 2) % 3]});
     }
     return out;
 }
@@ -397,7 +425,8 @@ bool closes(const Mesh& mesh, GroupIndex group, const VirtualBoundary& boundary)
         return members.contains(place);
     };
     return !std::ranges::all_of(boundary.linking.faces, is_member) ||
-           !std::ranges::all_of(boundary.enclosed, [&](const CellRef& c) { return is_member(mesh.block(c.type).nodes(c.cell)); });
+           !std::ranges::all_of(boundary.enclosed,
+                                [&](const CellRef& c) { return is_member(mesh.block(c.type).nodes(c.cell)); });
 }
 
 std::set<std::string> names(const Mesh& mesh, FamilyIndex family, std::size_t of_input) {
@@ -407,8 +436,9 @@ std::set<std::string> names(const Mesh& mesh, FamilyIndex family, std::size_t of
     return out;
 }
 
-/// Where a node group has shortcuts through the material, from one kept face of the group to another, its nodes need not
-/// keep to them (band_boundaries.h), so the place of a node tells nothing: the tetrahedra around such faces and edges.
+/// Where a node group has shortcuts through the material, from one kept face of the group to another, its nodes need
+/// not keep to them (band_boundaries.h), so the place of a node tells nothing: the tetrahedra around such faces and
+/// edges.
 std::set<Nodes> shortcut_zone(const Mesh& mesh, GroupIndex group) {
     const auto in = [&](Index n) { return mesh.families.contains(mesh.node_families[n], group); };
     std::map<Nodes, std::set<FamilyIndex>> families;
@@ -426,7 +456,8 @@ std::set<Nodes> shortcut_zone(const Mesh& mesh, GroupIndex group) {
     for (const auto& [f, n] : count)
         if (n == 1 || families[f].size() > 1) kept.insert(f);
     const CellBlock& triangles = mesh.block(CellType::triangle);
-    for (Index c = 0; c < triangles.size(); ++c) kept.insert(Nodes(triangles.nodes(c).begin(), triangles.nodes(c).end()));
+    for (Index c = 0; c < triangles.size(); ++c)
+        kept.insert(Nodes(triangles.nodes(c).begin(), triangles.nodes(c).end()));
     for (const Facet& f : mesh.facets)
         if (f.type == CellType::tetra) {
             constexpr int table[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
@@ -485,19 +516,20 @@ Measures measure(const Mesh& mesh, const VirtualBoundary& b, const CutPlane& pla
     for (const CellRef& c : b.enclosed) {
         const auto n = mesh.block(c.type).nodes(c.cell);
         const Vec3 x = mesh.points[n[1]] - mesh.points[n[0]], y = mesh.points[n[2]] - mesh.points[n[0]];
-        out.enclosed += n.size() == 4 ? x.cross(y).dot(mesh.points[n[3]] - mesh.points[n[0]]) / 6 : x.cross(y).norm() / 2;
+        out.enclosed +=
+            n.size() == 4 ? x.cross(y).dot(mesh.points[n[3]] - mesh.points[n[0]]) / 6 : x.cross(y).norm() / 2;
     }
     return out;
 }
 
 class RandomGroupsCracked : public testing::TestWithParam<int> {};
 
-/// Members afterwards are the image of the members before: every element is in the groups of the one of the input that its
-/// centre lies in, every node of the input in its own groups, every new one in the node groups that cover its place.
-/// (All boundaries are flat here and kept, so places tell.) The virtual boundary of the image is the image of the
-/// virtual boundary: it covers the same places, measured. What the crack opened counts once. Not compared are groups of
-/// edges (faces) that cover more than themselves, a triangle by all its edges: the crack makes no elements of the edges it
-/// cuts such a triangle with, which would add beams nobody asked for, so that its parts are not covered.
+/// Members afterwards are the image of the members before: every element is in the groups of the one of the input that
+/// its centre lies in, every node of the input in its own groups, every new one in the node groups that cover its
+/// place. (All boundaries are flat here and kept, so places tell.) The virtual boundary of the image is the image of
+/// the virtual boundary: it covers the same places, measured. What the crack opened counts once. Not compared are
+/// groups of edges (faces) that cover more than themselves, a triangle by all its edges: the crack makes no elements of
+/// the edges it cuts such a triangle with, which would add beams nobody asked for, so that its parts are not covered.
 TEST_P(RandomGroupsCracked, MembersAreTheImage) {
     std::mt19937 rng(static_cast<unsigned>(1000 + GetParam()));
     const int dimension = GetParam() % 2 ? 3 : 2;
@@ -536,7 +568,8 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
                 const bool lip = after.families.groups(b.families[c]).size() > now.size();
                 std::optional<std::set<std::string>> expected;
                 for (Index o = 0; o < old.size() && !expected; ++o)
-                    if (lies_on(mesh, Nodes(old.nodes(o).begin(), old.nodes(o).end()), centre)) expected = names(mesh, old.families[o], group_count);
+                    if (lies_on(mesh, Nodes(old.nodes(o).begin(), old.nodes(o).end()), centre))
+                        expected = names(mesh, old.families[o], group_count);
                 if (!expected && lip) expected.emplace();  // made by the crack
                 ASSERT_TRUE(expected) << "element " << b.ids[c] << " is where none was";
                 EXPECT_EQ(now, *expected) << "element " << b.ids[c];
@@ -564,9 +597,11 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
                 for (Index n = 0; n < after.node_count(); ++n) {
                     const bool member = after.families.contains(after.node_families[n], g);
                     if (const auto old = old_nodes.find(after.node_ids[n]); old != old_nodes.end()) {
-                        EXPECT_EQ(member, mesh.families.contains(mesh.node_families[old->second], g)) << "node " << after.node_ids[n];
+                        EXPECT_EQ(member, mesh.families.contains(mesh.node_families[old->second], g))
+                            << "node " << after.node_ids[n];
                         if (e.isolated.contains(old->second)) {
-                            EXPECT_EQ(after.points[n], mesh.points[old->second]) << "isolated node " << after.node_ids[n] << " moved";
+                            EXPECT_EQ(after.points[n], mesh.points[old->second])
+                                << "isolated node " << after.node_ids[n] << " moved";
                         }
                         continue;
                     }
@@ -577,7 +612,8 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
                     }
                     ++checked_nodes;
                     joined += member;
-                    EXPECT_EQ(member, lies_on(mesh, cover, after.points[n])) << "new node " << after.node_ids[n] << " at " << after.points[n].transpose();
+                    EXPECT_EQ(member, lies_on(mesh, cover, after.points[n]))
+                        << "new node " << after.node_ids[n] << " at " << after.points[n].transpose();
                 }
             }
             if (!node_group) {  // whose shortcuts through the material may drift
@@ -598,7 +634,8 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
     }
     EXPECT_GT(cracked, 1);
     EXPECT_GT(compared, 20);
-    std::cout << "[   GROUPS ] " << cracked << " of 4 meshes cracked, " << group_count << " groups each: " << checked_nodes << " of " << born
+    std::cout << "[   GROUPS ] " << cracked << " of 4 meshes cracked, " << group_count
+              << " groups each: " << checked_nodes << " of " << born
               << " (new node, node group) pairs checked by place, " << joined << " of them members, " << unclear
               << " near a shortcut; virtual boundary compared for " << compared << " groups\n";
 }

@@ -460,8 +460,9 @@ TEST_F(Inp, EveryErrorNamesFileAndLine) {
 }
 
 TEST_F(Inp, WarnsWhereCalculixWarns) {
-    const Mesh mesh = read("*NODE, FOO=1\n1\n2,1\n3,0,1\n1,0,0,0\n*ELEMENT,TYPE=S3,ELSET=E\n1,1,2,3,99\n"
-                           "*NSET,NSET=A\n1,8,9\n*ELSET,ELSET=B\n1,7\n*NSET,NSET=C,GENERATE\n2,1000000000\n");
+    const Mesh mesh = read(
+        "*NODE, FOO=1\n1\n2,1\n3,0,1\n1,0,0,0\n*ELEMENT,TYPE=S3,ELSET=E\n1,1,2,3,99\n"
+        "*NSET,NSET=A\n1,8,9\n*ELSET,ELSET=B\n1,7\n*NSET,NSET=C,GENERATE\n2,1000000000\n");
     EXPECT_THAT(mesh.node_ids, ElementsAre(1, 2, 3));  // node 1 was repeated with the same coordinates
     EXPECT_THAT(ids(mesh, "A", GroupKind::node), ElementsAre(1));
     EXPECT_THAT(ids(mesh, "B", GroupKind::element), ElementsAre(1));

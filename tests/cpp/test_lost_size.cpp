@@ -4,10 +4,10 @@
 
 #include <numbers>
 
+#include "mesh/quality.h"
 #include "operators/crack.h"
 #include "operators/cut.h"
 #include "operators/drill.h"
-#include "mesh/quality.h"
 #include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
@@ -22,7 +22,8 @@ using testing::Not;
 
 const auto says_lost = Contains(HasSubstr("the curved skin is coarse"));
 
-/// The box from 0 to n bent to a rod about the z-axis (its square section made round) or a ball: a skin of few flat facets.
+/// The box from 0 to n bent to a rod about the z-axis (its square section made round) or a ball: a skin of few flat
+/// facets.
 Mesh rounded(int n, int height, bool ball) {
     Mesh mesh = checks::grid(n, n, height);
     const Vec3 half(n / 2.0, n / 2.0, height / 2.0);
@@ -82,7 +83,7 @@ TEST(LostSizeTest, NothingIsLostWhereTheSkinIsFlat) {
         if (mesh.points[tetras.nodes(c)[0]].x() < 3) tetras.families[c] = left;
     const Cylinder hole({2.7, 3.1, 0}, {0, 0, 1}, 1.6), slanting({2.7, 3.1, 0}, {0.2, 0.1, 1}, 1.2);
     const Sphere bubble({3.2, 2.9, 4}, 1.7);
-    const Tool *tools[] = {&hole, &slanting, &bubble};
+    const Tool* tools[] = {&hole, &slanting, &bubble};
     for (const Tool*& tool : tools) {
         auto options = smooth<DrillOptions>();
         options.feature_angle = 30;
@@ -100,7 +101,8 @@ TEST(LostSizeTest, NothingIsLostWhereTheSkinIsFlat) {
     EXPECT_THAT(crack(mesh, Plane({3.3, 3, 2}, {1, 0.3, 0.2})).report.warnings, Not(says_lost));
     CrackOptions drifting;
     drifting.preserve.emplace();
-    EXPECT_THAT(crack(mesh, Plane({3.3, 3, 2}, {1, 0.03, 0.02}), drifting).report.warnings, Not(says_lost)) << "a drifting border hands over, nothing is lost";
+    EXPECT_THAT(crack(mesh, Plane({3.3, 3, 2}, {1, 0.03, 0.02}), drifting).report.warnings, Not(says_lost))
+        << "a drifting border hands over, nothing is lost";
 }
 
 TEST(LostSizeTest, SecondOrderAndShells) {
@@ -119,7 +121,8 @@ TEST(LostSizeTest, SecondOrderAndShells) {
         x = Vec3(2 * std::cos(angle), 2 * std::sin(angle), x.y());
     }
     EXPECT_THAT(crack(plate, Plane({0.4, 0.9, 3.2}, {0.2, 1, 0.3}), smooth<CrackOptions>()).report.warnings, says_lost);
-    EXPECT_THAT(cut(plate, Plane({0.4, 0.9, 3.2}, {0.2, 1, 0.3}), 0.6, smooth<CutOptions>()).report.warnings, says_lost);
+    EXPECT_THAT(cut(plate, Plane({0.4, 0.9, 3.2}, {0.2, 1, 0.3}), 0.6, smooth<CutOptions>()).report.warnings,
+                says_lost);
 }
 
 TEST(LostSizeTest, GroupsAreNamedAndDriftingOnesAreNot) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "io/med.h"
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <med.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <bit>
@@ -122,7 +122,8 @@ Mesh random_mesh(std::mt19937& random, int groups = 40) {
             for (Index id : ids)
                 if (random() % one_in == 0) members.back().ids.push_back(id);
         };
-        if (kind == GroupKind::node) pick(mesh.node_ids);
+        if (kind == GroupKind::node)
+            pick(mesh.node_ids);
         else
             for (const CellBlock& block : mesh.blocks()) pick(block.ids);
     }
@@ -298,8 +299,10 @@ TEST_F(MedTest, FamiliesBecomeGroupsOfTheirKind) {
         raw.families(MED_NODE, MED_NONE, {3, 0, 4, 0});
         raw.families(MED_CELL, MED_TRIA3, {0, -1});
     }
-    const Members expected = {{{GroupKind::node, "BOTH"}, {1, 3}},  {{GroupKind::node, "CORNER"}, {3}},
-                              {{GroupKind::node, "NO_NODE"}, {}},   {{GroupKind::element, "BOTH"}, {2}},
+    const Members expected = {{{GroupKind::node, "BOTH"}, {1, 3}},
+                              {{GroupKind::node, "CORNER"}, {3}},
+                              {{GroupKind::node, "NO_NODE"}, {}},
+                              {{GroupKind::element, "BOTH"}, {2}},
                               {{GroupKind::element, "NO_FACE"}, {}}};
     EXPECT_EQ(members_of(read_med(path_)), expected);
 }
@@ -325,9 +328,7 @@ TEST_F(MedTest, BadContentIsNamed) {
         raw.elements(MED_TRIA3, {1, 2, 3, 1, 3, 5});
     });
     expect_error<ReadError>([&] { read_med(path_); }, "TRIA3 element 2 of that type refers to node 5 of 4");
-    with([](const RawMed& raw) {
-        raw.nodes({0, 0, std::nan("")});
-    });
+    with([](const RawMed& raw) { raw.nodes({0, 0, std::nan("")}); });
     expect_error<ReadError>([&] { read_med(path_); }, "node 1 has a coordinate that is not a finite number");
     with([](const RawMed& raw) {
         raw.nodes(unit_square);
@@ -361,8 +362,8 @@ TEST_F(MedTest, BadContentIsNamed) {
 
 struct MedShape {
     CellType linear;
-    std::vector<Vec3> corners;                  // in MED's order, a well-shaped element
-    std::vector<std::array<int, 2>> edges;      // MED's mid-side nodes, as corners of MED
+    std::vector<Vec3> corners;                   // in MED's order, a well-shaped element
+    std::vector<std::array<int, 2>> edges;       // MED's mid-side nodes, as corners of MED
     std::vector<std::vector<int>> face_centres;  // MED's face centres, as corners of MED
     double volume;
 };
@@ -407,11 +408,10 @@ double volume(const CellTraits& t, const std::vector<Vec3>& p) {
 TEST_F(MedTest, VolumesTurnIntoTheMeshsNodeOrder) {
     // MED type and whether it has mid-side nodes and face centres.
     const std::tuple<CellType, med_geometry_type> types[] = {
-        {CellType::tetra, MED_TETRA4},         {CellType::tetra10, MED_TETRA10},
-        {CellType::pyramid, MED_PYRA5},        {CellType::pyramid13, MED_PYRA13},
-        {CellType::wedge, MED_PENTA6},         {CellType::wedge15, MED_PENTA15},
-        {CellType::wedge18, MED_PENTA18},      {CellType::hexahedron, MED_HEXA8},
-        {CellType::hexahedron20, MED_HEXA20},  {CellType::hexahedron27, MED_HEXA27},
+        {CellType::tetra, MED_TETRA4},        {CellType::tetra10, MED_TETRA10},  {CellType::pyramid, MED_PYRA5},
+        {CellType::pyramid13, MED_PYRA13},    {CellType::wedge, MED_PENTA6},     {CellType::wedge15, MED_PENTA15},
+        {CellType::wedge18, MED_PENTA18},     {CellType::hexahedron, MED_HEXA8}, {CellType::hexahedron20, MED_HEXA20},
+        {CellType::hexahedron27, MED_HEXA27},
     };
     for (const auto& [type, geometry] : types) {
         const CellTraits& t = traits(type);
@@ -441,11 +441,16 @@ TEST_F(MedTest, VolumesTurnIntoTheMeshsNodeOrder) {
         for (Index n : mesh.block(type).nodes(0)) p.push_back(mesh.points[static_cast<std::size_t>(n)]);
         EXPECT_NEAR(volume(t, p), shape.volume, 1e-12);
         for (std::size_t e = 0; t.quadratic && e < t.edges.size(); ++e)
-            EXPECT_EQ(p[static_cast<std::size_t>(t.corners) + e], mean(p, std::vector<int>{t.edges[e][0], t.edges[e][1]}));
+            EXPECT_EQ(p[static_cast<std::size_t>(t.corners) + e],
+                      mean(p, std::vector<int>{t.edges[e][0], t.edges[e][1]}));
         // VTK's order of face centres.
         const std::vector<std::vector<int>> wedge_centres = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
-        const std::vector<std::vector<int>> hexahedron_centres = {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4},
-                                                                  {2, 3, 7, 6}, {0, 1, 2, 3}, {4, 5, 6, 7},
+        const std::vector<std::vector<int>> hexahedron_centres = {{0, 3, 7, 4},
+                                                                  {1, 2, 6, 5},
+                                                                  {0, 1, 5, 4},
+                                                                  {2, 3, 7, 6},
+                                                                  {0, 1, 2, 3},
+                                                                  {4, 5, 6, 7},
                                                                   {0, 1, 2, 3, 4, 5, 6, 7}};
         const std::size_t first = static_cast<std::size_t>(t.corners) + (t.quadratic ? t.edges.size() : 0);
         for (std::size_t f = 0; first + f < p.size(); ++f)
@@ -500,8 +505,8 @@ TEST_F(MedTest, FacetsOfVolumesBecomeOutwardFaceElements) {
         if (type == CellType::wedge18)
             for (const auto& f : shape.face_centres) p.push_back(mean(p, f));
         if (type == CellType::hexahedron27)
-            for (const auto& f : std::vector<std::vector<int>>{{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {2, 3, 7, 6},
-                                                               {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 6}})
+            for (const auto& f : std::vector<std::vector<int>>{
+                     {0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 6}})
                 p.push_back(mean(p, f));
         ASSERT_GT(volume(t, p), 0);
         Mesh mesh;
@@ -549,8 +554,10 @@ TEST_F(MedTest, FacetsOfShells) {
     Mesh mesh;
     for (std::size_t i = 0; i < 4; ++i) mesh.add_node(Vec3(unit_square.data() + 3 * i), static_cast<Index>(i) + 1);
     mesh.add_cell(CellType::quad, std::array<Index, 4>{0, 1, 2, 3}, 10);
-    const std::vector<GroupMembers> members = {{GroupKind::facet, {10}, {1}}, {GroupKind::facet, {10}, {2}},
-                                               {GroupKind::facet, {10}, {4}}, {GroupKind::element, {10}, {}},
+    const std::vector<GroupMembers> members = {{GroupKind::facet, {10}, {1}},
+                                               {GroupKind::facet, {10}, {2}},
+                                               {GroupKind::facet, {10}, {4}},
+                                               {GroupKind::element, {10}, {}},
                                                {GroupKind::facet, {}, {}}};
     mesh.add_group("BELOW", GroupKind::facet);
     mesh.add_group("PLATE", GroupKind::facet);
@@ -594,7 +601,8 @@ TEST_F(MedTest, DamagedFilesAreRefusedOrValid) {
     for (int k = 0; k < count; ++k) {
         std::string bytes = whole;
         // Half of the flips hit the first bytes, where most of the structure is.
-        if (k % 4 == 0) bytes.resize(random() % whole.size());
+        if (k % 4 == 0)
+            bytes.resize(random() % whole.size());
         else
             for (unsigned n = k % 4 == 1 ? 1 : 1 + random() % 8; n > 0; --n)
                 bytes[random() % (k % 2 ? whole.size() : 8192)] ^= static_cast<char>(1 + random() % 255);

@@ -43,8 +43,10 @@ TEST(Mesh, GroupsMayOverlap) {
 
 TEST(Mesh, AssignGroupsEqualsOneByOne) {
     Mesh one = two_triangles(), all = two_triangles();
-    const std::vector<GroupMembers> members = {
-        {GroupKind::element, {9, 7}, {}}, {GroupKind::node, {10, 20, 30}, {}}, {GroupKind::facet, {7, 9}, {2, 5}}, {GroupKind::element, {}, {}}};
+    const std::vector<GroupMembers> members = {{GroupKind::element, {9, 7}, {}},
+                                               {GroupKind::node, {10, 20, 30}, {}},
+                                               {GroupKind::facet, {7, 9}, {2, 5}},
+                                               {GroupKind::element, {}, {}}};
     for (std::size_t g = 0; g < members.size(); ++g) {
         one.add_group("G" + std::to_string(g), members[g].kind);
         all.add_group("G" + std::to_string(g), members[g].kind);
@@ -52,8 +54,10 @@ TEST(Mesh, AssignGroupsEqualsOneByOne) {
     }
     assign_groups(all, members);
     for (std::size_t g = 0; g < members.size(); ++g) {
-        EXPECT_EQ(group_members(one, static_cast<GroupIndex>(g)).ids, group_members(all, static_cast<GroupIndex>(g)).ids);
-        EXPECT_EQ(group_members(one, static_cast<GroupIndex>(g)).faces, group_members(all, static_cast<GroupIndex>(g)).faces);
+        EXPECT_EQ(group_members(one, static_cast<GroupIndex>(g)).ids,
+                  group_members(all, static_cast<GroupIndex>(g)).ids);
+        EXPECT_EQ(group_members(one, static_cast<GroupIndex>(g)).faces,
+                  group_members(all, static_cast<GroupIndex>(g)).faces);
     }
 }
 

@@ -39,7 +39,8 @@ TEST_F(PoorTest, WhatHoldsIsNamed) {
     for (Index c = 0; c < mesh.block(CellType::tetra).size(); ++c) {
         double z = 0;
         for (const Index n : mesh.block(CellType::tetra).nodes(c)) z += mesh.points[n].z() / 4;
-        if (z > 3) mesh.block(CellType::tetra).families[c] = mesh.families.with(mesh.block(CellType::tetra).families[c], top);
+        if (z > 3)
+            mesh.block(CellType::tetra).families[c] = mesh.families.with(mesh.block(CellType::tetra).families[c], top);
     }
     Interface f = interface();
     // Nearly onto the border of TOP, which is at z = 3.
@@ -52,7 +53,8 @@ TEST_F(PoorTest, WhatHoldsIsNamed) {
     EXPECT_NEAR(places[0].gap, 0.5, 1e-3);
     EXPECT_NEAR(places[0].place.z(), 2.75, 0.3);
     ASSERT_EQ(f.warnings.size(), places.size());
-    EXPECT_THAT(f.warnings[0], testing::AllOf(testing::HasSubstr("'TOP'"), testing::HasSubstr("preserve"), testing::HasSubstr("plane")));
+    EXPECT_THAT(f.warnings[0], testing::AllOf(testing::HasSubstr("'TOP'"), testing::HasSubstr("preserve"),
+                                              testing::HasSubstr("plane")));
 }
 
 TEST_F(PoorTest, ATenthOfTheInputsWorstIsAllowed) {

@@ -23,8 +23,9 @@ TEST(ReferenceHoles, AreRoundTrueToSizeAndWellShaped) {
         const Result result = drill(mesh, {&tool, 1});
         const HoleMeasures m = measure(hole, mesh, result.mesh);
         const double quality = result.report.quality_after.minimum;
-        std::cout << "[  QUALITY ] " << hole.name << ": minimum mean ratio " << quality << ", removed volume " << 100 * m.volume_error << " %, nodes off the wall "
-                  << m.off_wall << ", off the border between the boxes " << m.off_border << "\n";
+        std::cout << "[  QUALITY ] " << hole.name << ": minimum mean ratio " << quality << ", removed volume "
+                  << 100 * m.volume_error << " %, nodes off the wall " << m.off_wall
+                  << ", off the border between the boxes " << m.off_border << "\n";
         EXPECT_GE(quality, hole.quality);
         EXPECT_LE(std::abs(m.volume_error), 0.015);
         EXPECT_GT(m.wall_faces, 100);

@@ -34,7 +34,8 @@ constexpr int runs_per_mesh = 40;
 using Ends = std::pair<Index, Index>;
 Ends ends(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Edges of all elements of dimension 2 and 3 (or all), with their mid-side nodes (-1: none). A second mid-side node is a finding.
+/// Edges of all elements of dimension 2 and 3 (or all), with their mid-side nodes (-1: none). A second mid-side node is
+/// a finding.
 std::map<Ends, Index> edges_of(const Mesh& mesh, int from_dimension, std::vector<std::string>& bad) {
     std::map<Ends, Index> edges;
     for (const CellBlock& b : mesh.blocks()) {
@@ -45,7 +46,9 @@ std::map<Ends, Index> edges_of(const Mesh& mesh, int from_dimension, std::vector
             for (std::size_t e = 0; e < t.edges.size(); ++e) {
                 const Index mid = t.quadratic ? n[t.corners + static_cast<int>(e)] : -1;
                 const auto [it, fresh] = edges.emplace(ends(n[t.edges[e][0]], n[t.edges[e][1]]), mid);
-                if (!fresh && it->second != mid) bad.push_back("conforming: element " + std::to_string(b.ids[c]) + " has another mid-side node than its neighbour");
+                if (!fresh && it->second != mid)
+                    bad.push_back("conforming: element " + std::to_string(b.ids[c]) +
+                                  " has another mid-side node than its neighbour");
             }
         }
     }
@@ -58,10 +61,14 @@ double skin_area(const Mesh& mesh) {
     double area = 0;
     const std::vector<TetraFace> faces = tetra_faces(mesh);
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        if ((i > 0 && faces[i - 1].key == faces[i].key) || (i + 1 < faces.size() && faces[i + 1].key == faces[i].key)) continue;
+        if ((i > 0 && faces[i - 1].key == faces[i].key) || (i + 1 < faces.size() && faces[i + 1].key == faces[i].key))
+            continue;
         const auto &f = faces[i].outward, &m = faces[i].mid;
-        if (m[0] < 0) area += cell_measure(skin, CellType::triangle, skin.add_cell(CellType::triangle, f, 1));
-        else area += cell_measure(skin, CellType::triangle6, skin.add_cell(CellType::triangle6, std::array{f[0], f[1], f[2], m[0], m[1], m[2]}, 1));
+        if (m[0] < 0)
+            area += cell_measure(skin, CellType::triangle, skin.add_cell(CellType::triangle, f, 1));
+        else
+            area += cell_measure(skin, CellType::triangle6,
+                                 skin.add_cell(CellType::triangle6, std::array{f[0], f[1], f[2], m[0], m[1], m[2]}, 1));
     }
     return area;
 }
@@ -70,12 +77,14 @@ double skin_area(const Mesh& mesh) {
 std::set<std::string> group_names(const Mesh& mesh, FamilyIndex family) {
     std::set<std::string> names;
     for (const GroupIndex g : mesh.families.groups(family))
-        if (!mesh.groups[g].hidden) names.insert(std::string(to_string(mesh.groups[g].kind)) + " " + mesh.groups[g].name);
+        if (!mesh.groups[g].hidden)
+            names.insert(std::string(to_string(mesh.groups[g].kind)) + " " + mesh.groups[g].name);
     return names;
 }
 
 /// Everything that does not hold; empty when all is well.
-std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& distance, const RefineOptions& options, const Result& result) {
+std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& distance, const RefineOptions& options,
+                                          const Result& result) {
     std::vector<std::string> bad;
     const Mesh& out = result.mesh;
     out.validate();
@@ -89,7 +98,8 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
     // Nothing of the input moves or changes its number; new numbers are above the largest.
     for (Index n = 0; n < in.node_count(); ++n) {
         if (out.node_ids[n] != in.node_ids[n] || out.points[n] != in.points[n]) add("untouched: node ", in.node_ids[n]);
-        if (group_names(out, out.node_families[n]) != group_names(in, in.node_families[n])) add("groups: node ", in.node_ids[n]);
+        if (group_names(out, out.node_families[n]) != group_names(in, in.node_families[n]))
+            add("groups: node ", in.node_ids[n]);
     }
     for (Index n = in.node_count(); n < out.node_count(); ++n)
         if (out.node_ids[n] <= in.largest_node_id()) add("numbers: node ", out.node_ids[n]);
@@ -98,7 +108,8 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
         const CellBlock& old = in.block(b.type);
         for (Index c = 0; c < old.size(); ++c) {
             if (b.ids[c] != old.ids[c]) add("untouched: element ", old.ids[c]);
-            if (group_names(out, b.families[c]) != group_names(in, old.families[c])) add("groups: element ", old.ids[c]);
+            if (group_names(out, b.families[c]) != group_names(in, old.families[c]))
+                add("groups: element ", old.ids[c]);
         }
         for (Index c = old.size(); c < b.size(); ++c)
             if (b.ids[c] <= in.largest_cell_id()) add("numbers: element ", b.ids[c]);
@@ -109,7 +120,8 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
         const CellBlock& b = out.block(type);
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
-            if (signed_volume(out.points[n[0]], out.points[n[1]], out.points[n[2]], out.points[n[3]]) <= 0) add("shape: element ", b.ids[c], " inverted");
+            if (signed_volume(out.points[n[0]], out.points[n[1]], out.points[n[2]], out.points[n[3]]) <= 0)
+                add("shape: element ", b.ids[c], " inverted");
             if (type == CellType::tetra) continue;
             std::array<Vec3, 10> x;
             for (int k = 0; k < 10; ++k) x[k] = out.points[n[k]];
@@ -126,7 +138,8 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
     for (const TetraFace& f : faces) keys.insert(f.key);
     for (std::size_t i = 2; i < faces.size(); ++i)
         if (faces[i].key == faces[i - 2].key) add("conforming: three tetrahedra on one face");
-    const double tolerance = in.block(CellType::tetra10).size() > 0 ? 1e-6 : 1e-9;  // of the area's quadrature on curved faces
+    const double tolerance =
+        in.block(CellType::tetra10).size() > 0 ? 1e-6 : 1e-9;  // of the area's quadrature on curved faces
     const double area = skin_area(in);
     if (std::abs(skin_area(out) - area) > tolerance * area) add("conforming: skin area ", area, " -> ", skin_area(out));
     std::vector<std::string> ignored;
@@ -134,7 +147,8 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
     const auto loose = [&](const Mesh& mesh, const std::map<Ends, Index>& of) {
         int count = 0;
         for (const CellType type : {CellType::line, CellType::line3})
-            for (Index c = 0; c < mesh.block(type).size(); ++c) count += !of.contains(ends(mesh.block(type).nodes(c)[0], mesh.block(type).nodes(c)[1]));
+            for (Index c = 0; c < mesh.block(type).size(); ++c)
+                count += !of.contains(ends(mesh.block(type).nodes(c)[0], mesh.block(type).nodes(c)[1]));
         return count;
     };
     if (loose(out, inner) != loose(in, inner_before)) add("conforming: segments came off their elements");
@@ -151,7 +165,8 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
             }
         return sum;
     };
-    if (const double a = shells(in, keys_before), b = shells(out, keys); std::abs(a - b) > 1e-9 * std::max(a, b)) add("conforming: triangles came off their tetrahedra");
+    if (const double a = shells(in, keys_before), b = shells(out, keys); std::abs(a - b) > 1e-9 * std::max(a, b))
+        add("conforming: triangles came off their tetrahedra");
     if (const double a = area, b = shells(in, keys_before); a == 0) {  // a shell mesh: its border keeps its length
         static_cast<void>(b);
         const auto border = [](const Mesh& mesh) {
@@ -161,21 +176,25 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
                 const auto n = mesh.block(CellType::triangle).nodes(c);
                 for (int k = 0; k < 3; ++k) ++count[ends(n[k], n[(k + 1) % 3])];
             }
-            for (const auto& [e, k] : count) length += k == 1 ? (mesh.points[e.first] - mesh.points[e.second]).norm() : 0;
+            for (const auto& [e, k] : count)
+                length += k == 1 ? (mesh.points[e.first] - mesh.points[e.second]).norm() : 0;
             return length;
         };
-        if (std::abs(border(in) - border(out)) > 1e-9 * border(in)) add("conforming: border length ", border(in), " -> ", border(out));
+        if (std::abs(border(in) - border(out)) > 1e-9 * border(in))
+            add("conforming: border length ", border(in), " -> ", border(out));
     }
 
     // Groups: the same, each with the measure it had.
     const std::vector<GroupSum> sums = group_sums(in), sums_after = group_sums(out);
     if (in.groups.size() != out.groups.size()) add("groups: their number");
     for (std::size_t g = 0; g < std::min(in.groups.size(), out.groups.size()); ++g) {
-        if (in.groups[g].name != out.groups[g].name || in.groups[g].kind != out.groups[g].kind) add("groups: name of ", in.groups[g].name);
+        if (in.groups[g].name != out.groups[g].name || in.groups[g].kind != out.groups[g].kind)
+            add("groups: name of ", in.groups[g].name);
         if (in.groups[g].kind == GroupKind::node) continue;
         if (std::abs(sums[g].measure - sums_after[g].measure) > tolerance * sums[g].measure)
             add("groups: measure of ", in.groups[g].name, ": ", sums[g].measure, " -> ", sums_after[g].measure);
-        if ((sums[g].normal_area - sums_after[g].normal_area).norm() > 1e-9 * std::max(1.0, sums[g].measure)) add("groups: area vector of ", in.groups[g].name);
+        if ((sums[g].normal_area - sums_after[g].normal_area).norm() > 1e-9 * std::max(1.0, sums[g].measure))
+            add("groups: area vector of ", in.groups[g].name);
     }
     // A node group that was all nodes of an element group, at least is so still.
     for (std::size_t g = 0; g < in.groups.size(); ++g) {
@@ -187,10 +206,12 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
             for (const CellBlock& b : mesh.blocks())
                 for (Index c = 0; c < b.size(); ++c)
                     if (mesh.families.contains(b.families[c], *twin))
-                        for (const Index n : b.nodes(c)) count += !mesh.families.contains(mesh.node_families[n], static_cast<GroupIndex>(g));
+                        for (const Index n : b.nodes(c))
+                            count += !mesh.families.contains(mesh.node_families[n], static_cast<GroupIndex>(g));
             return count;
         };
-        if (missing(in) == 0 && missing(out) > 0) add("groups: nodes of ", in.groups[g].name, " are not in its node group");
+        if (missing(in) == 0 && missing(out) > 0)
+            add("groups: nodes of ", in.groups[g].name, " are not in its node group");
     }
 
     // The size that was asked for.
@@ -200,13 +221,16 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
         const double da = distance(a), db = distance(b), dm = distance((a + b) / 2);
         const double d = da * db < 0 ? 0 : std::min({std::abs(da), std::abs(db), std::abs(dm)});
         const double wanted = options.size + options.gradation * std::max(0.0, d - options.reach);
-        if ((b - a).norm() > wanted * (1 + 1e-12)) add("size: an edge of ", (b - a).norm(), " instead of ", wanted, " at distance ", d);
+        if ((b - a).norm() > wanted * (1 + 1e-12))
+            add("size: an edge of ", (b - a).norm(), " instead of ", wanted, " at distance ", d);
     }
     return bad;
 }
 
 class Refinements : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Refinements, testing::Values("two_boxes", "flanged_cylinder", "l_shape", "quadratic_elbow", "caisson_shell"),
+INSTANTIATE_TEST_SUITE_P(Meshes, Refinements,
+                         testing::Values("two_boxes", "flanged_cylinder", "l_shape", "quadratic_elbow",
+                                         "caisson_shell"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST_P(Refinements, AreConformingAndKeepEverything) {
@@ -216,7 +240,8 @@ TEST_P(Refinements, AreConformingAndKeepEverything) {
     double length = 0;
     Vec3 low = mesh.points[0], high = low;
     const auto edges = edges_of(mesh, 2, ignored);
-    for (const auto& e : edges) length += (mesh.points[e.first.first] - mesh.points[e.first.second]).norm() / static_cast<double>(edges.size());
+    for (const auto& e : edges)
+        length += (mesh.points[e.first.first] - mesh.points[e.first.second]).norm() / static_cast<double>(edges.size());
     for (const Vec3& x : mesh.points) {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
@@ -227,7 +252,8 @@ TEST_P(Refinements, AreConformingAndKeepEverything) {
     for (int k = 0; k < runs_per_mesh; ++k) {
         Vec3 at;
         for (int a = 0; a < 3; ++a) at[a] = random.uniform(low[a], high[a]);
-        if (k % 2 == 0) at = mesh.points[static_cast<std::size_t>(random.uniform(0, static_cast<double>(mesh.points.size())))];
+        if (k % 2 == 0)
+            at = mesh.points[static_cast<std::size_t>(random.uniform(0, static_cast<double>(mesh.points.size())))];
         const Vec3 axis = random.direction();
         const Cylinder cylinder(at, axis, length * random.uniform(0.3, 3));
         const Plane plane(at, axis);
@@ -245,21 +271,24 @@ TEST_P(Refinements, AreConformingAndKeepEverything) {
         worst = std::min(worst, result.report.quality_after.minimum);
         worst_ratio = std::min(worst_ratio, result.report.quality_after.minimum / result.report.quality_before.minimum);
         if (findings.empty() || ++failed > 10) continue;
-        ADD_FAILURE() << "run " << k << ", size " << options.size << ", gradation " << options.gradation << ", at (" << at.transpose() << "): " << testing::PrintToString(findings);
+        ADD_FAILURE() << "run " << k << ", size " << options.size << ", gradation " << options.gradation << ", at ("
+                      << at.transpose() << "): " << testing::PrintToString(findings);
     }
     EXPECT_EQ(failed, 0);
     EXPECT_GT(divided, runs_per_mesh * 2 / 3);
     EXPECT_TRUE(identical(mesh, before)) << "the input was changed";
-    std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam() << ", refine: " << divided << " of " << runs_per_mesh
-              << " divide elements; minimum mean ratio " << worst << ", at least " << worst_ratio << " of the input's\n";
+    std::cout << std::setprecision(3) << "[  QUALITY ] " << GetParam() << ", refine: " << divided << " of "
+              << runs_per_mesh << " divide elements; minimum mean ratio " << worst << ", at least " << worst_ratio
+              << " of the input's\n";
 }
 
 /// Two tetrahedra on a face, a hexahedron beside them that shares an edge, a beam, a spring between far nodes.
 struct Little {
     Mesh mesh;
     Little() {
-        for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.3, 0.3, -1.5), Vec3(-1, 0, 0), Vec3(-1, 0, 1), Vec3(0, -1, 0),
-                              Vec3(-1, -1, 0), Vec3(0, -1, 1), Vec3(-1, -1, 1), Vec3(5, 5, 5)})
+        for (const Vec3& x :
+             {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.3, 0.3, -1.5), Vec3(-1, 0, 0),
+              Vec3(-1, 0, 1), Vec3(0, -1, 0), Vec3(-1, -1, 0), Vec3(0, -1, 1), Vec3(-1, -1, 1), Vec3(5, 5, 5)})
             mesh.add_node(x, 10 * (mesh.node_count() + 1));
     }
     FamilyIndex family(const char* name, GroupKind kind) { return mesh.families.with(0, mesh.add_group(name, kind)); }
@@ -272,14 +301,18 @@ const RefineOptions half = [] {
     return o;
 }();
 
-DistanceField everywhere() { return [](const Vec3&) { return 0.0; }; }
+DistanceField everywhere() {
+    return [](const Vec3&) { return 0.0; };
+}
 
 TEST(Refine, FacetsBeamsAndMassesFollow) {
     Little m;
     m.mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 100, m.family("UPPER", GroupKind::element));
     m.mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 2, 1, 4}, 101);
-    m.mesh.add_cell(CellType::line, std::array<Index, 2>{0, 1}, 102, m.family("EDGE", GroupKind::element));   // on the tetrahedra
-    m.mesh.add_cell(CellType::line, std::array<Index, 2>{3, 11}, 103, m.family("BEAM", GroupKind::element));  // on nothing
+    m.mesh.add_cell(CellType::line, std::array<Index, 2>{0, 1}, 102,
+                    m.family("EDGE", GroupKind::element));  // on the tetrahedra
+    m.mesh.add_cell(CellType::line, std::array<Index, 2>{3, 11}, 103,
+                    m.family("BEAM", GroupKind::element));  // on nothing
     m.mesh.add_cell(CellType::vertex, std::array<Index, 1>{1}, 104, m.family("MASS", GroupKind::element));
     m.mesh.facets.push_back({CellType::tetra, 2, m.family("LOAD", GroupKind::facet), 0});  // corners 0, 3, 1
     const FamilyIndex fixed = m.family("FIXED", GroupKind::node);
@@ -303,13 +336,15 @@ TEST(Refine, FacetsBeamsAndMassesFollow) {
         EXPECT_EQ(result.mesh.points[n].y() == 0 && result.mesh.points[n].z() >= 0 && n != 5 && n != 6,
                   result.mesh.families.contains(result.mesh.node_families[n], *result.mesh.find_group("FIXED")))
             << result.mesh.points[n].transpose();
-    for (const GroupRecord& r : result.report.groups) EXPECT_TRUE(r.status == "kept" || r.status == "untouched") << r.name << " " << r.status;
+    for (const GroupRecord& r : result.report.groups)
+        EXPECT_TRUE(r.status == "kept" || r.status == "untouched") << r.name << " " << r.status;
 }
 
 TEST(Refine, HexahedraStopIt) {
     Little m;
     m.mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 100);
-    m.mesh.add_cell(CellType::hexahedron, std::array<Index, 8>{8, 7, 0, 5, 10, 9, 3, 6}, 200);  // its edge 0-3 is the tetrahedron's
+    m.mesh.add_cell(CellType::hexahedron, std::array<Index, 8>{8, 7, 0, 5, 10, 9, 3, 6},
+                    200);  // its edge 0-3 is the tetrahedron's
     const Plane far_end({1, 0, 0}, {1, 0, 0});
     // Away from the hexahedron the tetrahedron is divided, and conforming.
     RefineOptions options;
@@ -321,7 +356,8 @@ TEST(Refine, HexahedraStopIt) {
     EXPECT_THAT(check_refinement(m.mesh, near_end, options, result), testing::IsEmpty());
     EXPECT_EQ(result.mesh.block(CellType::hexahedron).connectivity, m.mesh.block(CellType::hexahedron).connectivity);
     EXPECT_THAT([&] { refine(m.mesh, everywhere(), half); },
-                testing::ThrowsMessage<UnsupportedElementError>(testing::AllOf(testing::HasSubstr("1 hexahedron"), testing::HasSubstr("200"))));
+                testing::ThrowsMessage<UnsupportedElementError>(
+                    testing::AllOf(testing::HasSubstr("1 hexahedron"), testing::HasSubstr("200"))));
 }
 
 TEST(Refine, CurvedElementsKeepTheirGeometry) {
@@ -351,12 +387,14 @@ TEST(Refine, CurvedElementsKeepTheirGeometry) {
     once.size = std::sqrt(2) - 1e-3;
     const Result result = refine(mesh, distance_to(std::vector<Vec3>{corner[1], corner[2]}), once);
     for (Index n = 0; n < 10; ++n) EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
-    std::set<Index> used(result.mesh.block(CellType::tetra10).connectivity.begin(), result.mesh.block(CellType::tetra10).connectivity.end());
+    std::set<Index> used(result.mesh.block(CellType::tetra10).connectivity.begin(),
+                         result.mesh.block(CellType::tetra10).connectivity.end());
     EXPECT_EQ(static_cast<Index>(used.size()), result.mesh.node_count());
 }
 
 TEST(Refine, StraightSecondOrderElementsStayStraight) {
-    // New nodes are relaxed between rounds of bisection; nodes born beside them later must not go back to where they were.
+    // New nodes are relaxed between rounds of bisection; nodes born beside them later must not go back to where they
+    // were.
     Mesh plate = grid(20, 10, 1);
     for (Vec3& x : plate.points) x = x.cwiseProduct(Vec3(2, 2, 0.3));
     const Mesh mesh = second_order(plate);
@@ -404,7 +442,9 @@ TEST(Refine, BadOptions) {
     const auto expect = [&](const char* word, auto change) {
         RefineOptions options = half;
         change(options);
-        EXPECT_THAT([&] { refine(mesh, everywhere(), options); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr(word))) << word;
+        EXPECT_THAT([&] { refine(mesh, everywhere(), options); },
+                    testing::ThrowsMessage<ToolError>(testing::HasSubstr(word)))
+            << word;
     };
     expect("size is 0", [](RefineOptions& o) { o.size = 0; });
     expect("size is -1", [](RefineOptions& o) { o.size = -1; });
@@ -412,9 +452,17 @@ TEST(Refine, BadOptions) {
     expect("gradation is -1", [](RefineOptions& o) { o.gradation = -1; });
     expect("reach is inf", [](RefineOptions& o) { o.reach = INFINITY; });
     expect("feature_angle is 0", [](RefineOptions& o) { o.feature_angle = 0; });
-    expect("more than 10000 elements", [](RefineOptions& o) { o.size = 0.02; o.max_elements = 10000; });
-    EXPECT_THAT([] { distance_to(std::vector<const Tool*>{}); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("near is empty")));
-    EXPECT_THAT([] { distance_to(std::vector<Vec3>{{0, 0, 0}, {0, std::nan(""), 0}}); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr("point 1")));
+    expect("more than 10000 elements", [](RefineOptions& o) {
+        o.size = 0.02;
+        o.max_elements = 10000;
+    });
+    EXPECT_THAT([] { distance_to(std::vector<const Tool*>{}); },
+                testing::ThrowsMessage<ToolError>(testing::HasSubstr("near is empty")));
+    EXPECT_THAT(
+        [] {
+            distance_to(std::vector<Vec3>{{0, 0, 0}, {0, std::nan(""), 0}});
+        },
+        testing::ThrowsMessage<ToolError>(testing::HasSubstr("point 1")));
 }
 
 TEST(Refine, ThenCrackAlongAThinCylinder) {
@@ -427,7 +475,8 @@ TEST(Refine, ThenCrackAlongAThinCylinder) {
     const Result result = crack(refined.mesh, thin);
     EXPECT_GE(result.report.quality_after.minimum, 0.3);
     const double whole = 2 * M_PI * 0.6 * 10;
-    EXPECT_NEAR(group_sums(result.mesh)[*result.mesh.find_group("CRACK_P", GroupKind::element)].measure, whole, 0.04 * whole);
+    EXPECT_NEAR(group_sums(result.mesh)[*result.mesh.find_group("CRACK_P", GroupKind::element)].measure, whole,
+                0.04 * whole);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Nodes that equations relate, two sides of a block that move alike: what is born or doubled on one side is related to what is on
-// the other, or it is told.
+// Nodes that equations relate, two sides of a block that move alike: what is born or doubled on one side is related to
+// what is on the other, or it is told.
 #include <map>
 
 #include "deck_testing.h"
@@ -18,7 +18,8 @@ using testing::Not;
 
 /// Node `a` minus node `b` is zero, in one degree of freedom.
 std::string equal(Index a, Index b, int dof) {
-    return "2\n" + std::to_string(a) + ", " + std::to_string(dof) + ", 1., " + std::to_string(b) + ", " + std::to_string(dof) + ", -1.\n";
+    return "2\n" + std::to_string(a) + ", " + std::to_string(dof) + ", 1., " + std::to_string(b) + ", " +
+           std::to_string(dof) + ", -1.\n";
 }
 
 /// The sides y = 2 and y = 0 of the block move alike.
@@ -45,14 +46,16 @@ std::vector<std::vector<Term>> equations(const Mesh& mesh) {
             out.emplace_back();
             continue;
         }
-        for (std::size_t k = 0; k + 2 < r.size(); k += 3, --left) out.back().push_back({std::stoll(r[k]), std::stoi(r[k + 1]), std::stod(r[k + 2])});
+        for (std::size_t k = 0; k + 2 < r.size(); k += 3, --left)
+            out.back().push_back({std::stoll(r[k]), std::stoi(r[k + 1]), std::stod(r[k + 2])});
     }
     return out;
 }
 
 class RelatedNodesOfDeck : public DeckSemantics {
 protected:
-    /// Every node at y = 2 has one equation per degree of freedom, with the node at its place at y = 0, on the same side of the plane.
+    /// Every node at y = 2 has one equation per degree of freedom, with the node at its place at y = 0, on the same
+    /// side of the plane.
     void expect_periodic(const Mesh& after, const Plane& plane, int dofs = 3) {
         const NumberIndex numbers(after);
         std::map<Index, double> side;
@@ -68,9 +71,12 @@ protected:
             EXPECT_EQ(e[0].dof, e[1].dof);
             EXPECT_EQ(e[0].factor, 1);
             EXPECT_EQ(e[1].factor, -1);
-            EXPECT_TRUE(partner.emplace(std::pair(e[0].node, e[0].dof), e[1].node).second) << "node " << e[0].node << " is related twice";
-            EXPECT_LT((place(after, e[0].node) - place(after, e[1].node) - Vec3(0, ny, 0)).norm(), 1e-12) << e[0].node << " " << e[1].node;
-            EXPECT_EQ(side[e[0].node], side[e[1].node]) << e[0].node << " and " << e[1].node << " are on different lips";
+            EXPECT_TRUE(partner.emplace(std::pair(e[0].node, e[0].dof), e[1].node).second)
+                << "node " << e[0].node << " is related twice";
+            EXPECT_LT((place(after, e[0].node) - place(after, e[1].node) - Vec3(0, ny, 0)).norm(), 1e-12)
+                << e[0].node << " " << e[1].node;
+            EXPECT_EQ(side[e[0].node], side[e[1].node])
+                << e[0].node << " and " << e[1].node << " are on different lips";
         }
         const auto wanted = nodes_where(after, [](const Vec3& p) { return p.y() == ny; });
         EXPECT_EQ(partner.size(), dofs * wanted.size());
@@ -82,7 +88,8 @@ protected:
 TEST_F(RelatedNodesOfDeck, NodesBornOnMatchingSidesAreRelatedSideBySide) {
     const Mesh mesh = block_with(periodic_in_y());
     const auto size = equations(mesh).size();
-    for (const auto& [x, normal] : {std::pair(1.5, Vec3(1, 0, 0)), std::pair(2.3, Vec3(1, 0, .2)), std::pair(1.6, Vec3(1, 0, -.4)), std::pair(2.0, Vec3(1, 0, 0))}) {
+    for (const auto& [x, normal] : {std::pair(1.5, Vec3(1, 0, 0)), std::pair(2.3, Vec3(1, 0, .2)),
+                                    std::pair(1.6, Vec3(1, 0, -.4)), std::pair(2.0, Vec3(1, 0, 0))}) {
         SCOPED_TRACE(x);
         const Mesh after = crack_at(mesh, x, "CRACK", normal, true);
         EXPECT_GT(equations(after).size(), size + 8);
@@ -94,7 +101,8 @@ TEST_F(RelatedNodesOfDeck, NodesBornOnMatchingSidesAreRelatedSideBySide) {
 TEST_F(RelatedNodesOfDeck, EachDegreeOfFreedomHasItsOwn) {
     // Only some nodes are related in the third: one born between two of which one is not is related in the others.
     std::string cards = periodic_in_y(2);
-    cards += equal(node_at(1, ny, 1), node_at(1, 0, 1), 3) + equal(node_at(2, ny, 1), node_at(2, 0, 1), 3) + equal(node_at(1, ny, 2), node_at(1, 0, 2), 3);
+    cards += equal(node_at(1, ny, 1), node_at(1, 0, 1), 3) + equal(node_at(2, ny, 1), node_at(2, 0, 1), 3) +
+             equal(node_at(1, ny, 2), node_at(1, 0, 2), 3);
     const Mesh after = crack_at(block_with(cards), 1.5, "CRACK", Vec3(1, 0, 0), true);
     std::map<int, std::set<std::pair<double, double>>> new_at;
     for (const auto& e : equations(after))
@@ -106,7 +114,8 @@ TEST_F(RelatedNodesOfDeck, EachDegreeOfFreedomHasItsOwn) {
 }
 
 TEST_F(RelatedNodesOfDeck, TermsThatAllShareStay) {
-    // The side follows a reference node that no element has; each node's equation names it, and so do those of new ones and copies.
+    // The side follows a reference node that no element has; each node's equation names it, and so do those of new ones
+    // and copies.
     std::string cards = "*NODE\n900, 2., 2., 9.\n*EQUATION\n";
     for (int k = 0; k <= nz; ++k)
         for (int i = 0; i <= nx; ++i) cards += equal(node_at(i, ny, k), 900, 2);
@@ -126,7 +135,8 @@ TEST_F(RelatedNodesOfDeck, LongEquationsKeepFourTermsALine) {
     std::string cards = "*NODE\n901, 2., 2., 9.\n902, 2., 2., 9.\n903, 2., 2., 9.\n*EQUATION\n";
     for (int k = 0; k <= nz; ++k)
         for (int i = 0; i <= nx; ++i)
-            cards += "5\n" + std::to_string(node_at(i, ny, k)) + ", 1, 1., " + std::to_string(node_at(i, 0, k)) + ", 1, -1., 901, 1, .5, 902, 1, .25\n903, 1, -2.\n";
+            cards += "5\n" + std::to_string(node_at(i, ny, k)) + ", 1, 1., " + std::to_string(node_at(i, 0, k)) +
+                     ", 1, -1., 901, 1, .5, 902, 1, .25\n903, 1, -2.\n";
     const Mesh mesh = block_with(cards), after = crack_at(mesh, 1.5, "CRACK", Vec3(1, 0, 0), true);
     EXPECT_GT(equations(after).size(), equations(mesh).size() + 8);
     for (const Row& r : rows(after, "EQUATION")) EXPECT_LE(r.size(), 12u);
@@ -142,9 +152,12 @@ TEST_F(RelatedNodesOfDeck, SidesThatAreCutDifferentlyAreTold) {
     const Mesh mesh = block_with(periodic_in_y());
     const Vec3 oblique(1, .4, 0);  // meets the sides at different x
     const Mesh after = crack_at(mesh, 2, "CRACK", oblique);
-    const std::string first = std::to_string(node_at(0, ny, 0)) + ", 1, 1., " + std::to_string(node_at(0, 0, 0)) + ", 1, -1.";
-    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr("*EQUATION: "), HasSubstr("new node(s), the first is "), HasSubstr("no counterpart"), HasSubstr("deck.inp:"))));
-    for (const auto& e : equations(after)) EXPECT_LT((place(after, e[0].node) - place(after, e[1].node) - Vec3(0, ny, 0)).norm(), 1e-12);
+    const std::string first =
+        std::to_string(node_at(0, ny, 0)) + ", 1, 1., " + std::to_string(node_at(0, 0, 0)) + ", 1, -1.";
+    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr("*EQUATION: "), HasSubstr("new node(s), the first is "),
+                                          HasSubstr("no counterpart"), HasSubstr("deck.inp:"))));
+    for (const auto& e : equations(after))
+        EXPECT_LT((place(after, e[0].node) - place(after, e[1].node) - Vec3(0, ny, 0)).norm(), 1e-12);
     EXPECT_THROW(crack_at(mesh, 2, "CRACK", oblique, true), Error);
 }
 
@@ -152,7 +165,8 @@ TEST_F(RelatedNodesOfDeck, EndsRelatedByDifferentEquationsAreTold) {
     std::string cards = "*EQUATION\n";
     for (int k = 0; k <= nz; ++k)
         for (int i = 0; i <= nx; ++i)
-            cards += "2\n" + std::to_string(node_at(i, ny, k)) + ", 1, 1., " + std::to_string(node_at(i, 0, k)) + ", 1, " + (i < 2 ? "-1.\n" : "-.5\n");
+            cards += "2\n" + std::to_string(node_at(i, ny, k)) + ", 1, 1., " + std::to_string(node_at(i, 0, k)) +
+                     ", 1, " + (i < 2 ? "-1.\n" : "-.5\n");
     const Mesh mesh = block_with(cards);
     crack_at(mesh, 1.5, "CRACK", Vec3(1, 0, 0));
     EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr("*EQUATION: "), HasSubstr("different form"))));
@@ -179,7 +193,8 @@ TEST_F(RelatedNodesOfDeck, RefinementRelatesTooOrTells) {
 }
 
 TEST_F(RelatedNodesOfDeck, NodesBetweenThoseOfOtherMpcsAreTold) {
-    const std::string line = "MEANROT, " + std::to_string(node_at(1, 0, 2)) + ", " + std::to_string(node_at(2, 0, 2)) + ", " + std::to_string(node_at(2, 1, 2)) + ", 99";
+    const std::string line = "MEANROT, " + std::to_string(node_at(1, 0, 2)) + ", " + std::to_string(node_at(2, 0, 2)) +
+                             ", " + std::to_string(node_at(2, 1, 2)) + ", 99";
     const Mesh mesh = block_with("*NODE\n99, 2., 1., 5.\n*MPC\n" + line + "\n");
     crack_at(mesh, 1.5);
     EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("MEANROT"), HasSubstr("do not join"))));

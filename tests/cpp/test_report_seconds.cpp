@@ -55,7 +55,8 @@ TEST(ReportSecondsTest, AreThoseOfTheCall) {
 }
 
 TEST(ReportSecondsTest, HoldAttemptsThatCameToNothing) {
-    // A coarse second-order block and a hole as fine as its elements: several attempts, the best of which is taken in the end.
+    // A coarse second-order block and a hole as fine as its elements: several attempts, the best of which is taken in
+    // the end.
     const Mesh mesh = checks::second_order(checks::grid(5, 5, 5));
     const Cylinder hole({2.53, 2.4, 0}, {0, 0.1, 1}, 0.9);
     const Tool* tool = &hole;

@@ -13,7 +13,8 @@ namespace {
 std::vector<Vec3> random_points(double size, int count = 500) {
     checks::Random random(3);
     std::vector<Vec3> out;
-    for (int k = 0; k < count; ++k) out.emplace_back(random.uniform(0, size), random.uniform(0, size), random.uniform(0, size));
+    for (int k = 0; k < count; ++k)
+        out.emplace_back(random.uniform(0, size), random.uniform(0, size), random.uniform(0, size));
     return out;
 }
 
@@ -46,7 +47,9 @@ TEST(CoordinateRounding, IsHalfAUnitOfTheLastSignificantDigit) {
     EXPECT_DOUBLE_EQ(coordinate_rounding(printed(random_points(7), "%.8e")), 0.5e-8);
 }
 
-TEST(CoordinateRounding, IsHalfAUnitOfTheLastDecimal) { EXPECT_DOUBLE_EQ(coordinate_rounding(printed(random_points(700), "%.4f")), 0.5e-4); }
+TEST(CoordinateRounding, IsHalfAUnitOfTheLastDecimal) {
+    EXPECT_DOUBLE_EQ(coordinate_rounding(printed(random_points(700), "%.4f")), 0.5e-4);
+}
 
 TEST(CoordinateRounding, KnowsSinglePrecision) {
     std::vector<Vec3> points = random_points(7);

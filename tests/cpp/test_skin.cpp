@@ -41,7 +41,9 @@ std::string brep(const TopoDS_Shape& shape) {
 /// The shape of flanged_cylinder.geo.
 const CadShape& flanged_cylinder() {
     static const CadShape shape = CadShape::from_brep(
-        brep(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 2), gp_Dir(0, 0, 1)), 4, 14).Shape(), BRepPrimAPI_MakeCylinder(7, 2).Shape()).Shape()));
+        brep(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 2), gp_Dir(0, 0, 1)), 4, 14).Shape(),
+                              BRepPrimAPI_MakeCylinder(7, 2).Shape())
+                 .Shape()));
     return shape;
 }
 
@@ -49,7 +51,8 @@ const CadShape& flanged_cylinder() {
 double off_skin(const Vec3& x) {
     const double r = std::hypot(x.x(), x.y()), z = x.z();
     const auto beyond = [](double v, double low, double high) { return std::max({low - v, v - high, 0.0}); };
-    return std::min({std::hypot(r - 4, beyond(z, 2, 16)), std::hypot(r - 7, beyond(z, 0, 2)), std::hypot(z, beyond(r, 0, 7)), std::hypot(z - 2, beyond(r, 4, 7)),
+    return std::min({std::hypot(r - 4, beyond(z, 2, 16)), std::hypot(r - 7, beyond(z, 0, 2)),
+                     std::hypot(z, beyond(r, 0, 7)), std::hypot(z - 2, beyond(r, 4, 7)),
                      std::hypot(z - 16, beyond(r, 0, 4))});
 }
 
@@ -75,7 +78,10 @@ Skin skin_of(const Mesh& before, const Mesh& after, const Tool* tool) {
     std::set<Index> seen;
     Skin out;
     for (const auto& [key, owners] : count) {
-        if (owners != 1 || (tool && std::ranges::all_of(key, [&](Index n) { return std::abs(tool->distance(after.points[n])) < 1e-9; }))) continue;
+        if (owners != 1 || (tool && std::ranges::all_of(key, [&](Index n) {
+                                return std::abs(tool->distance(after.points[n])) < 1e-9;
+                            })))
+            continue;
         for (const Index n : key) {
             const auto was = numbers.node(after.node_ids[n]);
             if (!seen.insert(n).second || (was && before.points[*was] == after.points[n])) continue;
@@ -120,8 +126,10 @@ protected:
     }
 
     void summary(const char* what) {
-        std::cout << "[  QUALITY ] " << GetParam() << " on its shape, " << what << ": " << done_ << " done, " << refused_ << " refused as too coarse; " << changed_
-                  << " nodes of the skin on the shape, else up to " << worst_faceted_ << " off it; minimum " << quality_ << "\n";
+        std::cout << "[  QUALITY ] " << GetParam() << " on its shape, " << what << ": " << done_ << " done, "
+                  << refused_ << " refused as too coarse; " << changed_
+                  << " nodes of the skin on the shape, else up to " << worst_faceted_ << " off it; minimum " << quality_
+                  << "\n";
         EXPECT_GT(done_, 5 * refused_);
         EXPECT_GT(changed_, 100);
         EXPECT_GT(worst_faceted_, 1e-3) << "the triangles are no worse than the shape: the test says nothing";
@@ -131,7 +139,8 @@ protected:
 
 TEST_P(SkinFromShape, Cracks) {
     for (int k = 0; k < 40; ++k) {
-        const Plane plane(Vec3(random_.uniform(-2, 2), random_.uniform(-2, 2), random_.uniform(0.5, 15)), random_.direction());
+        const Plane plane(Vec3(random_.uniform(-2, 2), random_.uniform(-2, 2), random_.uniform(0.5, 15)),
+                          random_.direction());
         SCOPED_TRACE(k);
         both(&plane, mesh_, [&](const CadShape* skin) {
             CrackOptions options;
@@ -145,7 +154,9 @@ TEST_P(SkinFromShape, Cracks) {
 TEST_P(SkinFromShape, RefinedAndDrilled) {
     for (int k = 0; k < 12; ++k) {
         const double angle = random_.uniform(0, 2 * std::numbers::pi);
-        const Cylinder hole(Vec3(0, random_.uniform(-1, 1), random_.uniform(6, 13)), Vec3(std::cos(angle), std::sin(angle), random_.uniform(-0.2, 0.2)), random_.uniform(0.8, 1.6));
+        const Cylinder hole(Vec3(0, random_.uniform(-1, 1), random_.uniform(6, 13)),
+                            Vec3(std::cos(angle), std::sin(angle), random_.uniform(-0.2, 0.2)),
+                            random_.uniform(0.8, 1.6));
         SCOPED_TRACE(k);
         both(&hole, mesh_, [&](const CadShape* skin) {
             RefineOptions refinement;
@@ -176,9 +187,11 @@ TEST_P(SkinFromShape, Refined) {
             if (skin) {
                 // Nearer to the true volume, by what the facets had cut off.
                 double volume = 0;
-                for (Index c = 0; c < result.mesh.block(CellType::tetra).size(); ++c) volume += cell_measure(result.mesh, CellType::tetra, c);
+                for (Index c = 0; c < result.mesh.block(CellType::tetra).size(); ++c)
+                    volume += cell_measure(result.mesh, CellType::tetra, c);
                 double before = 0;
-                for (Index c = 0; c < mesh_.block(CellType::tetra).size(); ++c) before += cell_measure(mesh_, CellType::tetra, c);
+                for (Index c = 0; c < mesh_.block(CellType::tetra).size(); ++c)
+                    before += cell_measure(mesh_, CellType::tetra, c);
                 EXPECT_GT(volume, before);
                 EXPECT_LT(volume, std::numbers::pi * (16 * 14 + 49 * 2));
             }
@@ -188,7 +201,8 @@ TEST_P(SkinFromShape, Refined) {
     summary("refined");
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, SkinFromShape, testing::Values("flanged_cylinder", "flanged_cylinder_coarse"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Meshes, SkinFromShape, testing::Values("flanged_cylinder", "flanged_cylinder_coarse"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(SkinFromShape, FeatureLinesAreTheShapesEdges) {
     // Nodes where the crack crosses the rims of the flange and of the stem are on the circles themselves.
@@ -199,8 +213,10 @@ TEST(SkinFromShape, FeatureLinesAreTheShapesEdges) {
     int on_rims = 0;
     for (const Vec3& x : result.mesh.points) {
         const double r = std::hypot(x.x(), x.y());
-        for (const auto& [radius, z] : {std::pair(7.0, 0.0), std::pair(7.0, 2.0), std::pair(4.0, 2.0), std::pair(4.0, 16.0)})
-            on_rims += std::abs(r - radius) < 1e-7 && std::abs(x.z() - z) < 1e-7 && std::abs(x.x() - 0.4 + 0.15 * x.y()) < 1e-7;
+        for (const auto& [radius, z] :
+             {std::pair(7.0, 0.0), std::pair(7.0, 2.0), std::pair(4.0, 2.0), std::pair(4.0, 16.0)})
+            on_rims += std::abs(r - radius) < 1e-7 && std::abs(x.z() - z) < 1e-7 &&
+                       std::abs(x.x() - 0.4 + 0.15 * x.y()) < 1e-7;
     }
     EXPECT_EQ(on_rims, 16) << "four circles, crossed twice, both lips";
 }
@@ -210,8 +226,11 @@ TEST(SkinFromShape, WhereACoarseSkinCostsVolumeAWarningSaysSo) {
     CrackOptions options;
     const auto outcome = [&] {
         const Report report = crack(mesh, Plane(Vec3(0, 0, 9), Vec3(0.3, 0.2, 1)), options).report;
-        const auto stem = std::ranges::find_if(report.groups, [](const GroupRecord& g) { return g.name == "STEM" && g.kind == GroupKind::element; });
-        const bool warned = std::ranges::any_of(report.warnings, [](const std::string& w) { return w.find("changed the size of") != std::string::npos && w.find("'STEM' by -") != std::string::npos; });
+        const auto stem = std::ranges::find_if(
+            report.groups, [](const GroupRecord& g) { return g.name == "STEM" && g.kind == GroupKind::element; });
+        const bool warned = std::ranges::any_of(report.warnings, [](const std::string& w) {
+            return w.find("changed the size of") != std::string::npos && w.find("'STEM' by -") != std::string::npos;
+        });
         return std::pair(1 - stem->measure_after / stem->measure_before, warned);
     };
     options.feature_angle = 89;  // keeps no edge between facets
@@ -229,9 +248,12 @@ TEST(SkinFromShape, AnotherShapeIsRefused) {
     const CadShape box = CadShape::from_brep(brep(BRepPrimAPI_MakeBox(30, 30, 30).Shape()));
     CrackOptions options;
     options.skin = &box;
-    EXPECT_THAT([&] { crack(mesh, Plane(Vec3(0, 0, 9), Vec3(0, 0, 1)), options); }, testing::ThrowsMessage<ToolError>(testing::AllOf(testing::HasSubstr("skin"), testing::HasSubstr("unit"))));
+    EXPECT_THAT(
+        [&] { crack(mesh, Plane(Vec3(0, 0, 9), Vec3(0, 0, 1)), options); },
+        testing::ThrowsMessage<ToolError>(testing::AllOf(testing::HasSubstr("skin"), testing::HasSubstr("unit"))));
     // Half of it: told, and the rest is done.
-    const CadShape stem = CadShape::from_brep(brep(BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 2), gp_Dir(0, 0, 1)), 4, 14).Shape()));
+    const CadShape stem =
+        CadShape::from_brep(brep(BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 2), gp_Dir(0, 0, 1)), 4, 14).Shape()));
     options.skin = &stem;
     const Result result = crack(mesh, Plane(Vec3(0, 0, 2.5), Vec3(1, 0, 0.2)), options);
     EXPECT_THAT(result.report.warnings, testing::Contains(testing::HasSubstr("lie on no face of the given shape")));

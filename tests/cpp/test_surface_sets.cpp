@@ -30,7 +30,8 @@ Block turned_block() {
     for (std::size_t e = 0; e < out.tetras.size(); ++e) {
         const auto was = out.tetras[e];
         out.elements += std::to_string(e + 1);
-        for (int k = 0; k < 4; ++k) out.elements += ", " + std::to_string(out.tetras[e][k] = was[turns[(e * 7 / 5) % 4][k]]);
+        for (int k = 0; k < 4; ++k)
+            out.elements += ", " + std::to_string(out.tetras[e][k] = was[turns[(e * 7 / 5) % 4][k]]);
         out.elements += "\n";
     }
     return out;
@@ -42,7 +43,8 @@ std::vector<std::pair<Index, int>> faces_on_top() {
     const Block b = turned_block();
     for (std::size_t e = 0; e < b.tetras.size(); ++e)
         for (int f = 0; f < 4; ++f)
-            if (std::ranges::all_of(faces_of[f], [&](int v) { return b.tetras[e][v] >= node_at(0, 0, nz); })) out.push_back({static_cast<Index>(e) + 1, f + 1});
+            if (std::ranges::all_of(faces_of[f], [&](int v) { return b.tetras[e][v] >= node_at(0, 0, nz); }))
+                out.push_back({static_cast<Index>(e) + 1, f + 1});
     return out;
 }
 
@@ -115,9 +117,11 @@ TEST_F(SurfaceSets, AreThoseThatNothingElseUses) {
     auto others = all;
     others.erase(one);
     for (const std::string& use :
-         {"*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=" + one + ", MATERIAL=M\n", "*ELSET, ELSET=MORE\n 1, " + one + "\n",
-          "*STEP\n*STATIC\n*DLOAD\n" + one + ", P1, 1.\n*END STEP\n", "*STEP\n*STATIC\n*EL PRINT, ELSET=" + one + "\nS\n*END STEP\n",
-          "*ELEMENT, TYPE=C3D4, ELSET=" + one + "\n999, 1, 2, 6, 16\n", "*INITIAL CONDITIONS, TYPE=STRESS\n" + one + ", 1., 0.\n"}) {
+         {"*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=" + one + ", MATERIAL=M\n",
+          "*ELSET, ELSET=MORE\n 1, " + one + "\n", "*STEP\n*STATIC\n*DLOAD\n" + one + ", P1, 1.\n*END STEP\n",
+          "*STEP\n*STATIC\n*EL PRINT, ELSET=" + one + "\nS\n*END STEP\n",
+          "*ELEMENT, TYPE=C3D4, ELSET=" + one + "\n999, 1, 2, 6, 16\n",
+          "*INITIAL CONDITIONS, TYPE=STRESS\n" + one + ", 1., 0.\n"}) {
         SCOPED_TRACE(use);
         EXPECT_EQ(found_in(turned_with(helper_sets() + by_sets() + use)), others);
     }
@@ -125,7 +129,8 @@ TEST_F(SurfaceSets, AreThoseThatNothingElseUses) {
 
 TEST_F(SurfaceSets, DoNotHoldTheMesh) {
     const Mesh plain = turned_with(by_numbers() + load), mesh = turned_with(helper_sets() + by_sets() + load);
-    for (const auto& [x, normal] : {std::pair(1.5, Vec3(1, .3, .4)), std::pair(2.3, Vec3(1, .2, .1)), std::pair(1.7, Vec3(.1, .1, 1))}) {
+    for (const auto& [x, normal] :
+         {std::pair(1.5, Vec3(1, .3, .4)), std::pair(2.3, Vec3(1, .2, .1)), std::pair(1.7, Vec3(.1, .1, 1))}) {
         SCOPED_TRACE(x);
         CrackOptions options;
         options.name = "CRACK";
@@ -135,7 +140,8 @@ TEST_F(SurfaceSets, DoNotHoldTheMesh) {
         EXPECT_EQ(with.mesh.block(CellType::tetra).connectivity, without.mesh.block(CellType::tetra).connectivity);
         EXPECT_EQ(with.report.warnings, without.report.warnings);
         expect_followed(written(with), nx * ny);
-        for (const GroupRecord& r : with.report.groups) EXPECT_TRUE(r.boundary_kept || r.name.starts_with("_TOP")) << r.name;
+        for (const GroupRecord& r : with.report.groups)
+            EXPECT_TRUE(r.boundary_kept || r.name.starts_with("_TOP")) << r.name;
     }
 }
 
@@ -162,7 +168,9 @@ TEST_F(SurfaceSets, ElementsThatTheSurfaceNamesByNumberStayOutOfThem) {
     std::string sets = helper_sets();
     const std::string line = std::to_string(e) + ",\n";
     sets.replace(sets.find("\n" + line) + 1, line.size(), "");
-    const Mesh after = crack_at(turned_with(sets + by_sets() + std::to_string(e) + ", S" + std::to_string(f) + "\n" + load), 3.4, "CRACK", Vec3(1, .3, .4));
+    const Mesh after =
+        crack_at(turned_with(sets + by_sets() + std::to_string(e) + ", S" + std::to_string(f) + "\n" + load), 3.4,
+                 "CRACK", Vec3(1, .3, .4));
     EXPECT_NEAR(surface_area(after, "TOP", on_top), nx * ny, 1e-12);
     EXPECT_THAT(element_set(after, helper(f)), Not(Contains(e)));
 }
@@ -185,14 +193,16 @@ TEST_F(SurfaceSets, FollowHolesAndRefinements) {
 TEST_F(SurfaceSets, ShellsBySide) {
     std::string nodes, elements, all;
     for (int j = 0; j <= 4; ++j)
-        for (int i = 0; i <= 4; ++i) nodes += std::to_string(1 + i + 5 * j) + ", " + std::to_string(i) + ", " + std::to_string(j) + ", 0.\n";
+        for (int i = 0; i <= 4; ++i)
+            nodes += std::to_string(1 + i + 5 * j) + ", " + std::to_string(i) + ", " + std::to_string(j) + ", 0.\n";
     int e = 0;
     std::string set;
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
             const int a = 1 + i + 5 * j, b = a + 1, c = b + 5, d = a + 5;
             for (const auto& t : {std::array{a, b, c}, std::array{a, c, d}}) {
-                elements += std::to_string(++e) + ", " + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]) + "\n";
+                elements += std::to_string(++e) + ", " + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
+                            std::to_string(t[2]) + "\n";
                 if (i == 1 || j == 2) set += std::to_string(e) + ",\n";  // an area with corners
             }
         }

@@ -29,7 +29,8 @@ void expect_consistent(const Tool& tool, double reach) {
         const double step = 1e-6 * reach;
         if (std::abs(distance) < 10 * step) continue;
         for (int a = 0; a < 3; ++a) {
-            const double slope = (tool.distance(x + step * Vec3::Unit(a)) - tool.distance(x - step * Vec3::Unit(a))) / (2 * step);
+            const double slope =
+                (tool.distance(x + step * Vec3::Unit(a)) - tool.distance(x - step * Vec3::Unit(a))) / (2 * step);
             EXPECT_NEAR(slope, normal[a], 1e-4) << x.transpose();
         }
     }
@@ -91,7 +92,8 @@ TEST(Tools, Cone) {
     EXPECT_NEAR(upright.distance({0, 0, -5}), 3, 1e-12);
     EXPECT_NEAR((upright.normal({0, 0, -5}) - Vec3(0, 0, -1)).norm(), 0, 1e-12);
     EXPECT_NEAR(upright.feature_size(), 2 * std::sqrt(2), 1e-12);
-    for (const double angle : {0.0, 90.0, -10.0, std::nan("")}) EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 1, angle), ToolError);
+    for (const double angle : {0.0, 90.0, -10.0, std::nan("")})
+        EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 1, angle), ToolError);
     EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 0, 30), ToolError);
     EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 0}, 1, 30), ToolError);
 }

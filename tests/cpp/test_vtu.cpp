@@ -55,7 +55,9 @@ public:
         for (std::size_t b = 0; b < count; ++b) {
             uLongf size = b + 1 == count && last ? last : full;
             std::string part(size, '\0');
-            EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(part.data()), &size, reinterpret_cast<const Bytef*>(block), sizes[b]), Z_OK);
+            EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(part.data()), &size, reinterpret_cast<const Bytef*>(block),
+                                 sizes[b]),
+                      Z_OK);
             EXPECT_EQ(size, part.size());
             bytes += part;
             block += sizes[b];
@@ -75,8 +77,8 @@ private:
 class VtuTest : public testing::Test {
 protected:
     void SetUp() override {
-        path_ = fs::path(testing::TempDir()) /
-                (std::string("femscalpel_vtu_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".vtu");
+        path_ = fs::path(testing::TempDir()) / (std::string("femscalpel_vtu_") +
+                                                testing::UnitTest::GetInstance()->current_test_info()->name() + ".vtu");
     }
     void TearDown() override { fs::remove(path_); }
     fs::path path_;
@@ -88,7 +90,8 @@ TEST_F(VtuTest, EveryElementTypeNumbersAndGroups) {
     std::vector<Index> nodes(27);
     std::iota(nodes.begin(), nodes.end(), 0);
     for (const CellTraits& t : all_cell_types())
-        mesh.add_cell(t.type, std::span(nodes).first(static_cast<std::size_t>(t.nodes)), 1000 - static_cast<Index>(t.type));
+        mesh.add_cell(t.type, std::span(nodes).first(static_cast<std::size_t>(t.nodes)),
+                      1000 - static_cast<Index>(t.type));
     mesh.add_group("NODES", GroupKind::node);
     mesh.add_group("Family", GroupKind::element);
     mesh.add_group("SIDES", GroupKind::facet);
@@ -116,7 +119,8 @@ TEST_F(VtuTest, EveryElementTypeNumbersAndGroups) {
     EXPECT_EQ(points[80], -2);
     EXPECT_EQ(file.array<Index>("PointData", "NodeNumber"), mesh.node_ids);
 
-    const auto connectivity = file.array<Index>("Cells", "connectivity"), offsets = file.array<Index>("Cells", "offsets");
+    const auto connectivity = file.array<Index>("Cells", "connectivity"),
+               offsets = file.array<Index>("Cells", "offsets");
     ASSERT_EQ(offsets.size(), 19u);
     ASSERT_EQ(offsets.back(), static_cast<Index>(connectivity.size()));
     for (const CellTraits& t : all_cell_types()) {

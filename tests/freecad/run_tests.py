@@ -20,7 +20,7 @@ def verdict(output):
         return "FreeCAD ran no tests"
     if int(ran[1]) == 0:
         return "the test module is empty"
-    last = re.search(r"^(OK|FAILED)\b.*$", output[ran.end():], re.MULTILINE)
+    last = re.search(r"^(OK|FAILED)\b.*$", output[ran.end() :], re.MULTILINE)
     if not last or last[1] != "OK":
         return last[0] if last else "the tests did not finish"
     return None
@@ -39,8 +39,15 @@ def main():
         command = [arguments.freecadcmd, "-t", arguments.module, "-M", arguments.workbench]
         for path in arguments.path:
             command += ["-P", path]
-        done = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, errors="replace")
+        done = subprocess.run(
+            command,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        )
     sys.stdout.write(done.stdout)
     reason = verdict(done.stdout)
     if reason:

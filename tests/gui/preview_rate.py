@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measures the live preview in FreeCAD's window: updates a second while a plane moves, and the longest time the window waits.
+"""Measures the live preview in FreeCAD's window: updates a second while a plane moves, and the longest time the window
+waits.
 
     cmake --build build/release --target femscalpel_test_meshes workbench
     /usr/bin/python3 tests/gui/run_gui_tests.py --freecad freecad --workbench build/release/Mod/FemScalpel \\
@@ -82,9 +83,14 @@ def measure(path, out):
     screenshot(os.path.splitext(os.path.basename(path))[0])
     longest = max(b - a for a, b in zip(turns, turns[1:]))
     work, fill = (sum(times) / max(len(times), 1) for times in (worked, shown))
-    print(f"{os.path.basename(path)}: {mesh.cell_count} elements: {len(shown) / seconds:.1f} updates a second ({seconds:.0f} s); "
-          f"of {processor / max(len(shown), 1):.3f} processor seconds each, worker {work:.3f}, scene {fill:.3f}, the rest drawing: "
-          f"{1 / (work + fill):.1f} a second without drawing; window busy at most {longest:.2f} s at a time", file=out)
+    print(
+        f"{os.path.basename(path)}: {mesh.cell_count} elements: {len(shown) / seconds:.1f} updates a second "
+        f"({seconds:.0f} s); "
+        f"of {processor / max(len(shown), 1):.3f} processor seconds each, worker {work:.3f}, scene {fill:.3f}, the "
+        f"rest drawing: "
+        f"{1 / (work + fill):.1f} a second without drawing; window busy at most {longest:.2f} s at a time",
+        file=out,
+    )
     LatestWins.request = request
     PreviewScene.show = original
     press_cancel()

@@ -21,8 +21,12 @@ def main():
     parser.add_argument("--freecad", required=True)
     parser.add_argument("--workbench", required=True, help="folder Mod/FemScalpel to test")
     parser.add_argument("--screenshots", required=True, help="folder for the pictures; made anew")
-    parser.add_argument("--script", help="what FreeCAD opens instead of running a test; it writes to FEMSCALPEL_TEST_RESULT")
-    parser.add_argument("names", nargs="+", help="a module, class or test; or what the script wants, in FEMSCALPEL_TESTS")
+    parser.add_argument(
+        "--script", help="what FreeCAD opens instead of running a test; it writes to FEMSCALPEL_TEST_RESULT"
+    )
+    parser.add_argument(
+        "names", nargs="+", help="a module, class or test; or what the script wants, in FEMSCALPEL_TESTS"
+    )
     arguments = parser.parse_args()
     if not arguments.script and len(arguments.names) > 1:
         parser.error("FreeCAD runs one test, class or module at a time")
@@ -31,14 +35,36 @@ def main():
     with tempfile.TemporaryDirectory() as home:
         outcome = os.path.join(home, "outcome.txt")
         environment = {
-            **os.environ, "FREECAD_USER_HOME": home, "PYTHONDONTWRITEBYTECODE": "1", "LIBGL_ALWAYS_SOFTWARE": "1",
-            "QTWEBENGINE_DISABLE_SANDBOX": "1", "LC_ALL": "C.UTF-8",
-            "FEMSCALPEL_TESTS": " ".join(arguments.names), "FEMSCALPEL_TEST_RESULT": outcome,
-            "FEMSCALPEL_SCREENSHOTS": os.path.abspath(arguments.screenshots)}
+            **os.environ,
+            "FREECAD_USER_HOME": home,
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "LIBGL_ALWAYS_SOFTWARE": "1",
+            "QTWEBENGINE_DISABLE_SANDBOX": "1",
+            "LC_ALL": "C.UTF-8",
+            "FEMSCALPEL_TESTS": " ".join(arguments.names),
+            "FEMSCALPEL_TEST_RESULT": outcome,
+            "FEMSCALPEL_SCREENSHOTS": os.path.abspath(arguments.screenshots),
+        }
         what = [arguments.script] if arguments.script else ["-t", arguments.names[0]]
-        command = ["xvfb-run", "-a", "-s", "-screen 0 1280x900x24 -dpi 96", arguments.freecad, *what, "--module-path", workbench]
-        done = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, errors="replace")
+        command = [
+            "xvfb-run",
+            "-a",
+            "-s",
+            "-screen 0 1280x900x24 -dpi 96",
+            arguments.freecad,
+            *what,
+            "--module-path",
+            workbench,
+        ]
+        done = subprocess.run(
+            command,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        )
         text = Path(outcome).read_text() if os.path.exists(outcome) else done.stdout
     sys.stdout.write(text)
     reason = verdict(text) or ("FreeCAD wrote a traceback" if "Traceback" in done.stdout else None)

@@ -20,7 +20,7 @@ def grid_box(counts=(6, 5, 4), size=(6.0, 5.0, 4.0), **kwargs):
         for axis in order:
             corner[axis] = 1
             path.append(tuple(corner))
-        nodes = np.stack([index[a:nx + a, b:ny + b, c:nz + c].ravel() for a, b, c in path], axis=1)
+        nodes = np.stack([index[a : nx + a, b : ny + b, c : nz + c].ravel() for a, b, c in path], axis=1)
         odd = np.linalg.det(np.eye(3)[list(order)]) < 0
         tetrahedra.append(nodes[:, [0, 2, 1, 3]] if odd else nodes)
     return fs.Mesh(points, {"tetra": np.concatenate(tetrahedra)}, **kwargs)

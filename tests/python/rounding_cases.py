@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tools that pass nodes at distances from nothing to a hundredth of an edge, on meshes with coordinates as they are and rounded as files round
-them: what an engineer does who cuts on a symmetry plane, a weld, the border of two materials.
+"""Tools that pass nodes at distances from nothing to a hundredth of an edge, on meshes with coordinates as they are and
+rounded as files round them: what an engineer does who cuts on a symmetry plane, a weld, the border of two materials.
 
     /usr/bin/python3 tests/python/rounding_cases.py --cases 3000
 
-(with the package on PYTHONPATH) prints how many are good, poor, refused, slow or grown, by mesh, rounding and distance; test_rounding.py
-runs some of them. Every case is made from its number alone.
+(with the package on PYTHONPATH) prints how many are good, poor, refused, slow or grown, by mesh, rounding and distance;
+test_rounding.py runs some of them. Every case is made from its number alone.
 """
 import argparse
 import collections
@@ -29,10 +29,15 @@ SHIFTED = 0.1
 VOLUME, PLATE, EDGE = ("tetra", "tetra10"), ("triangle", "triangle6"), ("line", "line3")
 CORNERS = {"tetra": 4, "tetra10": 4, "triangle": 3, "triangle6": 3, "line": 2, "line3": 2, "vertex": 1}
 #: Ends of the edge of each mid-side node.
-MIDDLES = {"tetra10": ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)), "triangle6": ((0, 1), (1, 2), (0, 2)), "line3": ((0, 1),)}
+MIDDLES = {
+    "tetra10": ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
+    "triangle6": ((0, 1), (1, 2), (0, 2)),
+    "line3": ((0, 1),),
+}
 
 
-# ---------------------------------------------------------------------------------------------------------------- meshes
+# ----------------------------------------------------------------------------------------------------------------
+# meshes
 
 
 def _grid_plate(n=12, size=0.9):
@@ -48,13 +53,18 @@ def _grid_plate(n=12, size=0.9):
 
 def _grid_box(n=6, size=0.6):
     index = lambda i, j, k: (k * (n + 1) + j) * (n + 1) + i
-    points = np.array([(i * size / n, j * size / n, k * size / n) for k in range(n + 1) for j in range(n + 1) for i in range(n + 1)])
+    points = np.array(
+        [(i * size / n, j * size / n, k * size / n) for k in range(n + 1) for j in range(n + 1) for i in range(n + 1)]
+    )
     cells = []
     for k in range(n):
         for j in range(n):
             for i in range(n):
                 v = [index(i + a, j + b, k + c) for c in (0, 1) for b in (0, 1) for a in (0, 1)]
-                cells += [[v[q] for q in t] for t in ((0, 1, 3, 7), (0, 1, 7, 5), (0, 5, 7, 4), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7))]
+                cells += [
+                    [v[q] for q in t]
+                    for t in ((0, 1, 3, 7), (0, 1, 7, 5), (0, 5, 7, 4), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7))
+                ]
     return points, "tetra", np.array(cells)
 
 
@@ -74,7 +84,8 @@ def _second_order(points, kind, cells):
 
 
 def _of_two_materials(points, kind, cells, seed):
-    """With two groups that part the mesh in the middle of x, nodes named in groups of their own, one mid-side node among them."""
+    """With two groups that part the mesh in the middle of x, nodes named in groups of their own, one mid-side node
+    among them."""
     rng = np.random.default_rng(seed)
     corners = CORNERS[kind]
     left = points[cells[:, :corners], 0].mean(1) < points[:, 0].mean()
@@ -138,7 +149,17 @@ def rounded(mesh, how):
 ROUNDINGS = ("as they are", "single", 6)
 
 #: Those whose surfaces are all flat.
-FLAT = {"plate", "uneven plate", "plate, second order", "box", "uneven box", "box, second order", "two_boxes", "l_shape", "caisson_shell"}
+FLAT = {
+    "plate",
+    "uneven plate",
+    "plate, second order",
+    "box",
+    "uneven box",
+    "box, second order",
+    "two_boxes",
+    "l_shape",
+    "caisson_shell",
+}
 
 
 class Subject:
@@ -167,7 +188,7 @@ class Subject:
         m, places = self.mesh, {"node": self.corners}
         row = {int(n): k for k, n in enumerate(m.node_ids)}
         for name in ("NAMED", "NAMED_MIDDLE"):
-            if (name in m.groups):
+            if name in m.groups:
                 places[name] = np.array([row[int(i)] for i in m.groups[name, "node"].ids])
         # Nodes of elements of several families lie on a border; those of lines on a feature line.
         family, count = {}, collections.defaultdict(set)
@@ -183,14 +204,17 @@ class Subject:
         if len(border):
             places["border"] = border
         low, high = m.points.min(0), m.points.max(0)
-        extreme = ((abs(m.points - low) < 1e-6 * (high - low + 1e-9)) | (abs(m.points - high) < 1e-6 * (high - low + 1e-9)))[:, high > low].sum(1)
+        extreme = (
+            (abs(m.points - low) < 1e-6 * (high - low + 1e-9)) | (abs(m.points - high) < 1e-6 * (high - low + 1e-9))
+        )[:, high > low].sum(1)
         corner = np.intersect1d(np.nonzero(extreme >= (high > low).sum())[0], self.corners)
         if len(corner):
             places["corner"] = corner
         return places
 
 
-# ----------------------------------------------------------------------------------------------------------------- cases
+# -----------------------------------------------------------------------------------------------------------------
+# cases
 
 
 @dataclass
@@ -205,8 +229,10 @@ class Case:
     options: dict = field(default_factory=dict)
 
     def __str__(self):
-        return (f"case {self.number}: {self.operation} {self.subject} ({self.rounding}), {self.offset:g} edge lengths beside a {self.place}: {self.tool!r}"
-                + "".join(f", {k}={v!r}" for k, v in self.options.items()))
+        return (
+            f"case {self.number}: {self.operation} {self.subject} ({self.rounding}), {self.offset:g} edge lengths "
+            f"beside a {self.place}: {self.tool!r}" + "".join(f", {k}={v!r}" for k, v in self.options.items())
+        )
 
 
 _subjects = {}
@@ -264,7 +290,8 @@ def case(number, offset=None, names=None):
     return Case(number, name, rounding, place, offset, "crack", tool, options)
 
 
-# ------------------------------------------------------------------------------------------------------------- judgement
+# -------------------------------------------------------------------------------------------------------------
+# judgement
 
 
 @dataclass
@@ -321,8 +348,13 @@ def faults(s, case, result):
     lost = np.setdiff1d(joint, front)
     corners = np.unique(np.concatenate([c[:, : CORNERS[t]].ravel() for t, c in mesh.cells.items()]))
     # A mid-side node may be one of an edge along the front.
-    along = [c[:, CORNERS[t] + k] for t, c in mesh.cells.items() if t in MIDDLES for k, (a, b) in enumerate(MIDDLES[t])
-             for c in [c[np.isin(c[:, a], front) & np.isin(c[:, b], front)]]]
+    along = [
+        c[:, CORNERS[t] + k]
+        for t, c in mesh.cells.items()
+        if t in MIDDLES
+        for k, (a, b) in enumerate(MIDDLES[t])
+        for c in [c[np.isin(c[:, a], front) & np.isin(c[:, b], front)]]
+    ]
     if along and not any(g.name == name + "_FRONT" for g in mesh.groups.all("element")):  # whose segments name theirs
         lost = np.setdiff1d(lost, np.setdiff1d(np.concatenate(along), corners))
     if len(lost):
@@ -381,8 +413,12 @@ def summary(outcomes):
 def line(title, outcomes):
     f = summary(outcomes)
     n = max(1, f["cases"])
-    return (f"{title:28} {f['cases']:5} cases: good {100 * f['good'] / n:5.1f} %, fair {f['fair']}, warned {f['warned']}, poor {f['poor']}, wrong {f['wrong']}, "
-            f"refused {f['refused']}, endless {f['endless']}, misses {f['misses']}, slowest {f['slowest']:.2f} s, growth {f['growth']:.2f}")
+    return (
+        f"{title:28} {f['cases']:5} cases: good {100 * f['good'] / n:5.1f} %, fair {f['fair']}, warned {f['warned']}, "
+        f"poor {f['poor']}, wrong {f['wrong']}, "
+        f"refused {f['refused']}, endless {f['endless']}, misses {f['misses']}, slowest {f['slowest']:.2f} s, growth "
+        f"{f['growth']:.2f}"
+    )
 
 
 def _answer(number, offset, names, pipe):
@@ -409,7 +445,8 @@ def _run_apart(number, offset, names, limit):
 
 
 def run_many(numbers, offset=None, names=None, limit=None, on_outcome=None):
-    """Outcomes of the cases of these numbers; with `limit` each in a process of its own that is stopped after so many seconds."""
+    """Outcomes of the cases of these numbers; with `limit` each in a process of its own that is stopped after so many
+    seconds."""
     out = []
     for n in numbers:
         out.append(run(case(n, offset, names)) if limit is None else _run_apart(n, offset, names, limit))
@@ -423,9 +460,15 @@ def main():
     parser.add_argument("--cases", type=int, default=300)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--limit", type=float, default=30, help="seconds after which a case counts as endless")
-    parser.add_argument("--mesh", action="append", choices=list(SUBJECTS), help="this mesh only; may be given several times")
-    parser.add_argument("--file", action="append", default=[], help="a mesh of your own instead; may be given several times")
-    parser.add_argument("--shifted", action="store_true", help="also the same tools a tenth of an edge off and at 1e-9, to compare")
+    parser.add_argument(
+        "--mesh", action="append", choices=list(SUBJECTS), help="this mesh only; may be given several times"
+    )
+    parser.add_argument(
+        "--file", action="append", default=[], help="a mesh of your own instead; may be given several times"
+    )
+    parser.add_argument(
+        "--shifted", action="store_true", help="also the same tools a tenth of an edge off and at 1e-9, to compare"
+    )
     parser.add_argument("--quiet", action="store_true", help="figures only")
     a = parser.parse_args()
     numbers = range(a.first, a.first + a.cases)
@@ -435,11 +478,20 @@ def main():
 
     def tell(o):
         if not a.quiet and (o.verdict not in ("good", "misses") or o.seconds > 2 or o.growth > 4):
-            print(f"{o.verdict}: {o.case}\n    mean ratio {o.before:.3f} -> {o.quality:.2g}, {o.seconds:.2f} s, growth {o.growth:.2f}; {o.text[:300]}", flush=True)
+            print(
+                f"{o.verdict}: {o.case}\n    mean ratio {o.before:.3f} -> {o.quality:.2g}, {o.seconds:.2f} s, growth "
+                f"{o.growth:.2f}; {o.text[:300]}",
+                flush=True,
+            )
 
     outcomes = run_many(numbers, None, a.mesh, a.limit, tell)
-    for title, key in (("mesh", lambda o: o.case.subject), ("rounding", lambda o: str(o.case.rounding)), ("distance", lambda o: f"{abs(o.case.offset):g}"),
-                       ("place", lambda o: o.case.place), ("tool", lambda o: f"{o.case.operation} {type(o.case.tool).__name__}{' within' if o.case.options else ''}")):
+    for title, key in (
+        ("mesh", lambda o: o.case.subject),
+        ("rounding", lambda o: str(o.case.rounding)),
+        ("distance", lambda o: f"{abs(o.case.offset):g}"),
+        ("place", lambda o: o.case.place),
+        ("tool", lambda o: f"{o.case.operation} {type(o.case.tool).__name__}{' within' if o.case.options else ''}"),
+    ):
         print(f"by {title}")
         groups = collections.defaultdict(list)
         for o in outcomes:
@@ -451,7 +503,11 @@ def main():
         for offset in (1e-9, SHIFTED):
             others = run_many(numbers, offset, a.mesh, a.limit)
             q = np.array([o.quality for o in others if o.verdict not in ("misses", "refused", "endless")])
-            print(line(f"at {offset:g} edge lengths", others), " mean ratio at the tenth, quarter, half:", np.quantile(q, (0.1, 0.25, 0.5)).round(3))
+            print(
+                line(f"at {offset:g} edge lengths", others),
+                " mean ratio at the tenth, quarter, half:",
+                np.quantile(q, (0.1, 0.25, 0.5)).round(3),
+            )
     return 0
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""CalculiX's own test decks (Debian package calculix-ccx-test): all that hold triangles or tetrahedra are cracked and solved,
-with the steps, loads and ties they come with. (That all others are read and written back unchanged is tested in C++.)"""
+"""CalculiX's own test decks (Debian package calculix-ccx-test): all that hold triangles or tetrahedra are cracked and
+solved, with the steps, loads and ties they come with. (That all others are read and written back unchanged is tested in
+C++.)"""
 
 import gzip
 import os
@@ -18,8 +19,8 @@ pytestmark = pytest.mark.skipif(not DECKS.exists(), reason="Debian package calcu
 needs_ccx = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
 
 X, Y, Z = np.eye(3)
-#: Deck: normal of the plane through the middle of its triangles and tetrahedra. Where the other directions cut off a piece
-#: that nothing holds, CalculiX cannot solve it.
+#: Deck: normal of the plane through the middle of its triangles and tetrahedra. Where the other directions cut off a
+#: piece that nothing holds, CalculiX cannot solve it.
 NORMALS = {
     "ax6": Y,  # a disk held at its inner rim
     "ax6ht": X,  # the same, a temperature field
@@ -50,7 +51,11 @@ def middle_plane(mesh, normal):
 def cards(path):
     """Keywords of a deck, in order."""
     text = gzip.open(path, "rt").read() if path.suffix == ".gz" else path.read_text()
-    return [line.split(",")[0].strip().upper() for line in text.splitlines() if line.startswith("*") and not line.startswith("**")]
+    return [
+        line.split(",")[0].strip().upper()
+        for line in text.splitlines()
+        if line.startswith("*") and not line.startswith("**")
+    ]
 
 
 def sets_of(mesh):
@@ -68,7 +73,7 @@ def values(folder):
             if name == "run.frd":
                 if not line.startswith(" -1") or len(line) < 25:
                     continue
-                fields = [line[k:k + 12] for k in range(13, len(line.rstrip()), 12)]
+                fields = [line[k : k + 12] for k in range(13, len(line.rstrip()), 12)]
             else:
                 fields = line.split()
             for field in fields:
@@ -105,10 +110,23 @@ def test_cracked_deck_runs(tmp_path, name):
     # Every card is still there, in order; new are sets and surfaces of the lips, and elements no card had room for.
     remaining = iter(after)
     assert all(card in remaining for card in before)
-    assert {c for c in after if after.count(c) > before.count(c)} <= {"*NSET", "*ELSET", "*SURFACE", "*ELEMENT", "*NODE"}
+    assert {c for c in after if after.count(c) > before.count(c)} <= {
+        "*NSET",
+        "*ELSET",
+        "*SURFACE",
+        "*ELEMENT",
+        "*NODE",
+    }
 
-    done = subprocess.run(["ccx", "run"], cwd=tmp_path, env=dict(os.environ, OMP_NUM_THREADS="1"), stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=200)
+    done = subprocess.run(
+        ["ccx", "run"],
+        cwd=tmp_path,
+        env=dict(os.environ, OMP_NUM_THREADS="1"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=200,
+    )
     assert done.returncode == 0 and "Job finished" in done.stdout and "*ERROR" not in done.stdout, done.stdout[-2000:]
     numbers = values(tmp_path)
     assert len(numbers) > 20 and np.isfinite(numbers).all() and np.abs(numbers).max() < 1e20
@@ -132,5 +150,7 @@ def test_a_loose_piece_is_calculixs_to_refuse(tmp_path):
     """The radial cut of the disk leaves its outer ring without support: the crack is right, CalculiX must say no."""
     disk = fs.read(deck_path("ax6"))
     fs.write(fs.crack(disk, middle_plane(disk, X)).mesh, tmp_path / "run.inp")
-    done = subprocess.run(["ccx", "run"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
+    done = subprocess.run(
+        ["ccx", "run"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100
+    )
     assert done.returncode != 0 and "*ERROR" in done.stdout

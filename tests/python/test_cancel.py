@@ -31,8 +31,8 @@ def packed(large, tmp_path_factory):
 def interrupt(operation):
     """Presses Ctrl-C twice while `operation` runs, and says whether that ended it.
 
-    Python runs a handler between its own instructions, too, as soon as the engine has returned. So the first one does nothing: an
-    engine that does not look at signals would come to its end before the second.
+    Python runs a handler between its own instructions, too, as soon as the engine has returned. So the first one does
+    nothing: an engine that does not look at signals would come to its end before the second.
     """
     handled, stop, ended = threading.Event(), threading.Event(), False
 
@@ -67,14 +67,18 @@ def interrupt(operation):
     return not ended
 
 
-@pytest.mark.parametrize("operation", [
-    lambda mesh: fs.crack(mesh, PLANE, transition=8),
-    lambda mesh: fs.crack(mesh, PLANE, method="deform"),
-    lambda mesh: fs.drill(mesh, fs.Cylinder((20, 20, 0), (0.1, 0.2, 1), 12), transition=8),
-    lambda mesh: fs.cut(mesh, PLANE, 3.3, transition=8),
-    lambda mesh: fs.refine(mesh, PLANE, 0.4),
-    lambda mesh: fs.virtual_boundary(mesh, "ALL"),
-], ids=["crack", "deform", "drill", "cut", "refine", "virtual_boundary"])
+@pytest.mark.parametrize(
+    "operation",
+    [
+        lambda mesh: fs.crack(mesh, PLANE, transition=8),
+        lambda mesh: fs.crack(mesh, PLANE, method="deform"),
+        lambda mesh: fs.drill(mesh, fs.Cylinder((20, 20, 0), (0.1, 0.2, 1), 12), transition=8),
+        lambda mesh: fs.cut(mesh, PLANE, 3.3, transition=8),
+        lambda mesh: fs.refine(mesh, PLANE, 0.4),
+        lambda mesh: fs.virtual_boundary(mesh, "ALL"),
+    ],
+    ids=["crack", "deform", "drill", "cut", "refine", "virtual_boundary"],
+)
 def test_ctrl_c(large, operation):
     assert interrupt(lambda: operation(large))
 

@@ -14,8 +14,12 @@ PLANE = fs.Plane(origin=(3.3, 2.5, 2), normal=(0.9, 0.3, 0.2))
 
 
 def snapshot(mesh):
-    return (mesh.points.tobytes(), mesh.node_ids.tobytes(), {t: c.tobytes() for t, c in mesh.cells.items()},
-            {g.name: g.ids.tobytes() for g in mesh.groups.all()})
+    return (
+        mesh.points.tobytes(),
+        mesh.node_ids.tobytes(),
+        {t: c.tobytes() for t, c in mesh.cells.items()},
+        {g.name: g.ids.tobytes() for g in mesh.groups.all()},
+    )
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +65,9 @@ def test_groups_survive_and_lips_are_made(cracked):
     for lip in lips:
         corners = result.mesh.points[triangles[np.isin(ids, list(lip))]]
         assert np.abs(PLANE.distance(corners.reshape(-1, 3))).max() < 1e-8
-        areas.append(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2)
+        areas.append(
+            np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+        )
     assert areas[0] == pytest.approx(areas[1], rel=1e-12)
 
 
@@ -90,7 +96,7 @@ def test_report_as_text_and_csv(cracked, tmp_path):
     _, result = cracked
     text = result.report.to_text()
     assert str(result.report) == text
-    table = text[text.index("\ngroup ") + 1:].splitlines()
+    table = text[text.index("\ngroup ") + 1 :].splitlines()
     assert [line.split()[0] for line in table[2:]] == [g.name for g in result.report.groups]
     assert "ICN" in text and "mean ratio" in text
     buffer = io.StringIO()
@@ -127,7 +133,9 @@ def test_band_only_gives_the_elements_near_the_tool():
     whole, band = fs.crack(mesh, plane), fs.Scalpel(mesh).crack(plane, band_only=True)
     assert len(band.mesh.cells["tetra"]) < 0.8 * len(whole.mesh.cells["tetra"])
     of_whole = dict(zip(whole.mesh.cell_ids["tetra"].tolist(), whole.mesh.node_ids[whole.mesh.cells["tetra"]].tolist()))
-    for number, nodes in zip(band.mesh.cell_ids["tetra"].tolist(), band.mesh.node_ids[band.mesh.cells["tetra"]].tolist()):
+    for number, nodes in zip(
+        band.mesh.cell_ids["tetra"].tolist(), band.mesh.node_ids[band.mesh.cells["tetra"]].tolist()
+    ):
         assert of_whole[number] == nodes
     assert band.mesh.groups["CRACK_P"].ids.tolist() == whole.mesh.groups["CRACK_P"].ids.tolist()
     assert band.report.nodes_added == whole.report.nodes_added
@@ -159,20 +167,23 @@ def test_other_threads_run_meanwhile():
         thread.join()
 
 
-@pytest.mark.parametrize("kwargs, error, message", [
-    ({"mesh": None}, TypeError, "mesh must be a femscalpel.Mesh"),
-    ({"tool": (0, 0, 1)}, TypeError, "tool must be a tool"),
-    ({"name": 5}, TypeError, "name must be a string"),
-    ({"method": "saw"}, ValueError, "method must be 'snap' or 'deform'"),
-    ({"transition": 2.5}, TypeError, "transition must be an integer"),
-    ({"transition": 0}, ValueError, "transition must be at least 1"),
-    ({"feature_angle": "30"}, TypeError, "feature_angle must be a number"),
-    ({"feature_angle": 180}, ValueError, "feature_angle must be between"),
-    ({"band_only": 1}, TypeError, "band_only must be True or False"),
-    ({"tool": fs.Plane((99, 0, 0), (1, 0, 0))}, fs.ToolError, ""),
-    ({"name": "A_NAME_FAR_TOO_LONG_FOR_CODE_ASTER"}, fs.ToolError, "24"),
-    ({"name": ""}, fs.ToolError, ""),
-])
+@pytest.mark.parametrize(
+    "kwargs, error, message",
+    [
+        ({"mesh": None}, TypeError, "mesh must be a femscalpel.Mesh"),
+        ({"tool": (0, 0, 1)}, TypeError, "tool must be a tool"),
+        ({"name": 5}, TypeError, "name must be a string"),
+        ({"method": "saw"}, ValueError, "method must be 'snap' or 'deform'"),
+        ({"transition": 2.5}, TypeError, "transition must be an integer"),
+        ({"transition": 0}, ValueError, "transition must be at least 1"),
+        ({"feature_angle": "30"}, TypeError, "feature_angle must be a number"),
+        ({"feature_angle": 180}, ValueError, "feature_angle must be between"),
+        ({"band_only": 1}, TypeError, "band_only must be True or False"),
+        ({"tool": fs.Plane((99, 0, 0), (1, 0, 0))}, fs.ToolError, ""),
+        ({"name": "A_NAME_FAR_TOO_LONG_FOR_CODE_ASTER"}, fs.ToolError, "24"),
+        ({"name": ""}, fs.ToolError, ""),
+    ],
+)
 def test_bad_arguments(kwargs, error, message):
     arguments = {"mesh": box_with_groups(), "tool": PLANE, **kwargs}
     with pytest.raises(error, match=message):
@@ -197,8 +208,9 @@ def test_everything_public_is_documented():
         item = getattr(fs, name)
         assert inspect.getdoc(item), name
         if inspect.isfunction(item):
-            assert all(p.annotation is not inspect.Parameter.empty for p in inspect.signature(item).parameters.values()) \
-                or name.endswith("meshio"), name
+            assert all(
+                p.annotation is not inspect.Parameter.empty for p in inspect.signature(item).parameters.values()
+            ) or name.endswith("meshio"), name
 
 
 def test_moved_mid_side_nodes_are_in_the_node_sets():

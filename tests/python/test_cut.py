@@ -38,7 +38,9 @@ def test_slot_between_parallel_planes(width):
 
 def test_saw_cut_stops_inside():
     mesh = grid_box((9, 8, 7), (6, 5, 4))
-    result = fs.cut(mesh, fs.Plane((3.1, 0, 0), (1, 0, 0)), width=0.5, bottom=fs.Plane((0, 0, 1.6), (0, 0, -1)), name="SAW")
+    result = fs.cut(
+        mesh, fs.Plane((3.1, 0, 0), (1, 0, 0)), width=0.5, bottom=fs.Plane((0, 0, 1.6), (0, 0, -1)), name="SAW"
+    )
     assert 120 - volume(result) == pytest.approx(0.5 * 5 * 2.4, rel=1e-9)
     assert area(wall(result, "SAW_BOTTOM")) == pytest.approx(0.5 * 5, rel=1e-9)
     np.testing.assert_allclose(wall(result, "SAW_BOTTOM")[..., 2], 1.6, atol=1e-9)
@@ -62,18 +64,21 @@ def test_session_gives_the_same():
 PLANE = fs.Plane((3.1, 0, 0), (1, 0, 0))
 
 
-@pytest.mark.parametrize("kwargs, error, message", [
-    ({}, ValueError, "give either width or other"),
-    ({"width": 1, "other": PLANE}, ValueError, "give either width or other"),
-    ({"width": 0}, fs.ToolError, "width is 0; it must be positive"),
-    ({"width": -1}, fs.ToolError, "width is -1"),
-    ({"width": "1"}, TypeError, "width must be a number"),
-    ({"width": 1, "tool": fs.Cylinder((0, 0, 0), (0, 0, 1), 1)}, TypeError, "must be a femscalpel.Plane"),
-    ({"width": 1, "bottom": 3}, TypeError, "bottom must be a tool"),
-    ({"width": 1, "tool": fs.Plane((50, 0, 0), (1, 0, 0))}, fs.ToolError, "misses"),
-    ({"width": 20}, fs.ToolError, "the plane would remove the whole mesh: all of it lies inside"),
-    ({"width": 1, "method": "deform"}, fs.ToolError, "single surface"),
-])
+@pytest.mark.parametrize(
+    "kwargs, error, message",
+    [
+        ({}, ValueError, "give either width or other"),
+        ({"width": 1, "other": PLANE}, ValueError, "give either width or other"),
+        ({"width": 0}, fs.ToolError, "width is 0; it must be positive"),
+        ({"width": -1}, fs.ToolError, "width is -1"),
+        ({"width": "1"}, TypeError, "width must be a number"),
+        ({"width": 1, "tool": fs.Cylinder((0, 0, 0), (0, 0, 1), 1)}, TypeError, "must be a femscalpel.Plane"),
+        ({"width": 1, "bottom": 3}, TypeError, "bottom must be a tool"),
+        ({"width": 1, "tool": fs.Plane((50, 0, 0), (1, 0, 0))}, fs.ToolError, "misses"),
+        ({"width": 20}, fs.ToolError, "the plane would remove the whole mesh: all of it lies inside"),
+        ({"width": 1, "method": "deform"}, fs.ToolError, "single surface"),
+    ],
+)
 def test_bad_arguments(kwargs, error, message):
     with pytest.raises(error, match=message):
         fs.cut(**{"mesh": box_with_groups(), "tool": PLANE, **kwargs})

@@ -33,7 +33,7 @@ def test_hole(drilled):
     removed = 6 * 5 * 4 - volumes.sum()
     enclosed = -np.einsum("ij,ij->i", outward[:, :2], corners.mean(axis=1)[:, :2] - HOLE.origin[:2]).sum() / 4
     assert removed == pytest.approx(enclosed, rel=1e-9)
-    assert 0.8 < removed / (np.pi * HOLE.radius ** 2 * 4) < 1
+    assert 0.8 < removed / (np.pi * HOLE.radius**2 * 4) < 1
 
 
 def test_groups_and_report(drilled):
@@ -51,12 +51,20 @@ def test_groups_and_report(drilled):
 def test_groups_that_lose_members_are_reported():
     mesh = box_with_groups()
     inside = np.linalg.norm(mesh.points[:, :2] - HOLE.origin[:2], axis=1) < 0.9
-    numbers = {"GONE": mesh.node_ids[inside], "FEWER": mesh.node_ids[mesh.points[:, 2] == 4], "FAR": mesh.node_ids[mesh.points[:, 0] == 6]}
+    numbers = {
+        "GONE": mesh.node_ids[inside],
+        "FEWER": mesh.node_ids[mesh.points[:, 2] == 4],
+        "FAR": mesh.node_ids[mesh.points[:, 0] == 6],
+    }
     for name, ids in numbers.items():
         mesh.add_group(name, "node", ids)
     result = fs.drill(mesh, HOLE)
     status = {(g.name, g.kind): g.status for g in result.report.groups}
-    assert status["GONE", "node"] == "became empty" and status["FEWER", "node"] == "reduced" and status["FAR", "node"] == "untouched"
+    assert (
+        status["GONE", "node"] == "became empty"
+        and status["FEWER", "node"] == "reduced"
+        and status["FAR", "node"] == "untouched"
+    )
     # Nodes born at the hole may make up in number for those that are gone; still it lost some.
     after = set(result.mesh.groups["FEWER"].ids.tolist())
     assert not set(numbers["FEWER"].tolist()) <= after and after
@@ -65,7 +73,10 @@ def test_groups_that_lose_members_are_reported():
     assert not [w for w in result.report.warnings if "'FEWER'" in w or "'EMPTY'" in w]
     assert "became empty" in result.report.to_text() and "reduced" in result.report.to_text()
     # A crack takes nothing away.
-    assert not {g.status for g in fs.crack(mesh, fs.Plane((2.9, 0, 0), (1, 0.2, 0))).report.groups} & {"reduced", "became empty"}
+    assert not {g.status for g in fs.crack(mesh, fs.Plane((2.9, 0, 0), (1, 0.2, 0))).report.groups} & {
+        "reduced",
+        "became empty",
+    }
 
 
 def test_blind_hole_has_a_flat_bottom():
@@ -76,10 +87,12 @@ def test_blind_hole_has_a_flat_bottom():
     assert np.abs(bottom[..., 2] - 1.8).max() < 1e-9 and np.abs(drill.distance(bottom.reshape(-1, 3))).min() < 1e-9
     assert drill.distance(bottom.reshape(-1, 3)).max() < 1e-9
     wall = wall_points(result, "BLIND_WALL")
-    assert np.abs(drill.distance(wall.reshape(-1, 3))).max() < 1e-9 and wall[..., 2].min() == pytest.approx(1.8, abs=1e-9)
+    assert np.abs(drill.distance(wall.reshape(-1, 3))).max() < 1e-9 and wall[..., 2].min() == pytest.approx(
+        1.8, abs=1e-9
+    )
     area = np.linalg.norm(np.cross(bottom[:, 1] - bottom[:, 0], bottom[:, 2] - bottom[:, 0]), axis=1).sum() / 2
     removed = 120 - tetra_volumes(result.mesh.points, result.mesh.cells["tetra"]).sum()
-    assert 0.9 < area / (np.pi * 1.4 ** 2) < 1 and 0.9 < removed / (2.2 * np.pi * 1.4 ** 2) < 1
+    assert 0.9 < area / (np.pi * 1.4**2) < 1 and 0.9 < removed / (2.2 * np.pi * 1.4**2) < 1
 
 
 def test_several_holes():
@@ -102,21 +115,36 @@ def test_session_gives_the_same():
     assert a.points.tobytes() == b.points.tobytes() and a.cells["tetra"].tobytes() == b.cells["tetra"].tobytes()
 
 
-@pytest.mark.parametrize("kwargs, error, message", [
-    ({"tools": 5}, TypeError, "tools must be a tool"),
-    ({"tools": [HOLE, 5]}, TypeError, r"tools\[1\] must be a tool"),
-    ({"tools": []}, ValueError, "tools is empty"),
-    ({"depth": "2"}, TypeError, "depth must be a number"),
-    ({"depth": -2}, fs.ToolError, "depth is -2; it must be positive"),
-    ({"depth": 2, "tools": fs.Plane((3, 0, 0), (1, 0, 0))}, fs.ToolError, "depth is for cylinders"),
-    ({"tools": fs.Cylinder((0, 0, 0), (0, 0, 1), 99)}, fs.ToolError, "would remove the whole mesh: all of it lies inside"),
-    ({"tools": [fs.Cylinder((1.5, 2.5, 0), (0, 0, 1), 3.5), fs.Cylinder((4.5, 2.5, 0), (0, 0, 1), 3.5)]}, fs.ToolError, "would remove the whole mesh"),
-    ({"tools": fs.Cylinder((3, 2.5, 0), (0, 0, 1), 9), "depth": 9}, fs.ToolError, "would remove the whole mesh"),
-    ({"tools": fs.Cylinder((3, 2.5, -5), (0, 0, 1), 1), "depth": 2}, fs.ToolError, "Move that part into the material"),
-    ({"tools": fs.Cylinder((-1, 2.5, 0), (0, 0, 1), 1)}, fs.ToolError, "removes nothing"),
-    ({"tools": fs.Cylinder((50, 0, 0), (0, 0, 1), 1)}, fs.ToolError, "misses"),
-    ({"name": "A_NAME_FAR_TOO_LONG_FOR_CODE_ASTER"}, fs.ToolError, "24"),
-])
+@pytest.mark.parametrize(
+    "kwargs, error, message",
+    [
+        ({"tools": 5}, TypeError, "tools must be a tool"),
+        ({"tools": [HOLE, 5]}, TypeError, r"tools\[1\] must be a tool"),
+        ({"tools": []}, ValueError, "tools is empty"),
+        ({"depth": "2"}, TypeError, "depth must be a number"),
+        ({"depth": -2}, fs.ToolError, "depth is -2; it must be positive"),
+        ({"depth": 2, "tools": fs.Plane((3, 0, 0), (1, 0, 0))}, fs.ToolError, "depth is for cylinders"),
+        (
+            {"tools": fs.Cylinder((0, 0, 0), (0, 0, 1), 99)},
+            fs.ToolError,
+            "would remove the whole mesh: all of it lies inside",
+        ),
+        (
+            {"tools": [fs.Cylinder((1.5, 2.5, 0), (0, 0, 1), 3.5), fs.Cylinder((4.5, 2.5, 0), (0, 0, 1), 3.5)]},
+            fs.ToolError,
+            "would remove the whole mesh",
+        ),
+        ({"tools": fs.Cylinder((3, 2.5, 0), (0, 0, 1), 9), "depth": 9}, fs.ToolError, "would remove the whole mesh"),
+        (
+            {"tools": fs.Cylinder((3, 2.5, -5), (0, 0, 1), 1), "depth": 2},
+            fs.ToolError,
+            "Move that part into the material",
+        ),
+        ({"tools": fs.Cylinder((-1, 2.5, 0), (0, 0, 1), 1)}, fs.ToolError, "removes nothing"),
+        ({"tools": fs.Cylinder((50, 0, 0), (0, 0, 1), 1)}, fs.ToolError, "misses"),
+        ({"name": "A_NAME_FAR_TOO_LONG_FOR_CODE_ASTER"}, fs.ToolError, "24"),
+    ],
+)
 def test_bad_arguments(kwargs, error, message):
     with pytest.raises(error, match=message):
         fs.drill(**{"mesh": box_with_groups(), "tools": HOLE, **kwargs})
@@ -132,7 +160,9 @@ def test_a_hole_deeper_than_the_part_goes_through():
 def test_a_tool_that_takes_a_whole_group_says_which():
     result = fs.drill(box_with_groups(), fs.Cylinder((0, 2.5, 0), (0, 0, 1), 4))
     left, right = (next(g for g in result.report.groups if g.name == name) for name in ("LEFT", "RIGHT"))
-    assert left.status == "became empty" and left.count_after == 0 and left.measure_after == 0 < right.measure_after < 60
+    assert (
+        left.status == "became empty" and left.count_after == 0 and left.measure_after == 0 < right.measure_after < 60
+    )
     assert any("group 'LEFT' loses all its 360 member(s)" in w for w in result.report.warnings)
     assert len(result.mesh.groups["LEFT"].ids) == 0
 
@@ -140,7 +170,8 @@ def test_a_tool_that_takes_a_whole_group_says_which():
 @pytest.mark.parametrize("radius", [0.6, 1.0])
 @pytest.mark.parametrize("place", ["skin", "border from the left", "border from the right"])
 def test_tangent_tools(radius, place):
-    """Tangent to the skin or to the border of a group: nothing of the neighbour goes, the border stays, and there is a warning."""
+    """Tangent to the skin or to the border of a group: nothing of the neighbour goes, the border stays, and there is a
+    warning."""
     x = {"skin": radius, "border from the left": 3 - radius, "border from the right": 3 + radius}[place]
     result = fs.drill(box_with_groups(), fs.Cylinder((x, 2.5, 0), (0, 0, 1), radius))
     result.mesh.validate()
@@ -149,7 +180,9 @@ def test_tangent_tools(radius, place):
     assert any("at less than 0.1 degrees" in w for w in result.report.warnings)
     measure = {g.name: g.measure_after for g in result.report.groups}
     assert measure["LEFT" if x > 3 else "RIGHT"] == pytest.approx(60, rel=1e-12)
-    assert measure["RIGHT" if x > 3 else "LEFT"] == pytest.approx(60 - 4 * np.pi * radius ** 2, abs=0.12 * np.pi * radius ** 2)  # chords: 3 %
+    assert measure["RIGHT" if x > 3 else "LEFT"] == pytest.approx(
+        60 - 4 * np.pi * radius**2, abs=0.12 * np.pi * radius**2
+    )  # chords: 3 %
 
 
 @pytest.mark.parametrize("gap", [1e-7, 0.01])

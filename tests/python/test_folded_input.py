@@ -19,7 +19,7 @@ def ratios(mesh, kind, at):
     if at == "corners":
         places = np.eye(n)
     else:
-        near = (5 + 3 * 5 ** 0.5) / 20 if n == 4 else 2 / 3
+        near = (5 + 3 * 5**0.5) / 20 if n == 4 else 2 / 3
         places = np.full((n, n), (1 - near) / (n - 1)) + np.eye(n) * (near - (1 - near) / (n - 1))
     x = mesh.points[mesh.cells[kind]]
     slopes = np.vstack([-np.ones(n - 1), np.eye(n - 1)])
@@ -53,14 +53,23 @@ def pushed(mesh, kind, chosen, by=0.256):
 
 def box(by=0.256):
     """A box with mid-side nodes of short edges on the face x = 0, around its middle, pushed along them."""
+
     def chosen(a, b):
         middle = (a + b) / 2
-        return a[0] == b[0] == 0 and abs(np.linalg.norm(a - b) - 1) < 1e-9 and 1.2 < middle[2] < 3.8 and 0.8 < middle[1] < 4.2
+        return (
+            a[0] == b[0] == 0
+            and abs(np.linalg.norm(a - b) - 1) < 1e-9
+            and 1.2 < middle[2] < 3.8
+            and 0.8 < middle[1] < 4.2
+        )
+
     return pushed(quadratic(grid_box((4, 5, 5), (4.0, 5.0, 5.0))), "tetra10", chosen, by)
 
 
 def sheet(by=0.3):
-    return pushed(quadratic_of(plate()), "triangle6", lambda a, b: 1 < (a[0] + b[0]) / 2 < 5 and a[1] == b[1] and 1 < a[1] < 4, by)
+    return pushed(
+        quadratic_of(plate()), "triangle6", lambda a, b: 1 < (a[0] + b[0]) / 2 < 5 and a[1] == b[1] and 1 < a[1] < 4, by
+    )
 
 
 MODELS = {"tetra10": box, "triangle6": sheet}
@@ -78,13 +87,17 @@ def folded_numbers(mesh, kind):
     return mesh.cell_ids[kind][ratios(mesh, kind, "corners") <= 0]
 
 
-@pytest.mark.parametrize("kind, tool", [(k, t) for k in MODELS for t in TOOLS if k == "tetra10" or t not in ("plane", "refined hole")])
+@pytest.mark.parametrize(
+    "kind, tool", [(k, t) for k in MODELS for t in TOOLS if k == "tetra10" or t not in ("plane", "refined hole")]
+)
 def test_worked_through(kind, tool):
     mesh, _ = MODELS[kind]()
     folded = folded_numbers(mesh, kind)
     assert len(folded) > 10 and ratios(mesh, kind, "integration points").min() > 0.05
     sound, _ = MODELS[kind](0)
-    before = dict(zip(mesh.cell_ids[kind], np.minimum(ratios(mesh, kind, "corners"), ratios(mesh, kind, "integration points"))))
+    before = dict(
+        zip(mesh.cell_ids[kind], np.minimum(ratios(mesh, kind, "corners"), ratios(mesh, kind, "integration points")))
+    )
     old = dict(zip(mesh.cell_ids[kind], mesh.points[mesh.cells[kind]]))
     worked = 0
     for z in (2.2, 2.5, 2.77):
@@ -116,7 +129,7 @@ def test_untouched_elements_stay_bit_for_bit(kind):
     new = {n: x for n, x in zip(result.mesh.node_ids, result.mesh.points)}
     kept = [n for n in mesh.node_ids[moved] if (new[n] == old[n]).all()]
     assert len(moved) / 4 <= len(kept)
-    warning, = [w for w in result.report.warnings if "folded at a corner" in w]
+    (warning,) = [w for w in result.report.warnings if "folded at a corner" in w]
     gone = sorted(set(mesh.node_ids[moved]) - set(kept))
     assert all(str(n) in warning.split("node")[-1] for n in gone)
     # An element none of whose mid-side nodes had to move is what it was.
@@ -160,13 +173,22 @@ def test_solved(tmp_path):
     mesh.add_group("ALL", "element", mesh.cell_ids["tetra10"])
     mesh.add_group("FIX", "node", mesh.node_ids[mesh.points[:, 2] == 0])
     mesh.add_group("TOP", "node", mesh.node_ids[mesh.points[:, 2] == 5])
-    step = ("*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
-            "*STEP\n*STATIC\n*BOUNDARY\nFIX, 1, 3\nTOP, 3, 3, 0.001\n*NODE FILE\nU\n*END STEP\n")
+    step = (
+        "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
+        "*STEP\n*STATIC\n*BOUNDARY\nFIX, 1, 3\nTOP, 3, 3, 0.001\n*NODE FILE\nU\n*END STEP\n"
+    )
     for operation in (lambda m: m, lambda m: TOOLS["plane"](m, 2.5).mesh, lambda m: TOOLS["slot"](m, 2.5).mesh):
         out = operation(mesh)
-        deck = fs.Mesh(out.points, {"tetra10": out.cells["tetra10"]}, out.node_ids, {"tetra10": out.cell_ids["tetra10"]},
-                       {name: (out.groups[name].kind, out.groups[name].ids) for name in ("ALL", "FIX", "TOP")})
+        deck = fs.Mesh(
+            out.points,
+            {"tetra10": out.cells["tetra10"]},
+            out.node_ids,
+            {"tetra10": out.cell_ids["tetra10"]},
+            {name: (out.groups[name].kind, out.groups[name].ids) for name in ("ALL", "FIX", "TOP")},
+        )
         fs.write(deck, tmp_path / "run.inp")
         (tmp_path / "run.inp").write_text((tmp_path / "run.inp").read_text() + step)
         done = subprocess.run(["ccx", "run"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        assert done.returncode == 0 and "*ERROR" not in done.stdout and "Job finished" in done.stdout, done.stdout[-2000:]
+        assert done.returncode == 0 and "*ERROR" not in done.stdout and "Job finished" in done.stdout, done.stdout[
+            -2000:
+        ]

@@ -18,8 +18,13 @@ def test_elementary_groups_are_disjoint_and_complete():
     mesh.add_group("CORNER", "node", [*mesh.groups["FIX"].ids[:3], *mesh.groups["TOP"].ids[:2]])
     classes = mesh.elementary_groups()
     assert {(c.kind, c.dimension, c.groups) for c in classes} == {
-        ("node", 0, ("FIX",)), ("node", 0, ("TOP",)), ("node", 0, ("FIX", "CORNER")), ("node", 0, ("TOP", "CORNER")),
-        ("element", 3, ("LEFT", "ALL")), ("element", 3, ("RIGHT", "ALL"))}
+        ("node", 0, ("FIX",)),
+        ("node", 0, ("TOP",)),
+        ("node", 0, ("FIX", "CORNER")),
+        ("node", 0, ("TOP", "CORNER")),
+        ("element", 3, ("LEFT", "ALL")),
+        ("element", 3, ("RIGHT", "ALL")),
+    }
     for kind in ("node", "element"):
         ids = np.concatenate([c.ids for c in classes if c.kind == kind])
         assert len(np.unique(ids)) == len(ids)
@@ -62,7 +67,9 @@ def test_volume_group_is_bounded_by_its_surface():
 def test_figure_9():
     points = [[x, y, 0] for y in range(3) for x in range(3)]
     cells = [[a, a + 1, a + 4] for a in (0, 1, 3, 4)] + [[a, a + 4, a + 3] for a in (0, 1, 3, 4)]
-    mesh = fs.Mesh(points, {"triangle": cells, "line": [[0, 3]]}, groups={"GN": ("node", [1, 4, 7]), "ALONE": ("node", [5])})
+    mesh = fs.Mesh(
+        points, {"triangle": cells, "line": [[0, 3]]}, groups={"GN": ("node", [1, 4, 7]), "ALONE": ("node", [5])}
+    )
     found = fs.virtual_boundary(mesh, "GN")
     assert rows(found.linking.edges) == {frozenset({1, 4}), frozenset({4, 7})}
     by_edge = dict(zip(map(frozenset, found.linking.edges.tolist()), found.linking.edge_elements.tolist()))
@@ -143,8 +150,16 @@ def test_constraints_by_group_in_every_form(tmp_path):
     assert len(rows_of) == len(report.groups)
     for g in report.groups:
         row = rows_of[g.name, g.kind]
-        assert [int(row[k]) for k in ("nodes_on_surface", "nodes_on_line", "nodes_fixed")] == [g.nodes_on_surface, g.nodes_on_line, g.nodes_fixed]
-        assert row["boundary_kept"] == "True" and float(row["measure_after"]) == g.measure_after and row["status"] == g.status
+        assert [int(row[k]) for k in ("nodes_on_surface", "nodes_on_line", "nodes_fixed")] == [
+            g.nodes_on_surface,
+            g.nodes_on_line,
+            g.nodes_fixed,
+        ]
+        assert (
+            row["boundary_kept"] == "True"
+            and float(row["measure_after"]) == g.measure_after
+            and row["status"] == g.status
+        )
 
 
 def test_scattered_groups_that_hold_nodes_everywhere_are_warned_of():
@@ -191,6 +206,7 @@ def covered_points(mesh, name):
 
 def distance_to_triangle(x, a, b, c):
     from scipy.optimize import nnls
+
     # The nearest convex combination: least squares with the sum of weights held to one by a heavy row.
     heavy = 1e4
     matrix = np.vstack([np.stack([a, b, c], axis=1), heavy * np.ones(3)])
@@ -198,10 +214,15 @@ def distance_to_triangle(x, a, b, c):
 
 
 def test_drift_along_shortcuts_is_reported():
-    """A support on two sides of an edge of a box: faces and edges lead through the corner elements from one to the other."""
+    """A support on two sides of an edge of a box: faces and edges lead through the corner elements from one to the
+    other."""
     box = grid_box()
     x, y = box.points[:, 0], box.points[:, 1]
-    mesh = fs.Mesh(box.points, box.cells, groups={"FIX": ("node", 1 + np.nonzero((x == 0) | (y == 5))[0]), "SIDE": ("node", 1 + np.nonzero(x == 0)[0])})
+    mesh = fs.Mesh(
+        box.points,
+        box.cells,
+        groups={"FIX": ("node", 1 + np.nonzero((x == 0) | (y == 5))[0]), "SIDE": ("node", 1 + np.nonzero(x == 0)[0])},
+    )
     plane = fs.Plane((0.6, 4.5, 2.2), (1, 1, 0.2))
     result = fs.crack(mesh, plane)
     drift = {g.name: g.boundary_drift for g in result.report.groups}
@@ -220,19 +241,34 @@ def test_drift_along_shortcuts_is_reported():
 
 def test_an_area_that_edges_no_longer_enclose_is_warned_of():
     points = np.array([(i, j, 0.0) for j in range(5) for i in range(9)])
-    triangles = np.array([(j * 9 + i + a, j * 9 + i + b, j * 9 + i + c) for j in range(4) for i in range(8) for a, b, c in ((0, 1, 10), (0, 10, 9))])
+    triangles = np.array(
+        [
+            (j * 9 + i + a, j * 9 + i + b, j * 9 + i + c)
+            for j in range(4)
+            for i in range(8)
+            for a, b, c in ((0, 1, 10), (0, 10, 9))
+        ]
+    )
     inside, away = 2 * (2 * 8 + 3), 2 * 8 + 14
     rings = [[t[k], t[(k + 1) % 3]] for t in (triangles[inside], triangles[away]) for k in range(3)]
     count = len(triangles)
-    groups = {"RING": ("element", range(count + 1, count + 4)), "AWAY": ("element", range(count + 4, count + 7)), "ROW": ("element", range(count + 1, count + 3)),
-              "WHOLE": ("element", [inside + 1, *range(count + 1, count + 4)])}
+    groups = {
+        "RING": ("element", range(count + 1, count + 4)),
+        "AWAY": ("element", range(count + 4, count + 7)),
+        "ROW": ("element", range(count + 1, count + 3)),
+        "WHOLE": ("element", [inside + 1, *range(count + 1, count + 4)]),
+    }
     mesh = fs.Mesh(points, {"triangle": triangles, "line": rings}, groups=groups)
     enclosed = [len(fs.virtual_boundary(mesh, name).enclosed) for name in ("RING", "AWAY", "ROW", "WHOLE")]
     assert enclosed == [1, 1, 0, 1]
     result = fs.crack(mesh, fs.Plane(points[triangles[inside]].mean(axis=0), (1, 0.4, 0)))
     warned = [w for w in result.report.warnings if "covers less than before" in w]
     assert len(warned) == 1 and f"group 'RING' covers element {inside + 1}, or" in warned[0]
-    assert [len(fs.virtual_boundary(result.mesh, name).enclosed) > 0 for name in ("RING", "AWAY", "WHOLE")] == [False, True, True]
+    assert [len(fs.virtual_boundary(result.mesh, name).enclosed) > 0 for name in ("RING", "AWAY", "WHOLE")] == [
+        False,
+        True,
+        True,
+    ]
     refined = fs.refine(mesh, near=fs.Sphere(points[triangles[inside]].mean(axis=0), 0.01), size=0.5)
     assert any("group 'RING' covers" in w for w in refined.report.warnings)
 
@@ -248,7 +284,9 @@ def test_a_volume_that_faces_or_edges_no_longer_enclose_is_warned_of(with_edges)
         cells, members = {"line": [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]}, 6
     else:
         cells, members = {"triangle": [[a, b, c], [a, b, d], [a, c, d], [b, c, d]]}, 4
-    mesh = fs.Mesh(box.points, {**box.cells, **cells}, groups={"SHELL": ("element", range(count + 1, count + members + 1))})
+    mesh = fs.Mesh(
+        box.points, {**box.cells, **cells}, groups={"SHELL": ("element", range(count + 1, count + members + 1))}
+    )
     before = fs.virtual_boundary(mesh, "SHELL")
     assert len(before.enclosed) == 1
     result = fs.crack(mesh, fs.Plane(centres[k], (0.9, 0.3, 0.2)))

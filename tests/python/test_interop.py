@@ -23,7 +23,9 @@ def test_flat_points_repeated_blocks_and_sets():
     source = meshio.Mesh(
         [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         [("triangle", [[0, 1, 2]]), ("line", [[0, 1]]), ("triangle", [[0, 2, 3]])],
-        point_sets={"corner": [2]}, cell_sets={"second": [[], [], [0]], "both": [[0], [0], []]})
+        point_sets={"corner": [2]},
+        cell_sets={"second": [[], [], [0]], "both": [[0], [0], []]},
+    )
     mesh = fs.from_meshio(source)
     assert mesh.points.shape == (4, 3) and mesh.dimension == 2
     np.testing.assert_array_equal(mesh.cells["triangle"], [[0, 1, 2], [0, 2, 3]])

@@ -97,7 +97,11 @@ def test_groups():
     assert sorted(mesh.groups["PART"].ids) == [1, 3]
     np.testing.assert_array_equal(mesh.groups["SIDE"].ids, [[1, 4], [2, 1]])
     assert mesh.groups["SIDE"].ids.dtype == np.int64
-    assert {name: group.kind for name, group in mesh.groups.items()} == {"FIX": "node", "PART": "element", "SIDE": "facet"}
+    assert {name: group.kind for name, group in mesh.groups.items()} == {
+        "FIX": "node",
+        "PART": "element",
+        "SIDE": "facet",
+    }
     with pytest.raises(KeyError):
         mesh.groups["NONE"]
 
@@ -158,28 +162,31 @@ def test_repr_tells_counts():
     assert "2 nodes" in repr(make(groups={"A": ("node", [1, 2])}).groups["A"])
 
 
-@pytest.mark.parametrize("arguments, error, message", [
-    (("abc", {}), TypeError, "points"),
-    (([[1, 2]], {}), ValueError, r"points must have the shape \(n, 3\)"),
-    ((POINTS, [[0, 1, 2, 3]]), TypeError, "cells must be a dict"),
-    ((POINTS, {"tetra": [[0, 1, 2]]}), ValueError, r"cells\['tetra'\] must have the shape \(m, 4\)"),
-    ((POINTS, {"tetra": [[0.0, 1.0, 2.0, 3.0]]}), TypeError, r"cells\['tetra'\] must be an array of integers"),
-    ((POINTS, {"tetra4": [[0, 1, 2, 3]]}), fs.Error, "tetra4"),
-    ((POINTS, {"tetra": [[0, 1, 2, 5]]}), fs.Error, "tetra element 1 refers to a node that does not exist"),
-    ((POINTS, {"tetra": [[0, 1, 2, -1]]}), fs.Error, "tetra element 1"),
-    ((POINTS, CELLS, [1, 2, 3]), ValueError, "node_ids must have the shape"),
-    ((POINTS, CELLS, [1, 2, 3, 4, 4]), fs.Error, "node number 4 is used twice"),
-    ((POINTS, CELLS, [0, 1, 2, 3, 4]), fs.Error, "node number 0 is not positive"),
-    ((POINTS, CELLS, None, {"tetra": [1, 2]}), ValueError, "cell_ids must have an entry 'triangle'"),
-    ((POINTS, CELLS, None, {"tetra": [1], "triangle": [2]}), ValueError, r"cell_ids\['tetra'\]"),
-    ((POINTS, CELLS, None, {"tetra": [1, 2], "triangle": [2]}), fs.Error, "element number 2 is used twice"),
-    ((POINTS, CELLS, None, {"tetra": [1, 2], "triangle": [3], "quad": []}), ValueError, "quad"),
-    (([[0, 0, float("nan")]], {}), fs.Error, "node 1 has a coordinate that is not a finite number"),
-    ((POINTS, CELLS, None, None, {"A": ("nodes", [1])}), ValueError, r"groups\['A'\]: kind must be one of"),
-    ((POINTS, CELLS, None, None, {"A": ("node", [99])}), fs.Error, "node group 'A' names node 99"),
-    ((POINTS, CELLS, None, None, {"A": ("facet", [1, 2])}), fs.Error, "facet group 'A'"),
-    ((POINTS, CELLS, None, None, ["A"]), TypeError, "groups must be"),
-])
+@pytest.mark.parametrize(
+    "arguments, error, message",
+    [
+        (("abc", {}), TypeError, "points"),
+        (([[1, 2]], {}), ValueError, r"points must have the shape \(n, 3\)"),
+        ((POINTS, [[0, 1, 2, 3]]), TypeError, "cells must be a dict"),
+        ((POINTS, {"tetra": [[0, 1, 2]]}), ValueError, r"cells\['tetra'\] must have the shape \(m, 4\)"),
+        ((POINTS, {"tetra": [[0.0, 1.0, 2.0, 3.0]]}), TypeError, r"cells\['tetra'\] must be an array of integers"),
+        ((POINTS, {"tetra4": [[0, 1, 2, 3]]}), fs.Error, "tetra4"),
+        ((POINTS, {"tetra": [[0, 1, 2, 5]]}), fs.Error, "tetra element 1 refers to a node that does not exist"),
+        ((POINTS, {"tetra": [[0, 1, 2, -1]]}), fs.Error, "tetra element 1"),
+        ((POINTS, CELLS, [1, 2, 3]), ValueError, "node_ids must have the shape"),
+        ((POINTS, CELLS, [1, 2, 3, 4, 4]), fs.Error, "node number 4 is used twice"),
+        ((POINTS, CELLS, [0, 1, 2, 3, 4]), fs.Error, "node number 0 is not positive"),
+        ((POINTS, CELLS, None, {"tetra": [1, 2]}), ValueError, "cell_ids must have an entry 'triangle'"),
+        ((POINTS, CELLS, None, {"tetra": [1], "triangle": [2]}), ValueError, r"cell_ids\['tetra'\]"),
+        ((POINTS, CELLS, None, {"tetra": [1, 2], "triangle": [2]}), fs.Error, "element number 2 is used twice"),
+        ((POINTS, CELLS, None, {"tetra": [1, 2], "triangle": [3], "quad": []}), ValueError, "quad"),
+        (([[0, 0, float("nan")]], {}), fs.Error, "node 1 has a coordinate that is not a finite number"),
+        ((POINTS, CELLS, None, None, {"A": ("nodes", [1])}), ValueError, r"groups\['A'\]: kind must be one of"),
+        ((POINTS, CELLS, None, None, {"A": ("node", [99])}), fs.Error, "node group 'A' names node 99"),
+        ((POINTS, CELLS, None, None, {"A": ("facet", [1, 2])}), fs.Error, "facet group 'A'"),
+        ((POINTS, CELLS, None, None, ["A"]), TypeError, "groups must be"),
+    ],
+)
 def test_bad_arguments(arguments, error, message):
     with pytest.raises(error, match=message):
         fs.Mesh(*arguments)

@@ -18,7 +18,16 @@ def message(call):
 
 def two_plates(distance=0.0):
     """Two plates of two triangles, one at y >= 0, one at y <= -distance, with nodes of their own."""
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, -distance, 0], [1, -distance, 0], [0, -1 - distance, 0], [1, -1 - distance, 0]]
+    points = [
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [1, 1, 0],
+        [0, -distance, 0],
+        [1, -distance, 0],
+        [0, -1 - distance, 0],
+        [1, -1 - distance, 0],
+    ]
     return fs.Mesh(points, {"triangle": [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5]]})
 
 
@@ -39,12 +48,20 @@ def test_tool_between_two_bodies():
 
 def test_nodes_without_elements_are_no_mesh():
     mesh = fs.Mesh(np.vstack([TETRA, [[9, 0, 0]]]), {"tetra": [[0, 1, 2, 3]]})
-    assert "the whole mesh lies on its negative side, the nearest node at distance 4." in message(lambda: fs.crack(mesh, fs.Plane((5, 0, 0), (1, 0, 0))))
+    assert "the whole mesh lies on its negative side, the nearest node at distance 4." in message(
+        lambda: fs.crack(mesh, fs.Plane((5, 0, 0), (1, 0, 0)))
+    )
 
 
 def test_plane_through_beams_only():
-    mesh = fs.Mesh(np.vstack([TETRA, [[5, 0, 0]]]), {"tetra": [[0, 1, 2, 3]], "line": [[1, 4]]}, cell_ids={"tetra": [7], "line": [12]})
-    assert "passes only through segments (element 12), which are not cut" in message(lambda: fs.crack(mesh, fs.Plane((3, 0, 0), (1, 0, 0))))
+    mesh = fs.Mesh(
+        np.vstack([TETRA, [[5, 0, 0]]]),
+        {"tetra": [[0, 1, 2, 3]], "line": [[1, 4]]},
+        cell_ids={"tetra": [7], "line": [12]},
+    )
+    assert "passes only through segments (element 12), which are not cut" in message(
+        lambda: fs.crack(mesh, fs.Plane((3, 0, 0), (1, 0, 0)))
+    )
 
 
 @pytest.mark.parametrize("normal", [(0, 1, 0), (0, -1, 0)])
@@ -55,9 +72,14 @@ def test_plane_in_an_open_contact(normal):
 
 def test_disk_in_an_open_contact():
     lower, upper = grid_box((4, 4, 2), (4, 4, 2)), grid_box((4, 4, 2), (4, 4, 2))
-    mesh = fs.Mesh(np.vstack([lower.points, upper.points + (0, 0, 2)]), {"tetra": np.vstack([lower.cells["tetra"], upper.cells["tetra"] + lower.node_count])})
+    mesh = fs.Mesh(
+        np.vstack([lower.points, upper.points + (0, 0, 2)]),
+        {"tetra": np.vstack([lower.cells["tetra"], upper.cells["tetra"] + lower.node_count])},
+    )
     assert "open already" in message(lambda: fs.crack(mesh, fs.Plane((2, 2, 2), (0, 0, 1))))
-    assert "open already" in message(lambda: fs.crack(mesh, fs.Plane((2, 2, 2), (0, 0, 1)), within=fs.Disk((2, 2, 2), 1.2)))
+    assert "open already" in message(
+        lambda: fs.crack(mesh, fs.Plane((2, 2, 2), (0, 0, 1)), within=fs.Disk((2, 2, 2), 1.2))
+    )
 
 
 def test_plane_on_the_outside():
@@ -80,8 +102,14 @@ def test_plane_through_a_corner_touches():
 def test_hole_inside_one_element():
     quad = fs.Mesh([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], {"quad": [[0, 1, 2, 3]]}, cell_ids={"quad": [31]})
     text = message(lambda: fs.drill(quad, fs.Cylinder((2, 1, 0), (0, 0, 1), 0.5)))
-    assert "lies inside element 31 (quad)" in text and "only triangles and tetrahedra can be cut" in text and "misses" not in text
-    brick = fs.Mesh([[x, y, z] for z in (0, 4) for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))], {"hexahedron": [list(range(8))]})
+    assert (
+        "lies inside element 31 (quad)" in text
+        and "only triangles and tetrahedra can be cut" in text
+        and "misses" not in text
+    )
+    brick = fs.Mesh(
+        [[x, y, z] for z in (0, 4) for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))], {"hexahedron": [list(range(8))]}
+    )
     text = message(lambda: fs.drill(brick, fs.Cylinder((2.3, 1, 0), (0, 0, 1), 0.2)))
     assert "lies inside element 1 (hexahedron)" in text
     triangles = fs.Mesh([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], {"triangle": [[0, 1, 2], [0, 2, 3]]})
@@ -108,9 +136,20 @@ def test_plane_through_curved_sides_only():
 def plate_with_groups(**groups):
     """6 by 6 squares of two triangles; groups of triangles by a condition on their middles."""
     points = np.array([(i, j, 0.0) for j in range(7) for i in range(7)])
-    triangles = np.array([(j * 7 + i + a, j * 7 + i + b, j * 7 + i + c) for j in range(6) for i in range(6) for a, b, c in ((0, 1, 8), (0, 8, 7))])
+    triangles = np.array(
+        [
+            (j * 7 + i + a, j * 7 + i + b, j * 7 + i + c)
+            for j in range(6)
+            for i in range(6)
+            for a, b, c in ((0, 1, 8), (0, 8, 7))
+        ]
+    )
     middles = points[triangles].mean(axis=1)
-    return fs.Mesh(points, {"triangle": triangles}, groups={name: ("element", 1 + np.nonzero(inside(middles))[0]) for name, inside in groups.items()})
+    return fs.Mesh(
+        points,
+        {"triangle": triangles},
+        groups={name: ("element", 1 + np.nonzero(inside(middles))[0]) for name, inside in groups.items()},
+    )
 
 
 def test_plane_exactly_on_a_border_is_no_wedge():

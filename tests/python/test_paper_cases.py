@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The paper's cases on the demo's caisson (resources/docs/paper_cases.py): their numbers, against definitions and geometry."""
+"""The paper's cases on the demo's caisson (resources/docs/paper_cases.py): their numbers, against definitions and
+geometry."""
 
 import re
 import sys
@@ -35,7 +36,11 @@ def records(case):
 
 def losses(case):
     """{group: what its measure lost} of the element groups that lost something."""
-    found = {g.name: g.measure_before - g.measure_after for g in case.result.report.groups if g.kind == "element" and g.status != "new"}
+    found = {
+        g.name: g.measure_before - g.measure_after
+        for g in case.result.report.groups
+        if g.kind == "element" and g.status != "new"
+    }
     return {name: lost for name, lost in found.items() if abs(lost) > 1e-6}
 
 
@@ -61,14 +66,20 @@ def test_crack_in_the_shell(shell, which):
     length = FLANGE * np.hypot(1, nx / nz) + (WEB + THICKNESS) * np.hypot(1, ny / nz)
     for side in "PN":
         assert records(case)["CRACK_" + side, "element"].measure_after == pytest.approx(length, rel=1e-9)
-    assert not losses(case) and not {g.status for g in case.result.report.groups} & {"changed", "reduced", "became empty"}
+    assert not losses(case) and not {g.status for g in case.result.report.groups} & {
+        "changed",
+        "reduced",
+        "became empty",
+    }
     if which == 1:
         assert case.result.report.method == "deform"
 
 
 def test_hole_in_a_stiffener(solid):
     case = solid[0]
-    assert case.constraint("cylinder") == case.count("IHN", "EHN") and case.constraint("tangent plane") == case.count("EHN", "ETN")
+    assert case.constraint("cylinder") == case.count("IHN", "EHN") and case.constraint("tangent plane") == case.count(
+        "EHN", "ETN"
+    )
     assert case.constraint("free") == case.count("ITN") > 0 and case.count("IHN") > 0 and case.count("ETN") > 0
     assert tools_distance(case, ("IHN", "EHN")).max() < 1e-9 * 1200
     # What the groups of the hanger lose is the same for all, and the hole; no other group loses anything.
@@ -76,7 +87,7 @@ def test_hole_in_a_stiffener(solid):
     assert set(lost) == {"STIFFENER_1", "HANGERS", "ZONE_CRACK", "MAT_S460"}
     volume = lost["STIFFENER_1"]
     assert list(lost.values()) == pytest.approx([volume] * 4, rel=1e-9)
-    exact = np.pi * case.tool.radius ** 2 * THICKNESS
+    exact = np.pi * case.tool.radius**2 * THICKNESS
     assert 0.85 * exact < volume < exact
     assert records(case)["HOLE_WALL", "element"].measure_after < 2 * np.pi * case.tool.radius * THICKNESS
 
@@ -98,7 +109,9 @@ def test_hole_across_a_border(solid):
     kept, drifting = solid[1], solid[2]
     for case in (kept, drifting):
         lost = losses(case)
-        assert lost["ZONE_CRACK"] == pytest.approx(lost["HANGERS"], rel=1e-9) and 0 < lost["HANGERS"] < lost["STIFFENER_1"]
+        assert (
+            lost["ZONE_CRACK"] == pytest.approx(lost["HANGERS"], rel=1e-9) and 0 < lost["HANGERS"] < lost["STIFFENER_1"]
+        )
     hangers = records(kept)["HANGERS", "element"]
     assert hangers.boundary_kept and hangers.boundary_drift <= 1e-12 * 1200
     assert set(losses(kept)) == {"STIFFENER_1", "HANGERS", "ZONE_CRACK", "MAT_S460"}
@@ -125,7 +138,9 @@ def test_cylindrical_crack(solid):
 
 def test_incision(solid):
     case = solid[4]
-    assert case.constraint("plane") == case.count("ICN", "ECN") and case.constraint("tangent plane") == case.count("ECN", "ETN")
+    assert case.constraint("plane") == case.count("ICN", "ECN") and case.constraint("tangent plane") == case.count(
+        "ECN", "ETN"
+    )
     across = 1 / case.tool.normal[2]
     lost = losses(case)
     section = THICKNESS * (WEB + FLANGE)
@@ -137,7 +152,9 @@ def test_incision(solid):
         assert records(case)["CUT_" + side, "element"].measure_after == pytest.approx(section * across, rel=1e-9)
         mesh = case.result.mesh
         faces = mesh.cells["triangle"][np.isin(mesh.cell_ids["triangle"], mesh.groups["CUT_" + side].ids)]
-        np.testing.assert_allclose(case.tool.distance(mesh.points[np.unique(faces)]), sign * paper_cases.SLOT_WIDTH / 2, atol=1e-9 * 1200)
+        np.testing.assert_allclose(
+            case.tool.distance(mesh.points[np.unique(faces)]), sign * paper_cases.SLOT_WIDTH / 2, atol=1e-9 * 1200
+        )
 
 
 def test_what_is_printed(shell, solid):
@@ -160,7 +177,9 @@ def test_the_page_states_what_the_script_computes():
     shell_size, solid_size = paper_cases.PAGE_SIZES
     mesh, solid_mesh = paper_cases.caisson_mesh(False, shell_size), paper_cases.caisson_mesh(True, solid_size)
     shell = paper_cases.Case("10", "", mesh, fs.crack(mesh, paper_cases.SLANTING), paper_cases.SLANTING)
-    hole = paper_cases.Case("11", "", solid_mesh, fs.drill(solid_mesh, paper_cases.HOLE, depth=paper_cases.DEPTH), paper_cases.HOLE)
+    hole = paper_cases.Case(
+        "11", "", solid_mesh, fs.drill(solid_mesh, paper_cases.HOLE, depth=paper_cases.DEPTH), paper_cases.HOLE
+    )
     rows = paper_cases.page_table(shell, hole)
     page = (Path(paper_cases.__file__).parent / "paper.md").read_text()
     stated = [line for line in page.splitlines() if line.startswith("|")]
@@ -181,14 +200,27 @@ def test_the_page_is_written_by_the_script(shell, solid, tmp_path):
     assert page.read_text() == "\n".join(["Before", "", *rows, "", "After", ""])
 
 
-@pytest.mark.parametrize("operation", [
-    lambda mesh: fs.cut(mesh, fs.Plane((3, 2.5, 2), (1, 0.1, 0)), width=0.5, method="deform"),
-    lambda mesh: fs.drill(mesh, fs.Cylinder((3, 2.5, 4), (0, 0, -1), 1.5), depth=2, method="deform"),
-    lambda mesh: fs.drill(mesh, [fs.Cylinder((1.5, 2.5, 4), (0, 0, -1), 0.8), fs.Cylinder((4.5, 2.5, 4), (0, 0, -1), 0.8)], method="deform"),
-    lambda mesh: fs.crack(mesh, fs.Plane((3, 2.5, 2), (1, 0.1, 0)), within=fs.Disk((3, 2.5, 2), 1.5), method="deform")])
+@pytest.mark.parametrize(
+    "operation",
+    [
+        lambda mesh: fs.cut(mesh, fs.Plane((3, 2.5, 2), (1, 0.1, 0)), width=0.5, method="deform"),
+        lambda mesh: fs.drill(mesh, fs.Cylinder((3, 2.5, 4), (0, 0, -1), 1.5), depth=2, method="deform"),
+        lambda mesh: fs.drill(
+            mesh,
+            [fs.Cylinder((1.5, 2.5, 4), (0, 0, -1), 0.8), fs.Cylinder((4.5, 2.5, 4), (0, 0, -1), 0.8)],
+            method="deform",
+        ),
+        lambda mesh: fs.crack(
+            mesh, fs.Plane((3, 2.5, 2), (1, 0.1, 0)), within=fs.Disk((3, 2.5, 2), 1.5), method="deform"
+        ),
+    ],
+)
 def test_deform_refuses_what_the_page_says(operation):
     page = " ".join((Path(paper_cases.__file__).parent / "paper.md").read_text().split())
-    for words in ("the incision between two planes (3.3) is for `snap` alone", "holes with a bottom, several holes at once, cracks that end inside the material"):
+    for words in (
+        "the incision between two planes (3.3) is for `snap` alone",
+        "holes with a bottom, several holes at once, cracks that end inside the material",
+    ):
         assert words in page
     with pytest.raises(fs.ToolError, match='use (method )?"snap"'):
         operation(grid_box())
@@ -206,4 +238,4 @@ def test_transition_is_the_papers_bandwidth_or_two():
     plane = fs.Plane((3.3, 2.5, 2), (0.9, 0.3, 0.2))
     assert fs.crack(mesh, plane).report.transition == 2
     assert fs.crack(mesh, plane, transition=3).report.transition == 3
-    assert "with\n        \"snap\", which moves nodes by less than an edge and splits the rest, 2" in fs.crack.__doc__
+    assert 'with\n        "snap", which moves nodes by less than an edge and splits the rest, 2' in fs.crack.__doc__

@@ -90,20 +90,28 @@ class Model:
         low, high = np.min(list(self.point.values()), axis=0), np.max(list(self.point.values()), axis=0)
         axes = [0, 1] if self.flat else [0, 1, 2]
         copies = {p for p, _ in self.pairs}
-        return [n for n, x in self.point.items() if n not in copies
-                and (np.minimum(np.abs(x - low), np.abs(x - high))[axes] < 1e-9).any()]
+        return [
+            n
+            for n, x in self.point.items()
+            if n not in copies and (np.minimum(np.abs(x - low), np.abs(x - high))[axes] < 1e-9).any()
+        ]
 
     def run(self, cards, step):
         """Runs ccx; returns the text of its .dat file."""
         path = self.folder / "run.inp"
         path.write_text((self.folder / "model.inp").read_text() + cards + "*STEP\n*STATIC\n" + step + "*END STEP\n")
-        done = subprocess.run(["ccx", "run"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        assert done.returncode == 0 and "Job finished" in done.stdout and "*ERROR" not in done.stdout, done.stdout[-2000:]
+        done = subprocess.run(
+            ["ccx", "run"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        assert done.returncode == 0 and "Job finished" in done.stdout and "*ERROR" not in done.stdout, done.stdout[
+            -2000:
+        ]
         return (self.folder / "run.dat").read_text()
 
 
 def lip_pairs(mesh):
     """(copy on the positive side, original on the negative side) of every doubled node, from the lips' groups."""
+
     def nodes(name):
         members = mesh.groups[name, "element"].ids
         found = [mesh.cells[kind][np.isin(ids, members)].ravel() for kind, ids in mesh.cell_ids.items()]
@@ -150,8 +158,8 @@ def deviation(model, glue="", slip=0.0):
     displacement.
 
     CalculiX prints seven digits, too few to see 1e-8. So it is made to take the difference itself, in double precision:
-    every node gets a companion node with the equation d = u - expected * r, r being a degree of freedom held at 1, and d is
-    what is printed. `slip` is added to one prescribed value, to prove that the companions do notice.
+    every node gets a companion node with the equation d = u - expected * r, r being a degree of freedom held at 1, and
+    d is what is printed. `slip` is added to one prescribed value, to prove that the companions do notice.
     """
     expected = affine(model)
     size = max(np.linalg.norm(u) for u in expected.values())
@@ -171,7 +179,7 @@ def deviation(model, glue="", slip=0.0):
     dat = model.run("".join(cards), "".join(held) + "*NODE PRINT, NSET=COMPANIONS\nU\n")
     rows = table(dat, "displacements")
     assert len(rows) == len(expected)
-    return max(np.linalg.norm(v[:len(directions)]) for v in rows.values()) / size
+    return max(np.linalg.norm(v[: len(directions)]) for v in rows.values()) / size
 
 
 TIE = "*TIE, NAME=GLUE, POSITION TOLERANCE=1e-6, ADJUST=NO\nCRACK_P, CRACK_N\n"
@@ -219,8 +227,15 @@ def block_solution(model, glue=""):
     step = "*BOUNDARY\n" + "".join(f"{n},1,3\n" for n in ends)
     step += "*CLOAD\n" + "".join(f"{n},{up + 1},{-1000 - 100 * points[n][0]:.12g}\n" for n in loaded)
     if model.flat:
-        step = step.replace("*CLOAD\n", "".join(f"{n},3,3\n" for n in points if n not in copies and n not in ends) + "*CLOAD\n")
-    sets = "*NSET, NSET=WHOLE\n" + "".join(f"{n},\n" for n in points) + "*NSET, NSET=ENDS\n" + "".join(f"{n},\n" for n in ends)
+        step = step.replace(
+            "*CLOAD\n", "".join(f"{n},3,3\n" for n in points if n not in copies and n not in ends) + "*CLOAD\n"
+        )
+    sets = (
+        "*NSET, NSET=WHOLE\n"
+        + "".join(f"{n},\n" for n in points)
+        + "*NSET, NSET=ENDS\n"
+        + "".join(f"{n},\n" for n in ends)
+    )
     dat = model.run(sets + glue, step + "*NODE PRINT, NSET=WHOLE\nU\n*NODE PRINT, NSET=ENDS\nRF\n")
     displacements, reactions = table(dat, "displacements"), table(dat, "forces")
     assert len(displacements) == len(points) and len(reactions) == len(ends)
@@ -240,8 +255,13 @@ def merged(model):
     new[kept] = np.arange(len(kept))
     body = next(k for k in model.mesh.cells if k.startswith("tetra"))
     ids = model.mesh.cell_ids[body]
-    return fs.Mesh(model.mesh.points[kept], {body: new[to[model.mesh.cells[body]]]}, model.mesh.node_ids[kept], {body: ids},
-                   {"ALL": ("element", ids)})
+    return fs.Mesh(
+        model.mesh.points[kept],
+        {body: new[to[model.mesh.cells[body]]]},
+        model.mesh.node_ids[kept],
+        {body: ids},
+        {"ALL": ("element", ids)},
+    )
 
 
 def differences(one, other):
@@ -259,7 +279,8 @@ def differences(one, other):
 @pytest.mark.parametrize("kind", ["C3D4", "C3D10"])
 class TestLoadedBlock:
     def test_crack_along_element_faces(self, tmp_path, kind):
-        """The mesh has faces on the plane already: nothing but the doubling is done, so the input mesh is the reference."""
+        """The mesh has faces on the plane already: nothing but the doubling is done, so the input mesh is the
+        reference."""
         plane = fs.Plane((3, 0, 0), (1, 0, 0))
         for name in ("whole", "cracked"):
             (tmp_path / name).mkdir()
@@ -289,8 +310,10 @@ class TestLoadedBlock:
 
 
 def groups_of(mesh):
-    return {(g.name, g.kind): set(map(tuple, g.ids.tolist())) if g.kind == "facet" else set(g.ids.tolist())
-            for g in mesh.groups.all()}
+    return {
+        (g.name, g.kind): set(map(tuple, g.ids.tolist())) if g.kind == "facet" else set(g.ids.tolist())
+        for g in mesh.groups.all()
+    }
 
 
 @pytest.mark.parametrize("suffix", [".inp", ".med"])
@@ -304,10 +327,15 @@ def test_every_group_survives_crack_and_file(tmp_path, suffix):
     groups = [(g.name, g.kind, g.ids) for g in box.groups.all()]
     if suffix == ".med":  # in a deck, a triangle would be a shell
         cells["triangle"], cell_ids["triangle"] = np.array(skin), np.arange(first, first + len(skin))
-        groups += [("FLOOR", "element", cell_ids["triangle"]),
-                   ("MIXED", "element", np.concatenate([cell_ids["triangle"][::2], ids[::3]]))]
+        groups += [
+            ("FLOOR", "element", cell_ids["triangle"]),
+            ("MIXED", "element", np.concatenate([cell_ids["triangle"][::2], ids[::3]])),
+        ]
     else:
-        groups += [("SIDES", "facet", [(int(i), 1 + k % 4) for k, i in enumerate(ids[::5])]), ("THIRD", "element", ids[::3])]
+        groups += [
+            ("SIDES", "facet", [(int(i), 1 + k % 4) for k, i in enumerate(ids[::5])]),
+            ("THIRD", "element", ids[::3]),
+        ]
     source = fs.Mesh(points, cells, box.node_ids, cell_ids, groups)
     fs.write(source, tmp_path / ("in" + suffix))
     mesh = fs.read(tmp_path / ("in" + suffix))

@@ -20,11 +20,12 @@ def concentration():
     Howland's solution as fitted in Pilkey, Peterson's Stress Concentration Factors, chart 4.1; 3 for an infinite plate.
     """
     ratio = 2 * RADIUS / WIDTH
-    return (3.0 - 3.13 * ratio + 3.66 * ratio ** 2 - 1.53 * ratio ** 3) / (1 - ratio)
+    return (3.0 - 3.13 * ratio + 3.66 * ratio**2 - 1.53 * ratio**3) / (1 - ratio)
 
 
 def nodal_stresses(folder, component):
-    """{node: stress} of the last step, averaged at the nodes, from CalculiX's .frd file. Components: XX YY ZZ XY YZ ZX."""
+    """{node: stress} of the last step, averaged at the nodes, from CalculiX's .frd file. Components: XX YY ZZ XY YZ
+    ZX."""
     column = ("XX", "YY", "ZZ", "XY", "YZ", "ZX").index(component)
     values, inside = {}, False
     for line in (folder / "run.frd").read_text().splitlines():
@@ -33,7 +34,7 @@ def nodal_stresses(folder, component):
         elif inside and line.startswith(" -3"):
             inside = False
         elif inside and line.startswith(" -1"):
-            values[int(line[3:13])] = float(line[13 + 12 * column:25 + 12 * column])
+            values[int(line[3:13])] = float(line[13 + 12 * column : 25 + 12 * column])
     return values
 
 
@@ -57,8 +58,13 @@ def test_kirsch(tmp_path, kind):
 
     # Only the body goes into the deck: in CalculiX the wall's faces would be shells.
     body = "triangle6" if flat else "tetra10"
-    deck = fs.Mesh(drilled.points, {body: drilled.cells[body]}, drilled.node_ids, {body: drilled.cell_ids[body]},
-                   {"ALL": ("element", drilled.cell_ids[body])})
+    deck = fs.Mesh(
+        drilled.points,
+        {body: drilled.cells[body]},
+        drilled.node_ids,
+        {body: drilled.cell_ids[body]},
+        {"ALL": ("element", drilled.cell_ids[body])},
+    )
     fs.write(deck, tmp_path / "run.inp")
     text = (tmp_path / "run.inp").read_text()
     if flat:
@@ -84,8 +90,11 @@ def test_kirsch(tmp_path, kind):
     place = dict(zip(ids.tolist(), points))
     top = max((s, n) for n, s in stresses.items() if n in place)
     factor, expected = top[0] / gross, concentration()
-    print(f"\n{kind}: {len(drilled.cells[body])} elements, minimum mean ratio {result.report.quality.after.minimum:.2f}, stress concentration "
-          f"{factor:.4f}, exact {expected:.4f} ({100 * (factor / expected - 1):+.2f} %)")
+    print(
+        f"\n{kind}: {len(drilled.cells[body])} elements, minimum mean ratio {result.report.quality.after.minimum:.2f}, "
+        f"stress concentration "
+        f"{factor:.4f}, exact {expected:.4f} ({100 * (factor / expected - 1):+.2f} %)"
+    )
     assert factor == pytest.approx(expected, rel=0.03)
     # It is where it belongs: on the wall, across the pull.
     assert abs(HOLE.distance(place[top[1]])[0]) < 1e-9 and abs(place[top[1]][0] - HOLE.origin[0]) < 0.1 * RADIUS

@@ -9,7 +9,9 @@ REGULAR = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
 
 
 def test_mean_ratio():
-    mesh = fs.Mesh(REGULAR + [[9, 9, 9]], {"tetra": [[0, 1, 2, 3], [1, 0, 2, 3]], "triangle": [[0, 1, 2]], "line": [[0, 4]]})
+    mesh = fs.Mesh(
+        REGULAR + [[9, 9, 9]], {"tetra": [[0, 1, 2, 3], [1, 0, 2, 3]], "triangle": [[0, 1, 2]], "line": [[0, 4]]}
+    )
     ratios = fs.mean_ratio(mesh)
     assert set(ratios) == {"tetra", "triangle", "line"}
     assert sorted(ratios["tetra"]) == pytest.approx([-1, 1])
@@ -17,10 +19,17 @@ def test_mean_ratio():
 
 
 def test_measure():
-    mesh = fs.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]],
-                   {"tetra": [[0, 1, 2, 3]], "triangle": [[0, 1, 2]], "line": [[0, 1]], "vertex": [[0]]})
+    mesh = fs.Mesh(
+        [[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]],
+        {"tetra": [[0, 1, 2, 3]], "triangle": [[0, 1, 2]], "line": [[0, 1]], "vertex": [[0]]},
+    )
     sizes = {name: values.tolist() for name, values in fs.measure(mesh).items()}
-    assert sizes == {"tetra": pytest.approx([4 / 3]), "triangle": pytest.approx([2]), "line": pytest.approx([2]), "vertex": [0]}
+    assert sizes == {
+        "tetra": pytest.approx([4 / 3]),
+        "triangle": pytest.approx([2]),
+        "line": pytest.approx([2]),
+        "vertex": [0],
+    }
     box = quadratic(grid_box())
     assert fs.measure(box)["tetra10"].sum() == pytest.approx(120)
     assert np.all(fs.mean_ratio(box)["tetra10"] > 0)
@@ -34,22 +43,33 @@ UNIT = {
     "triangle": [[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0]],
     "quad": [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]],
 }
-ANGLES = {"hexahedron": 90, "wedge": 60, "pyramid": np.degrees(np.arctan(2**0.5)), "tetra": np.degrees(np.arccos(1 / 3)),
-          "triangle": 60, "quad": 90}
+ANGLES = {
+    "hexahedron": 90,
+    "wedge": 60,
+    "pyramid": np.degrees(np.arctan(2**0.5)),
+    "tetra": np.degrees(np.arccos(1 / 3)),
+    "triangle": 60,
+    "quad": 90,
+}
 
 
 @pytest.mark.parametrize("shape", UNIT)
 def test_regular_elements(shape):
     points = np.array(UNIT[shape], float)
-    order = [1, 0, 2, 3] if shape == "tetra" and fs.mean_ratio(fs.Mesh(points, {shape: [[0, 1, 2, 3]]}))[shape][0] < 0 \
+    order = (
+        [1, 0, 2, 3]
+        if shape == "tetra" and fs.mean_ratio(fs.Mesh(points, {shape: [[0, 1, 2, 3]]}))[shape][0] < 0
         else list(range(len(points)))
+    )
     mesh = fs.Mesh(points, {shape: [order]})
     assert fs.scaled_jacobian(mesh)[shape] == pytest.approx([1])
     assert fs.smallest_angle(mesh)[shape] == pytest.approx([ANGLES[shape]])
 
 
 def test_scaled_jacobian_and_angle_of_bad_elements():
-    flat = fs.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 1e-3]], {"tetra": [[0, 1, 2, 3], [1, 0, 2, 3]], "line": [[0, 1]]})
+    flat = fs.Mesh(
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 1e-3]], {"tetra": [[0, 1, 2, 3], [1, 0, 2, 3]], "line": [[0, 1]]}
+    )
     assert fs.scaled_jacobian(flat)["tetra"][0] == pytest.approx(-fs.scaled_jacobian(flat)["tetra"][1])
     assert 0 < fs.scaled_jacobian(flat)["tetra"][0] < 2e-3
     assert fs.smallest_angle(flat)["tetra"] == pytest.approx([np.degrees(1e-3)] * 2, abs=1e-3)
@@ -96,7 +116,9 @@ def test_scaled_jacobian_of_bent_elements():
         points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, h, 0], [0.5, 0.5, 0], [0, 0.5, 0]]
         angle = np.arctan2(1, 1) - np.arctan2(4 * h, 1)
         expected = min(np.sin(angle), np.sin(np.pi / 4)) / np.sin(np.pi / 3)
-        assert fs.scaled_jacobian(fs.Mesh(points, {"triangle6": [range(6)]}))["triangle6"] == pytest.approx([expected], abs=1e-12)
+        assert fs.scaled_jacobian(fs.Mesh(points, {"triangle6": [range(6)]}))["triangle6"] == pytest.approx(
+            [expected], abs=1e-12
+        )
         # In any plane, seen from either side.
         turned = np.array(points) @ np.linalg.qr(np.arange(9).reshape(3, 3) ** 2 + np.eye(3))[0]
         for order in (range(6), [1, 0, 2, 3, 5, 4]):

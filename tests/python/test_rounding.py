@@ -46,7 +46,11 @@ def test_plane_beside_the_border_of_two_materials(make, offset, noise):
             assert group.measure_after == pytest.approx(group.measure_before, rel=1e-9)
     held = result.report.held
     if offset * edge > 10 * noise + 1e-9:
-        assert held.count == row.sum() and held.largest == pytest.approx(offset * edge, abs=2 * noise + 1e-12) and set(held.groups) == {"LEFT", "RIGHT"}
+        assert (
+            held.count == row.sum()
+            and held.largest == pytest.approx(offset * edge, abs=2 * noise + 1e-12)
+            and set(held.groups) == {"LEFT", "RIGHT"}
+        )
     # What is far below an edge length is no reason for a warning.
     said = [w for w in result.report.warnings if "held by" in w]
     if held.largest > 2e-5 * edge:
@@ -69,7 +73,11 @@ def test_nodes_of_a_rounded_file_are_put_onto_the_tool():
 
 def named_middle_mesh():
     points, kind, cells = cases._second_order(*cases._grid_box(4, 0.4))
-    inner = [n for n in np.unique(cells[:, 4:]) if 0.1 < points[n, 0] < 0.3 and 0 < points[n, 1] < 0.4 and 0 < points[n, 2] < 0.4]
+    inner = [
+        n
+        for n in np.unique(cells[:, 4:])
+        if 0.1 < points[n, 0] < 0.3 and 0 < points[n, 1] < 0.4 and 0 < points[n, 2] < 0.4
+    ]
     return fs.Mesh(points, {kind: cells}, groups={"GAUGE": ("node", [inner[0] + 1])}), points[inner[0]]
 
 
@@ -114,13 +122,31 @@ def test_no_edge_inside_a_crack_joins_its_lips(order):
         a *= 2 * edge / np.linalg.norm(a)
         b = np.cross(normal, a)
         try:
-            result = fs.crack(mesh, fs.Plane(at, normal), within=fs.Polygon([at, at + a, at + a + b, at + 0.3 * (a + b), at + b]), refine=False)
+            result = fs.crack(
+                mesh,
+                fs.Plane(at, normal),
+                within=fs.Polygon([at, at + a, at + a + b, at + 0.3 * (a + b), at + b]),
+                refine=False,
+            )
         except fs.Error:
             continue
         made += 1
         lips = {side: result.mesh.groups["CRACK_" + side, "element"].ids for side in "PN"}
-        lips = {side: {int(n) for t, c in result.mesh.cells.items() for row in c[np.isin(result.mesh.cell_ids[t], ids)] for n in row} for side, ids in lips.items()}
+        lips = {
+            side: {
+                int(n)
+                for t, c in result.mesh.cells.items()
+                for row in c[np.isin(result.mesh.cell_ids[t], ids)]
+                for n in row
+            }
+            for side, ids in lips.items()
+        }
         front = result.mesh.groups["CRACK_FRONT", "element"].ids
-        front = {int(n) for t, c in result.mesh.cells.items() for row in c[np.isin(result.mesh.cell_ids[t], front)] for n in row}
+        front = {
+            int(n)
+            for t, c in result.mesh.cells.items()
+            for row in c[np.isin(result.mesh.cell_ids[t], front)]
+            for n in row
+        }
         assert lips["P"] & lips["N"] <= front
     assert made >= 5

@@ -13,9 +13,15 @@ CORNERS = ((0, 0), (1, 0), (0, 1))
 GAUSS = ((1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3))
 
 # Tools that left triangles of the plate with a negative Jacobian: centre and radius.
-FOLDING = [("crack", 1.8909, 0.3528, 0.1048), ("crack", 1.4066, 0.1702, 0.1685), ("drill", 1.8214, 0.6733, 0.3236),
-           ("drill", 0.5451, 0.7181, 0.2772), ("drill", 1.7097, 0.7879, 0.2101), ("drill", 1.3281, 0.7739, 0.2232),
-           ("drill", 1.667, 0.3801, 0.3297)]
+FOLDING = [
+    ("crack", 1.8909, 0.3528, 0.1048),
+    ("crack", 1.4066, 0.1702, 0.1685),
+    ("drill", 1.8214, 0.6733, 0.3236),
+    ("drill", 0.5451, 0.7181, 0.2772),
+    ("drill", 1.7097, 0.7879, 0.2101),
+    ("drill", 1.3281, 0.7739, 0.2232),
+    ("drill", 1.667, 0.3801, 0.3297),
+]
 
 
 def grid(nx, ny, place):
@@ -33,7 +39,10 @@ def grid(nx, ny, place):
     triangles = []
     for j in range(0, 2 * ny, 2):
         for i in range(0, 2 * nx, 2):
-            for nodes in (((0, 0), (2, 0), (2, 2), (1, 0), (2, 1), (1, 1)), ((0, 0), (2, 2), (0, 2), (1, 1), (1, 2), (0, 1))):
+            for nodes in (
+                ((0, 0), (2, 0), (2, 2), (1, 0), (2, 1), (1, 1)),
+                ((0, 0), (2, 2), (0, 2), (1, 1), (1, 2), (0, 1)),
+            ):
                 triangles.append([index[i + a, j + b] for a, b in nodes])
     return fs.Mesh(points, {"triangle6": triangles})
 
@@ -44,7 +53,9 @@ def flat():
 
 def tube(around=10, along=5):
     """The surface of a cylinder of radius 1 and height 2, all nodes on it."""
-    return grid(around, along, lambda i, j: (np.cos(2 * np.pi * i / around), np.sin(2 * np.pi * i / around), 2 * j / along))
+    return grid(
+        around, along, lambda i, j: (np.cos(2 * np.pi * i / around), np.sin(2 * np.pi * i / around), 2 * j / along)
+    )
 
 
 def jacobians(mesh, at):
@@ -79,7 +90,12 @@ def test_flat_holes_and_cracks():
             refused += 1
             continue
         check(result, (operation, x, y, radius))
-        assert np.cross(*np.diff(result.mesh.points[result.mesh.cells["triangle6"][:, :3]], axis=1).swapaxes(0, 1))[:, 2].min() > 0
+        assert (
+            np.cross(*np.diff(result.mesh.points[result.mesh.cells["triangle6"][:, :3]], axis=1).swapaxes(0, 1))[
+                :, 2
+            ].min()
+            > 0
+        )
     assert refused <= 1
 
 
@@ -96,11 +112,13 @@ def test_curved_shell(kind):
         centre = outwards + [0, 0, z]
         cylinder = fs.Cylinder(centre, outwards + 0.4 * direction, size)
         try:
-            result = {"plane": lambda: fs.crack(mesh, fs.Plane(centre, direction)),
-                      "hole": lambda: fs.drill(mesh, cylinder),
-                      "slot": lambda: fs.cut(mesh, fs.Plane(centre, direction), width=size),
-                      "cylinder": lambda: fs.crack(mesh, cylinder),
-                      "deform": lambda: fs.crack(mesh, fs.Plane(centre, direction / 4 + [0, 0, 1]), method="deform")}[kind]()
+            result = {
+                "plane": lambda: fs.crack(mesh, fs.Plane(centre, direction)),
+                "hole": lambda: fs.drill(mesh, cylinder),
+                "slot": lambda: fs.cut(mesh, fs.Plane(centre, direction), width=size),
+                "cylinder": lambda: fs.crack(mesh, cylinder),
+                "deform": lambda: fs.crack(mesh, fs.Plane(centre, direction / 4 + [0, 0, 1]), method="deform"),
+            }[kind]()
         except fs.QualityError:
             refused += 1
             continue
@@ -126,11 +144,18 @@ def test_a_drilled_plate_can_be_solved(tmp_path):
         mesh.add_group(name, "node", mesh.node_ids[mesh.points[:, 0] == x])
     fs.write(mesh, tmp_path / "plate.inp")
     text = (tmp_path / "plate.inp").read_text().replace("TYPE=S6", "TYPE=CPS6")
-    text += ("*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n1.\n"
-             "*STEP\n*STATIC\n*BOUNDARY\nLEFT, 1, 2\nRIGHT, 1, 1, 0.001\n*NODE FILE\nU\n*END STEP\n")
+    text += (
+        "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n1.\n"
+        "*STEP\n*STATIC\n*BOUNDARY\nLEFT, 1, 2\nRIGHT, 1, 1, 0.001\n*NODE FILE\nU\n*END STEP\n"
+    )
     (tmp_path / "plate.inp").write_text(text)
     for operation, x, y, radius in FOLDING:
         result = getattr(fs, operation)(fs.read(tmp_path / "plate.inp"), fs.Cylinder((x, y, 0), (0, 0, 1), radius))
         fs.write(result.mesh, tmp_path / "run.inp")
         done = subprocess.run(["ccx", "run"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        assert done.returncode == 0 and "*ERROR" not in done.stdout and "Job finished" in done.stdout, (operation, x, y, done.stdout[-2000:])
+        assert done.returncode == 0 and "*ERROR" not in done.stdout and "Job finished" in done.stdout, (
+            operation,
+            x,
+            y,
+            done.stdout[-2000:],
+        )

@@ -25,8 +25,10 @@ def corner_sets(mesh, ids):
     return sorted(tuple(sorted(row)) for row in cells)
 
 
-OPERATIONS = [lambda mesh: fs.crack(mesh, fs.Plane((3.4, 2, 0), (1, 0.2, 0))),
-              lambda mesh: fs.drill(mesh, fs.Cylinder((4.1, 2.1, 0), (0, 0, 1), 1.2))]
+OPERATIONS = [
+    lambda mesh: fs.crack(mesh, fs.Plane((3.4, 2, 0), (1, 0.2, 0))),
+    lambda mesh: fs.drill(mesh, fs.Cylinder((4.1, 2.1, 0), (0, 0, 1), 1.2)),
+]
 
 
 @pytest.mark.parametrize("operation", OPERATIONS)
@@ -40,7 +42,9 @@ def test_coincident_shells_are_one_sheet(operation, turned):
     double = operation(fs.Mesh(points, {"triangle": np.concatenate([triangles, copies])}, groups=groups))
     np.testing.assert_array_equal(double.mesh.points, single.mesh.points)
     assert double.report.quality.after.minimum == pytest.approx(single.report.quality.after.minimum, rel=1e-12)
-    assert {k: len(v) for k, v in double.report.node_sets.items()} == {k: len(v) for k, v in single.report.node_sets.items()}
+    assert {k: len(v) for k, v in double.report.node_sets.items()} == {
+        k: len(v) for k, v in single.report.node_sets.items()
+    }
     assert double.report.constraints == single.report.constraints and double.report.warnings == []
     # Every copy is split and doubled as the other is.
     plate_now, load_now = (corner_sets(double.mesh, double.mesh.groups[name].ids) for name in ("PLATE", "LOAD"))
@@ -51,7 +55,10 @@ def test_a_skin_on_part_of_a_shell_keeps_its_rim():
     points, triangles = plate(8, 4)
     left = triangles[points[triangles][:, :, 0].mean(axis=1) < 4]
     groups = {"LOAD": ("element", range(len(triangles) + 1, len(triangles) + len(left) + 1))}
-    result = fs.crack(fs.Mesh(points, {"triangle": np.concatenate([triangles, left])}, groups=groups), fs.Plane((4.3, 2, 0), (1, 0.5, 0)))
+    result = fs.crack(
+        fs.Mesh(points, {"triangle": np.concatenate([triangles, left])}, groups=groups),
+        fs.Plane((4.3, 2, 0), (1, 0.5, 0)),
+    )
     record = next(g for g in result.report.groups if g.name == "LOAD")
     assert record.measure_after == pytest.approx(16, rel=1e-12) and record.boundary_drift < 1e-12
     assert record.nodes_on_line > 0 and result.report.quality.after.minimum > 0.3
@@ -94,7 +101,8 @@ def test_crack_in_the_plane_of_a_shell_parts_it_from_what_stands_on_it(normal):
     after.validate()
     assert result.report.nodes_doubled == 9 and result.report.nodes_moved == 0 and "CRACK_FRONT" not in after.groups
     assert not nodes_of(after, "FLOOR") & nodes_of(after, "WEB")
-    # The original nodes stay on the negative side; the lips are the junction's edges, one of the floor and one of the web.
+    # The original nodes stay on the negative side; the lips are the junction's edges, one of the floor and one of the
+    # web.
     web_is_positive = normal[2] > 0
     kept = "FLOOR" if web_is_positive else "WEB"
     old = set(range(mesh.node_count))

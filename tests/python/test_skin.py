@@ -33,8 +33,9 @@ def model(request, tmp_path_factory):
 
 
 def changed_skin(before, after, away_from=None):
-    """Distance from the cylinder's surface of all nodes of the skin that are new or have moved; not of faces on `away_from`."""
-    (kind, cells), = ((k, c) for k, c in after.cells.items() if k.startswith("tetra"))
+    """Distance from the cylinder's surface of all nodes of the skin that are new or have moved; not of faces on
+    `away_from`."""
+    ((kind, cells),) = ((k, c) for k, c in after.cells.items() if k.startswith("tetra"))
     faces = cells[:, FACES if kind == "tetra10" else FACES[:, :3]].reshape(-1, 6 if kind == "tetra10" else 3)
     _, first, owners = np.unique(np.sort(faces[:, :3], axis=1), axis=0, return_index=True, return_counts=True)
     faces = faces[first[owners == 1]]
@@ -50,7 +51,10 @@ def changed_skin(before, after, away_from=None):
 
 HOLE = fs.Cylinder((0, 0.3, 6), (1, 0.1, 0.1), 1.2)
 OPERATIONS = {
-    "crack": (lambda mesh, **o: fs.crack(mesh, fs.Plane((0, 0, 6.3), (0.3, 0.1, 1)), **o), fs.Plane((0, 0, 6.3), (0.3, 0.1, 1))),
+    "crack": (
+        lambda mesh, **o: fs.crack(mesh, fs.Plane((0, 0, 6.3), (0.3, 0.1, 1)), **o),
+        fs.Plane((0, 0, 6.3), (0.3, 0.1, 1)),
+    ),
     "drill": (lambda mesh, **o: fs.drill(mesh, HOLE, refine=0.8, **o), HOLE),
     "refine": (lambda mesh, **o: fs.refine(mesh, HOLE, 0.8, **o), None),
 }
@@ -74,8 +78,13 @@ def test_the_volume_comes_nearer_to_the_shapes(model):
     mesh, path = model
     if "tetra10" in mesh.cells:
         pytest.skip("a mesh of second order has nearly the volume already")
-    exact = np.pi * RADIUS ** 2 * HEIGHT
-    volumes = [next(g for g in fs.refine(mesh, HOLE, 0.5, gradation=0.2, skin=skin).report.groups if g.kind == "element").measure_after for skin in (None, path)]
+    exact = np.pi * RADIUS**2 * HEIGHT
+    volumes = [
+        next(
+            g for g in fs.refine(mesh, HOLE, 0.5, gradation=0.2, skin=skin).report.groups if g.kind == "element"
+        ).measure_after
+        for skin in (None, path)
+    ]
     assert volumes[0] < volumes[1] < exact and exact - volumes[1] < 0.7 * (exact - volumes[0])
 
 
@@ -92,14 +101,20 @@ def test_what_a_shape_is_given_as(model):
     first = operate(mesh, skin=shape).mesh.points
     for skin in (path, str(path), path.read_text(), Part()):
         assert operate(mesh, skin=skin).mesh.points.tobytes() == first.tobytes()
-    assert fs.Scalpel(mesh).crack(fs.Plane((0, 0, 6.3), (0.3, 0.1, 1)), skin=shape).mesh.points.tobytes() == first.tobytes()
+    assert (
+        fs.Scalpel(mesh).crack(fs.Plane((0, 0, 6.3), (0.3, 0.1, 1)), skin=shape).mesh.points.tobytes()
+        == first.tobytes()
+    )
 
 
-@pytest.mark.parametrize("skin, error, message", [
-    (5, TypeError, "skin must be a path, a FreeCAD shape or a femscalpel.Shape"),
-    ("nowhere.brep", fs.ReadError, "nowhere.brep"),
-    ("not\na shape", fs.ToolError, "skin"),
-])
+@pytest.mark.parametrize(
+    "skin, error, message",
+    [
+        (5, TypeError, "skin must be a path, a FreeCAD shape or a femscalpel.Shape"),
+        ("nowhere.brep", fs.ReadError, "nowhere.brep"),
+        ("not\na shape", fs.ToolError, "skin"),
+    ],
+)
 def test_bad_shapes(model, skin, error, message):
     with pytest.raises(error, match=message):
         fs.crack(model[0], fs.Plane((0, 0, 6.3), (0, 0, 1)), skin=skin)

@@ -22,8 +22,12 @@ def deck(path, helpers):
     mesh.add_group("ALL", "element", ids)
     mesh.add_group("HELD", "node", mesh.node_ids[x[:, 2] == 0])
     fs.write(mesh, path)
-    on = [(int(i), k + 1) for i, c in zip(ids, cells) for k, f in enumerate(FACES)
-          if (x[c[list(f)]][:, 2] == 4).all() or ((x[c[list(f)]][:, 0] == 6) & (x[c[list(f)]][:, 2] >= 1)).all()]
+    on = [
+        (int(i), k + 1)
+        for i, c in zip(ids, cells)
+        for k, f in enumerate(FACES)
+        if (x[c[list(f)]][:, 2] == 4).all() or ((x[c[list(f)]][:, 0] == 6) & (x[c[list(f)]][:, 2] >= 1)).all()
+    ]
     lines = []
     if helpers:
         for k in range(1, 5):
@@ -32,14 +36,19 @@ def deck(path, helpers):
     labels = sorted({label for _, label in on})
     lines += [f"_LOADED_S{k}, S{k}" for k in labels] if helpers else [f"{i}, S{k}" for i, k in on]
     with open(path, "a") as out:
-        out.write("\n".join(lines) + "\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n"
-                  "*BOUNDARY\nHELD, 1, 3\n*STEP\n*STATIC\n*DSLOAD\nLOADED, P, 2.\n*NODE PRINT, NSET=HELD, TOTALS=ONLY\nRF\n*END STEP\n")
+        out.write(
+            "\n".join(lines) + "\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n"
+            "*BOUNDARY\nHELD, 1, 3\n*STEP\n*STATIC\n*DSLOAD\nLOADED, P, 2.\n*NODE PRINT, NSET=HELD, TOTALS=ONLY\nRF\n"
+            "*END STEP\n"
+        )
     return fs.read(path)
 
 
 def reaction(mesh, folder, name):
     fs.write(mesh, folder / f"{name}.inp")
-    done = subprocess.run(["ccx", name], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
+    done = subprocess.run(
+        ["ccx", name], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100
+    )
     assert done.returncode == 0 and "Job finished" in done.stdout and "*ERROR" not in done.stdout, done.stdout[-2000:]
     text = (folder / f"{name}.dat").read_text()
     return np.array(re.search(r"total force.*HELD.*\n\s*\n(.*)", text).group(1).split(), float)
@@ -58,7 +67,10 @@ def test_the_solver_loads_the_same_surface(tmp_path):
     exact = np.array((2.0 * 5 * 3, 0, 2.0 * 6 * 5))
     assert np.allclose(reaction(mesh, tmp_path, "before"), exact, atol=1e-3)
     below = fs.HalfPlane((0, 0, 2), (0, 0, -1))
-    for name, result in (("crack", fs.crack(mesh, PLANE, name="CRACK", within=below)), ("refine", fs.refine(mesh, PLANE, size=0.6))):
+    for name, result in (
+        ("crack", fs.crack(mesh, PLANE, name="CRACK", within=below)),
+        ("refine", fs.refine(mesh, PLANE, size=0.6)),
+    ):
         assert np.allclose(reaction(result.mesh, tmp_path, name), exact, atol=1e-3), name
         back = fs.read(tmp_path / f"{name}.inp")
         assert {g.name for g in back.groups.all()} >= {"_LOADED_S1", "_LOADED_S2", "_LOADED_S3", "_LOADED_S4"}

@@ -17,13 +17,16 @@ def test_plane():
     assert "origin=(1.0, 2.0, 3.0)" in repr(plane)
 
 
-@pytest.mark.parametrize("origin, normal, error, message", [
-    ((0, 0, 0), (0, 0, 0), fs.ToolError, "normal"),
-    ((0, 0), (0, 0, 1), ValueError, "origin must be three numbers"),
-    ("abc", (0, 0, 1), TypeError, "origin must be three numbers"),
-    ((0, 0, 0), 1, TypeError, "normal must be three numbers"),
-    ((0, 0, float("inf")), (0, 0, 1), ValueError, "origin must be three finite numbers"),
-])
+@pytest.mark.parametrize(
+    "origin, normal, error, message",
+    [
+        ((0, 0, 0), (0, 0, 0), fs.ToolError, "normal"),
+        ((0, 0), (0, 0, 1), ValueError, "origin must be three numbers"),
+        ("abc", (0, 0, 1), TypeError, "origin must be three numbers"),
+        ((0, 0, 0), 1, TypeError, "normal must be three numbers"),
+        ((0, 0, float("inf")), (0, 0, 1), ValueError, "origin must be three finite numbers"),
+    ],
+)
 def test_bad_plane(origin, normal, error, message):
     with pytest.raises(error, match=message):
         fs.Plane(origin, normal)
@@ -37,14 +40,17 @@ def test_cylinder():
     assert "radius=2.0" in repr(cylinder)
 
 
-@pytest.mark.parametrize("arguments, error, message", [
-    (((0, 0, 0), (0, 0, 0), 1), fs.ToolError, "cylinder: axis is the zero vector"),
-    (((0, 0, 0), (0, 0, 1), 0), fs.ToolError, "cylinder: radius is 0; it must be positive"),
-    (((0, 0, 0), (0, 0, 1), -2), fs.ToolError, "cylinder: radius is -2"),
-    (((0, 0, 0), (0, 0, 1), float("nan")), ValueError, "radius must be a finite number"),
-    (((0, 0, 0), (0, 0, 1), "1"), TypeError, "radius must be a number"),
-    (((0, 0), (0, 0, 1), 1), ValueError, "origin must be three numbers"),
-])
+@pytest.mark.parametrize(
+    "arguments, error, message",
+    [
+        (((0, 0, 0), (0, 0, 0), 1), fs.ToolError, "cylinder: axis is the zero vector"),
+        (((0, 0, 0), (0, 0, 1), 0), fs.ToolError, "cylinder: radius is 0; it must be positive"),
+        (((0, 0, 0), (0, 0, 1), -2), fs.ToolError, "cylinder: radius is -2"),
+        (((0, 0, 0), (0, 0, 1), float("nan")), ValueError, "radius must be a finite number"),
+        (((0, 0, 0), (0, 0, 1), "1"), TypeError, "radius must be a number"),
+        (((0, 0), (0, 0, 1), 1), ValueError, "origin must be three numbers"),
+    ],
+)
 def test_bad_cylinder(arguments, error, message):
     with pytest.raises(error, match=message):
         fs.Cylinder(*arguments)
@@ -52,10 +58,20 @@ def test_bad_cylinder(arguments, error, message):
 
 def test_sphere_torus_cone():
     sphere = fs.Sphere((1, 2, 3), 2)
-    assert sphere.center == (1.0, 2.0, 3.0) and sphere.kind == "sphere" and sphere.feature_size == 2 and "radius=2.0" in repr(sphere)
+    assert (
+        sphere.center == (1.0, 2.0, 3.0)
+        and sphere.kind == "sphere"
+        and sphere.feature_size == 2
+        and "radius=2.0" in repr(sphere)
+    )
     np.testing.assert_allclose(sphere.distance([[1, 2, 3], [1, 2, 8]]), [-2, 3])
     torus = fs.Torus(center=(0, 0, 0), axis=(0, 0, 2), major_radius=5, minor_radius=2)
-    assert torus.axis == (0.0, 0.0, 1.0) and torus.kind == "torus" and torus.feature_size == 2 and "minor_radius=2.0" in repr(torus)
+    assert (
+        torus.axis == (0.0, 0.0, 1.0)
+        and torus.kind == "torus"
+        and torus.feature_size == 2
+        and "minor_radius=2.0" in repr(torus)
+    )
     np.testing.assert_allclose(torus.distance([[5, 0, 0], [0, 5, 3]]), [-2, 1])
     cone = fs.Cone(origin=(0, 0, 0), axis=(0, 0, 1), radius=1, half_angle=45)
     np.testing.assert_allclose(cone.apex, (0, 0, -1), atol=1e-12)
@@ -63,16 +79,23 @@ def test_sphere_torus_cone():
     np.testing.assert_allclose(cone.distance([[0, 0, 0], [3, 0, 2], [0, 0, -3]]), [-np.sqrt(0.5), 0, 2], atol=1e-12)
 
 
-@pytest.mark.parametrize("make, error, message", [
-    (lambda: fs.Sphere((0, 0, 0), 0), fs.ToolError, "sphere: radius is 0"),
-    (lambda: fs.Sphere((0, 0), 1), ValueError, "center must be three numbers"),
-    (lambda: fs.Torus((0, 0, 0), (0, 0, 0), 2, 1), fs.ToolError, "torus: axis is the zero vector"),
-    (lambda: fs.Torus((0, 0, 0), (0, 0, 1), 1, 2), fs.ToolError, "minor_radius is 2; it must be smaller than major_radius, 1"),
-    (lambda: fs.Torus((0, 0, 0), (0, 0, 1), 1, float("nan")), ValueError, "minor_radius must be a finite number"),
-    (lambda: fs.Cone((0, 0, 0), (0, 0, 1), 1, 90), fs.ToolError, "cone: half_angle is 90"),
-    (lambda: fs.Cone((0, 0, 0), (0, 0, 1), -1, 30), fs.ToolError, "cone: radius is -1"),
-    (lambda: fs.Cone((0, 0, 0), (0, 0, 1), 1, "30"), TypeError, "half_angle must be a number"),
-])
+@pytest.mark.parametrize(
+    "make, error, message",
+    [
+        (lambda: fs.Sphere((0, 0, 0), 0), fs.ToolError, "sphere: radius is 0"),
+        (lambda: fs.Sphere((0, 0), 1), ValueError, "center must be three numbers"),
+        (lambda: fs.Torus((0, 0, 0), (0, 0, 0), 2, 1), fs.ToolError, "torus: axis is the zero vector"),
+        (
+            lambda: fs.Torus((0, 0, 0), (0, 0, 1), 1, 2),
+            fs.ToolError,
+            "minor_radius is 2; it must be smaller than major_radius, 1",
+        ),
+        (lambda: fs.Torus((0, 0, 0), (0, 0, 1), 1, float("nan")), ValueError, "minor_radius must be a finite number"),
+        (lambda: fs.Cone((0, 0, 0), (0, 0, 1), 1, 90), fs.ToolError, "cone: half_angle is 90"),
+        (lambda: fs.Cone((0, 0, 0), (0, 0, 1), -1, 30), fs.ToolError, "cone: radius is -1"),
+        (lambda: fs.Cone((0, 0, 0), (0, 0, 1), 1, "30"), TypeError, "half_angle must be a number"),
+    ],
+)
 def test_bad_sphere_torus_cone(make, error, message):
     with pytest.raises(error, match=message):
         make()
@@ -92,7 +115,9 @@ class Shape:
 def test_face(source):
     """A square of side 20 in the plane x = 3.3."""
     face = fs.Face(source)
-    assert face.kind == "face" and face.face_count == 1 and np.isinf(face.feature_size) and repr(face).startswith("Face(")
+    assert (
+        face.kind == "face" and face.face_count == 1 and np.isinf(face.feature_size) and repr(face).startswith("Face(")
+    )
     np.testing.assert_allclose(np.abs(face.distance([[3.3, 1, 1], [5, 2, 2], [0, 0, 0]])), [0, 1.7, 3.3], atol=1e-12)
     box = box_with_groups()
     by_face, by_plane = fs.crack(box, face), fs.crack(box, fs.Plane((3.3, 0, 0), (1, 0, 0)))

@@ -22,7 +22,10 @@ def mesh():
 def lip(result, side, name="CRACK"):
     triangles, ids = result.mesh.cells["triangle"], result.mesh.cell_ids["triangle"]
     corners = result.mesh.points[triangles[np.isin(ids, result.mesh.groups[f"{name}_{side}"].ids)]]
-    return corners, np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+    return (
+        corners,
+        np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2,
+    )
 
 
 def front(result, name="CRACK"):
@@ -50,7 +53,10 @@ def check(result, volume=120.0):
 def check_no_face_is_closed(result, name="CRACK"):
     """No face of the crack has all its nodes on the front: it could not open."""
     triangles, ids = result.mesh.cells["triangle"], result.mesh.cell_ids["triangle"]
-    sides = [{tuple(sorted(t)) for t in triangles[np.isin(ids, result.mesh.groups[f"{name}_{side}"].ids)].tolist()} for side in "PN"]
+    sides = [
+        {tuple(sorted(t)) for t in triangles[np.isin(ids, result.mesh.groups[f"{name}_{side}"].ids)].tolist()}
+        for side in "PN"
+    ]
     assert sides[0] and not sides[0] & sides[1]
 
 
@@ -63,7 +69,7 @@ def test_disk_inside(mesh):
     assert np.abs(PLANE.distance(nodes)).max() < 1e-9
     # One closed chain, in order.
     assert (edges[1:, 0] == edges[:-1, 1]).all() and edges[0, 0] == edges[-1, 1]
-    assert 0.95 < lip(result, "P")[1] / (np.pi * 1.4 ** 2) < 1
+    assert 0.95 < lip(result, "P")[1] / (np.pi * 1.4**2) < 1
 
 
 def test_disk_that_breaks_the_surface(mesh):
@@ -90,10 +96,13 @@ def test_ellipse(mesh):
     np.testing.assert_allclose((nodes @ U / 1.8) ** 2 + (nodes @ V / 1.1) ** 2, 1, atol=1e-9)
 
 
-@pytest.mark.parametrize("corners", [
-    [(-1.3, -1.1), (1.3, -1.1), (1.3, 1.1), (-1.3, 1.1)],
-    [(-1.3, -1.1), (1.3, -1.1), (1.3, 0.1), (0.1, 0.1), (0.1, 1.2), (-1.3, 1.2)],
-])
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [(-1.3, -1.1), (1.3, -1.1), (1.3, 1.1), (-1.3, 1.1)],
+        [(-1.3, -1.1), (1.3, -1.1), (1.3, 0.1), (0.1, 0.1), (0.1, 1.2), (-1.3, 1.2)],
+    ],
+)
 def test_polygon(mesh, corners):
     points = [CENTER + a * U + b * V for a, b in corners]
     result = fs.crack(mesh, PLANE, within=fs.Polygon(points))
@@ -116,7 +125,7 @@ def test_squares_however_they_lie(mesh):
         for refine in (None, False):
             result = fs.crack(mesh, fs.Plane(CENTER, n), within=fs.Polygon(corners), refine=refine)
             check(result)
-            assert lip(result, "P")[1] == pytest.approx(2.2 ** 2, rel=1e-9)
+            assert lip(result, "P")[1] == pytest.approx(2.2**2, rel=1e-9)
 
 
 @pytest.mark.parametrize("width", [0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2])
@@ -126,7 +135,7 @@ def test_squares_in_line_with_the_mesh(mesh, width):
     for refine in (False, None):
         result = fs.crack(mesh, fs.Plane(CENTER, (0, 0, 1)), within=fs.Polygon(corners), refine=refine)
         check(result)
-        assert lip(result, "P")[1] == pytest.approx(width ** 2, rel=1e-9)
+        assert lip(result, "P")[1] == pytest.approx(width**2, rel=1e-9)
 
 
 def test_part_of_a_cylinder(mesh):
@@ -149,7 +158,7 @@ def test_cracks_that_cross(mesh):
     for side, area in zip("PN", areas):
         corners, now = lip(second, side, "A")
         assert now == pytest.approx(area, rel=1e-12) and np.abs(corners[..., 2] - 1.9).max() < 1e-12
-    assert lip(second, "P", "B")[1] > 0.9 * np.pi * 1.2 ** 2
+    assert lip(second, "P", "B")[1] > 0.9 * np.pi * 1.2**2
 
 
 @pytest.mark.parametrize("shape", ["disk", "half plane", "whole plane"])
@@ -161,7 +170,9 @@ def test_a_crack_through_a_crack_leaves_it_its_area_and_front(mesh, shape):
         within = {"disk": fs.Disk(CENTER, 1.4), "half plane": fs.HalfPlane(CENTER, u), "whole plane": None}[shape]
         first = fs.crack(mesh, fs.Plane(CENTER, normals[0]), within=within, name="A")
         center = CENTER + random.uniform(-0.3, 0.3, 3)
-        second = fs.crack(first.mesh, fs.Plane(center, normals[1]), within=random.choice([None, fs.Disk(center, 1.2)]), name="B")
+        second = fs.crack(
+            first.mesh, fs.Plane(center, normals[1]), within=random.choice([None, fs.Disk(center, 1.2)]), name="B"
+        )
         second.mesh.validate()
         volumes = tetra_volumes(second.mesh.points, second.mesh.cells["tetra"])
         assert volumes.min() > 0 and volumes.sum() == pytest.approx(120, rel=1e-12)
@@ -171,8 +182,10 @@ def test_a_crack_through_a_crack_leaves_it_its_area_and_front(mesh, shape):
             # The nodes of the first front stay where they are; what the second crack adds is between them.
             old, new = (r.mesh.points[np.unique(front(r, "A"))] for r in (first, second))
             assert shape != "disk" or {tuple(p) for p in old} <= {tuple(p) for p in new}
-            length = [np.linalg.norm(r.mesh.points[e[:, 1]] - r.mesh.points[e[:, 0]], axis=1).sum()
-                      for r, e in ((first, front(first, "A")), (second, front(second, "A")))]
+            length = [
+                np.linalg.norm(r.mesh.points[e[:, 1]] - r.mesh.points[e[:, 0]], axis=1).sum()
+                for r, e in ((first, front(first, "A")), (second, front(second, "A")))
+            ]
             assert length[1] >= length[0] * (1 - 1e-12)
             assert shape != "disk" or np.abs(np.linalg.norm(old - CENTER, axis=1) - 1.4).max() < 1e-9
 
@@ -197,7 +210,11 @@ def test_two_cracks_across_make_four_pieces(mesh):
     along = (second.mesh.points[on_line] - CENTER) @ direction
     for number in set(piece[on_line].tolist()):
         mine = np.sort(along[piece[on_line] == number])
-        assert len(mine) > 8 and mine[0] == pytest.approx(along.min(), abs=1e-9) and mine[-1] == pytest.approx(along.max(), abs=1e-9)
+        assert (
+            len(mine) > 8
+            and mine[0] == pytest.approx(along.min(), abs=1e-9)
+            and mine[-1] == pytest.approx(along.max(), abs=1e-9)
+        )
     assert len(set(piece[on_line].tolist())) == 4
     # What is on the two lips of the first crack need not match any more, and that is told.
     points = [{tuple(np.round(p, 9)) for p in lip(second, side, "A")[0].reshape(-1, 3)} for side in "PN"]
@@ -217,14 +234,18 @@ def test_a_crack_through_a_crack_of_second_order():
             second = fs.crack(first.mesh, fs.Plane(CENTER + random.uniform(-0.3, 0.3, 3), normals[1]), name="B")
             measures = [{g.name: g.measure_after for g in r.report.groups} for r in (first, second)]
             for side in "PN":
-                assert measures[1]["A_" + side] == pytest.approx(measures[0]["A_" + side], rel=1e-7 if within else 1e-12)
+                assert measures[1]["A_" + side] == pytest.approx(
+                    measures[0]["A_" + side], rel=1e-7 if within else 1e-12
+                )
 
 
 def test_every_face_of_a_crack_can_open(mesh):
     random = np.random.default_rng(5)
     for _ in range(40):
         center = CENTER + random.uniform(-0.3, 0.3, 3)
-        result = fs.crack(mesh, fs.Plane(center, random.normal(size=3)), within=fs.Disk(center, random.uniform(0.6, 1.8)))
+        result = fs.crack(
+            mesh, fs.Plane(center, random.normal(size=3)), within=fs.Disk(center, random.uniform(0.6, 1.8))
+        )
         check_no_face_is_closed(result)
         assert not any("cannot open" in w for w in result.report.warnings)
 
@@ -249,15 +270,22 @@ def test_a_front_is_the_same_after_a_file(mesh, tmp_path, within):
 def test_fronts_in_a_shell(tmp_path):
     n = 14
     points = [(0.5 * i, 0.5 * j, 0) for j in range(n + 1) for i in range(n + 1)]
-    cells = [t for j in range(n) for i in range(n) for a in [i + (n + 1) * j]
-             for t in ((a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1))]
+    cells = [
+        t
+        for j in range(n)
+        for i in range(n)
+        for a in [i + (n + 1) * j]
+        for t in ((a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1))
+    ]
     mesh = fs.Mesh(points, {"triangle": cells})
     plane = fs.Plane((3.6, 3.3, 0), (0.3, 1, 0))
     along = np.array((1, -0.3, 0)) / np.hypot(1, 0.3)
     center = np.array(plane.origin)
-    for within, tips in ((fs.Disk(center, 1.7), [center - 1.7 * along, center + 1.7 * along]),
-                         (fs.HalfPlane(center, along), [center]),
-                         (fs.Disk(center, 0.3), [center - 0.3 * along, center + 0.3 * along])):
+    for within, tips in (
+        (fs.Disk(center, 1.7), [center - 1.7 * along, center + 1.7 * along]),
+        (fs.HalfPlane(center, along), [center]),
+        (fs.Disk(center, 0.3), [center - 0.3 * along, center + 0.3 * along]),
+    ):
         result = fs.crack(mesh, plane, within=within)
         group = result.mesh.groups["CRACK_FRONT"]
         assert group.kind == "node" and len(group.ids) == len(tips)
@@ -271,7 +299,9 @@ def test_fronts_in_a_shell(tmp_path):
         assert lips[0] - lips[1]
         for suffix in (".med", ".inp"):
             fs.write(result.mesh, tmp_path / f"shell{suffix}")
-            assert set(fs.read(tmp_path / f"shell{suffix}").groups["CRACK_FRONT"].ids.tolist()) == set(group.ids.tolist())
+            assert set(fs.read(tmp_path / f"shell{suffix}").groups["CRACK_FRONT"].ids.tolist()) == set(
+                group.ids.tolist()
+            )
 
 
 def test_quadratic_front_is_round():
@@ -281,18 +311,21 @@ def test_quadratic_front_is_round():
     np.testing.assert_allclose(np.linalg.norm(nodes - CENTER, axis=1), 1.4, atol=1e-9)
 
 
-@pytest.mark.parametrize("within, error, message", [
-    (lambda: 5, TypeError, "within must be a Disk"),
-    (lambda: fs.Disk(CENTER, 0), fs.ToolError, "radius is 0"),
-    (lambda: fs.Disk(CENTER + (0, 0, 1), 1), fs.ToolError, "off the plane"),
-    (lambda: fs.Disk(CENTER, 0.05), fs.ToolError, "too coarse"),
-    (lambda: fs.Disk(CENTER + 50 * U, 1), fs.ToolError, "outside the part"),
-    (lambda: fs.Polygon([CENTER, CENTER + U]), fs.ToolError, "at least three"),
-    (lambda: fs.Polygon([CENTER, CENTER + U, CENTER + V, CENTER + U + V]), fs.ToolError, "sides 2 and 4 cross"),
-    (lambda: fs.HalfPlane(CENTER, PLANE.normal), fs.ToolError, "normal to the plane"),
-    (lambda: fs.CylinderPart((0, 1)), fs.ToolError, "lies on a cylinder"),
-    (lambda: fs.CylinderPart((1, 0)), fs.ToolError, "low must be less than high"),
-])
+@pytest.mark.parametrize(
+    "within, error, message",
+    [
+        (lambda: 5, TypeError, "within must be a Disk"),
+        (lambda: fs.Disk(CENTER, 0), fs.ToolError, "radius is 0"),
+        (lambda: fs.Disk(CENTER + (0, 0, 1), 1), fs.ToolError, "off the plane"),
+        (lambda: fs.Disk(CENTER, 0.05), fs.ToolError, "too coarse"),
+        (lambda: fs.Disk(CENTER + 50 * U, 1), fs.ToolError, "outside the part"),
+        (lambda: fs.Polygon([CENTER, CENTER + U]), fs.ToolError, "at least three"),
+        (lambda: fs.Polygon([CENTER, CENTER + U, CENTER + V, CENTER + U + V]), fs.ToolError, "sides 2 and 4 cross"),
+        (lambda: fs.HalfPlane(CENTER, PLANE.normal), fs.ToolError, "normal to the plane"),
+        (lambda: fs.CylinderPart((0, 1)), fs.ToolError, "lies on a cylinder"),
+        (lambda: fs.CylinderPart((1, 0)), fs.ToolError, "low must be less than high"),
+    ],
+)
 def test_bad_parts(mesh, within, error, message):
     with pytest.raises(error, match=message):
         fs.crack(mesh, PLANE, within=within(), refine=False)

@@ -21,8 +21,11 @@ def put_into_analysis(obj, strict=True):
         raise ValueError(f"'{obj.Label}' has no mesh; mend what its error says first")
     problems = lost_references(obj, replaced, analysis)
     if problems and strict:
-        raise ValueError(f"FreeCAD would not apply everything in '{analysis.Label}' to '{obj.Label}': " + "; ".join(problems)
-                         + ". Move the tool a little, or refine the mesh there")
+        raise ValueError(
+            f"FreeCAD would not apply everything in '{analysis.Label}' to '{obj.Label}': "
+            + "; ".join(problems)
+            + ". Move the tool a little, or refine the mesh there"
+        )
     for problem in problems:
         FreeCAD.Console.PrintWarning(f"{obj.Label}: {problem}\n")
     with transaction(obj.Document, f"Put {obj.Label} into {analysis.Label}"):
@@ -43,10 +46,12 @@ def take_out_of_analysis(obj):
 
 
 def lost_references(obj, source, analysis):
-    """What FreeCAD's search by geometry would not, or wrongly, find on the mesh of `obj`; sentences, none if all is well.
+    """What FreeCAD's search by geometry would not, or wrongly, find on the mesh of `obj`; sentences, none if all is
+    well.
 
-    Only what an operator of FemScalpel can cause: nodes that could not be put back on the geometry, a vertex that has lost
-    its node, and a force on a vertex or an edge that a crack has doubled (FreeCAD drops the one and counts the other twice).
+    Only what an operator of FemScalpel can cause: nodes that could not be put back on the geometry, a vertex that has
+    lost its node, and a force on a vertex or an edge that a crack has doubled (FreeCAD drops the one and counts the
+    other twice).
     """
     problems = []
     mesh = obj
@@ -57,9 +62,12 @@ def lost_references(obj, source, analysis):
         for part, names in getattr(member, "References", ()):
             for name in names:
                 shape = element_of(part, name)
-                if shape.ShapeType == "Vertex" and len(source.FemMesh.getNodesByVertex(shape)) > \
-                        len(obj.FemMesh.getNodesByVertex(shape)):
-                    problems.append(f"'{obj.Label}' has no node at {part.Label}.{name}, which '{member.Label}' refers to")
+                if shape.ShapeType == "Vertex" and len(source.FemMesh.getNodesByVertex(shape)) > len(
+                    obj.FemMesh.getNodesByVertex(shape)
+                ):
+                    problems.append(
+                        f"'{obj.Label}' has no node at {part.Label}.{name}, which '{member.Label}' refers to"
+                    )
                 elif member.isDerivedFrom("Fem::ConstraintForce") and _is_doubled(obj.FemMesh, shape):
                     problems.append(f"the tool doubles {part.Label}.{name}, which '{member.Label}' loads")
     return problems
@@ -79,10 +87,10 @@ def _is_doubled(femmesh, shape):
     on_edge = np.isin(mesh.node_ids, nodes)
     pairs = set()
     for name, cells in mesh.cells.items():
-        corners = cells[:, :CELL_TYPES[name][2]]
+        corners = cells[:, : CELL_TYPES[name][2]]
         for row in corners[on_edge[corners].sum(axis=1) > 1]:
             found = sorted(row[on_edge[row]].tolist())
-            pairs.update((a, b) for i, a in enumerate(found) for b in found[i + 1:])
+            pairs.update((a, b) for i, a in enumerate(found) for b in found[i + 1 :])
     places = {tuple(sorted((tuple(mesh.points[a]), tuple(mesh.points[b])))) for a, b in pairs}
     return len(places) < len(pairs)
 
@@ -121,7 +129,8 @@ def _exchange(analysis, old, new):
 
 
 def _retire_results(analysis, mesh):
-    """Results in an analysis are of the mesh that was in it: away with them, as when FreeCAD solves anew, or renamed."""
+    """Results in an analysis are of the mesh that was in it: away with them, as when FreeCAD solves anew, or
+    renamed."""
     results = [m for m in analysis.Group if m.isDerivedFrom("Fem::FemResultObject")]
     if not results:
         return
@@ -131,6 +140,7 @@ def _retire_results(analysis, mesh):
                 result.Label = f"{result.Label} (of {mesh.Label})"
         return
     from femresult.resulttools import purge_results
+
     purge_results(analysis)
     FreeCAD.Console.PrintMessage(f"{analysis.Label}: the results of '{mesh.Label}' are removed; solve again.\n")
 

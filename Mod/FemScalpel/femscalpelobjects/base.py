@@ -19,7 +19,11 @@ from .reason import Reason
 OUTPUT = 8  # setting it does not ask for a recompute
 
 _RESULTS = (
-    ("App::PropertyLength", "RefinedTo", "Longest edge at the tool after the refinement that came first; 0: there was none"),
+    (
+        "App::PropertyLength",
+        "RefinedTo",
+        "Longest edge at the tool after the refinement that came first; 0: there was none",
+    ),
     ("App::PropertyInteger", "NodesAdded", "Nodes made by splitting and by doubling"),
     ("App::PropertyInteger", "NodesDoubled", "Nodes of the crack that each side has its own copy of"),
     ("App::PropertyInteger", "NodesMoved", "Nodes moved onto the tool or to improve elements"),
@@ -27,8 +31,12 @@ _RESULTS = (
     ("App::PropertyFloat", "MinimumQualityBefore", "The same before"),
     ("App::PropertyLength", "MaxDisplacement", "Largest distance a node was moved"),
     ("App::PropertyStringList", "Warnings", "What to look at before trusting the mesh"),
-    ("App::PropertyStringList", "OffShape", "Faces and edges of the geometry that mesh nodes could not be put back on; "
-     "FreeCAD finds loads and supports by geometry and would miss these nodes"),
+    (
+        "App::PropertyStringList",
+        "OffShape",
+        "Faces and edges of the geometry that mesh nodes could not be put back on; "
+        "FreeCAD finds loads and supports by geometry and would miss these nodes",
+    ),
     ("App::PropertyStringList", "GroupReport", "Summary and table of groups, line by line"),
     ("App::PropertyMap", "NodeSetCounts", "Number of nodes in the sets ICN, ECN (interface), ITN, ETN (transition)"),
     ("App::PropertyMap", "ConstraintCounts", "Number of constraints on moving nodes by kind"),
@@ -49,11 +57,12 @@ class MeshOperation:
     When the mesh cannot be made the object is left without one, with FreeCAD's error mark and the reason, so that no
     outdated mesh can be mistaken for the result.
 
-    FreeCAD drops empty groups whenever a mesh is given to a document object, and renumbers nodes and elements from 1 when
-    a document is saved. So a loaded object and a loaded Source may number the same element differently; a recompute
-    (obj.touch(), then doc.recompute()) makes the mesh anew and brings the numbers together again.
+    FreeCAD drops empty groups whenever a mesh is given to a document object, and renumbers nodes and elements from 1
+    when a document is saved. So a loaded object and a loaded Source may number the same element differently; a
+    recompute (obj.touch(), then doc.recompute()) makes the mesh anew and brings the numbers together again.
 
-    A subclass says what its operator is by `Type`, INPUTS, and the methods tools(), where_nodes_may_move() and operate().
+    A subclass says what its operator is by `Type`, INPUTS, and the methods tools(), where_nodes_may_move() and
+    operate().
     """
 
     #: Properties (type, name, text) of the operator, in addition to Source; shown under the class's name.
@@ -73,7 +82,8 @@ class MeshOperation:
         raise NotImplementedError
 
     def where_nodes_may_move(self, obj, mesh, tools):
-        """Boolean array: the nodes of `mesh` the operator may move, or take as a parent of a new node, and some more."""
+        """Boolean array: the nodes of `mesh` the operator may move, or take as a parent of a new node, and some
+        more."""
         return nodes_around(mesh, tools, rings=max(obj.Transition, 3) + 3)
 
     def operate(self, obj, mesh, tools):
@@ -86,7 +96,11 @@ class MeshOperation:
         """Adds the properties an object of an older version may lack."""
         present = set(obj.PropertiesList)
         section = type(self).__name__
-        for kind, name, text in (("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"), *self.INPUTS, KEEP_TO_SHAPE):
+        for kind, name, text in (
+            ("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"),
+            *self.INPUTS,
+            KEEP_TO_SHAPE,
+        ):
             if name in present:
                 continue
             obj.addProperty(kind, name, section, text)
@@ -97,8 +111,13 @@ class MeshOperation:
                 obj.addProperty(kind, name, "Result", text, OUTPUT)
             obj.setEditorMode(name, 1)
         if "Replaced" not in present:
-            obj.addProperty("App::PropertyLinkHidden", "Replaced", section, "Mesh whose place in an analysis this one has taken",
-                            OUTPUT)
+            obj.addProperty(
+                "App::PropertyLinkHidden",
+                "Replaced",
+                section,
+                "Mesh whose place in an analysis this one has taken",
+                OUTPUT,
+            )
         obj.setEditorMode("Replaced", 2)
         obj.setEditorMode("Placement", 2)
 
@@ -113,8 +132,11 @@ class MeshOperation:
     def _link_geometry(self, obj):
         source = obj.Source
         for name in _GEOMETRY_LINKS:
-            linked = source is not None and name in source.PropertiesList and \
-                source.getTypeIdOfProperty(name) == "App::PropertyLink"
+            linked = (
+                source is not None
+                and name in source.PropertiesList
+                and source.getTypeIdOfProperty(name) == "App::PropertyLink"
+            )
             if linked and name not in obj.PropertiesList:
                 obj.addProperty("App::PropertyLink", name, "FEM Mesh", "Geometry the source mesh is made from", OUTPUT)
                 obj.setEditorMode(name, 1)
@@ -171,21 +193,30 @@ class MeshOperation:
     @staticmethod
     def _completed(report, on_shape):
         """The operator's report without the bookkeeping groups of `on_shape`, with its warnings."""
-        lost = [f"{line}: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete"
-                for line in on_shape.lost]
-        return dataclasses.replace(report, groups=[g for g in report.groups if g.name not in on_shape.group_names],
-                                   warnings=report.warnings + lost)
+        lost = [
+            f"{line}: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is "
+            f"incomplete"
+            for line in on_shape.lost
+        ]
+        return dataclasses.replace(
+            report,
+            groups=[g for g in report.groups if g.name not in on_shape.group_names],
+            warnings=report.warnings + lost,
+        )
 
     @staticmethod
     def _check_names(obj, report):
-        """FreeCAD's solver writers take any group whose name begins with a constraint's name and "_" for that constraint's."""
+        """FreeCAD's solver writers take any group whose name begins with a constraint's name and "_" for that
+        constraint's."""
         for group in report.groups:
             if group.status != "new":
                 continue
             for other in obj.Document.Objects:
                 if group.name.startswith(other.Name + "_") and hasattr(other, "References"):
-                    raise ValueError(f"the new group '{group.name}' would be taken for the nodes of '{other.Label}'; "
-                                     "choose another GroupName")
+                    raise ValueError(
+                        f"the new group '{group.name}' would be taken for the nodes of '{other.Label}'; "
+                        "choose another GroupName"
+                    )
 
     @staticmethod
     def _node_groups(source, report):
@@ -223,7 +254,15 @@ class MeshOperation:
                 dependent.Proxy._clear(dependent)
         self.report = None
         obj.FemMesh = Fem.FemMesh()
-        for name in ("RefinedTo", "NodesAdded", "NodesDoubled", "NodesMoved", "MinimumQuality", "MinimumQualityBefore", "MaxDisplacement"):
+        for name in (
+            "RefinedTo",
+            "NodesAdded",
+            "NodesDoubled",
+            "NodesMoved",
+            "MinimumQuality",
+            "MinimumQualityBefore",
+            "MaxDisplacement",
+        ):
             setattr(obj, name, 0)
         obj.Warnings = []
         obj.OffShape = []
@@ -244,17 +283,24 @@ class MeshOperation:
     __setstate__ = loads
 
 
-KEEP_TO_SHAPE = ("App::PropertyBool", "KeepToShape", "The skin is taken to be that of the geometry the mesh was made from, not the mesh's triangles: "
-                 "new and moved nodes are made on it, which makes a coarse skin better")
+KEEP_TO_SHAPE = (
+    "App::PropertyBool",
+    "KeepToShape",
+    "The skin is taken to be that of the geometry the mesh was made from, not the mesh's triangles: "
+    "new and moved nodes are made on it, which makes a coarse skin better",
+)
 
 
 def skin_of(obj):
-    """What femscalpel's operators take as `skin`: the geometry the mesh of `obj` was made from, if KeepToShape says so."""
+    """What femscalpel's operators take as `skin`: the geometry the mesh of `obj` was made from, if KeepToShape says
+    so."""
     if not obj.KeepToShape:
         return None
     geometry = geometry_of(obj)
     if geometry is None:
-        raise ValueError("KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)")
+        raise ValueError(
+            "KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)"
+        )
     return geometry.Shape
 
 
@@ -263,11 +309,23 @@ SURFACE_INPUTS = (
     ("App::PropertyEnumeration", "Method", "snap: move and split, always succeeds; deform: only move nodes"),
     ("App::PropertyIntegerConstraint", "Transition", "Rings of elements around the tool that may move; 0: automatic"),
     ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
-    ("App::PropertyStringList", "PreservedGroups", "Mesh groups whose border keeps its shape; *: all. The borders of others "
-     "may drift, those of all if the list is empty"),
-    ("App::PropertyEnumeration", "Refine", "Whether elements near the tool are divided first. Automatic: where the tool is finer than "
-     "the mesh; Size: where edges are longer than RefineSize"),
-    ("App::PropertyLength", "RefineSize", "Longest edge at the tool (of a crack that ends inside, at its front) if Refine is Size"),
+    (
+        "App::PropertyStringList",
+        "PreservedGroups",
+        "Mesh groups whose border keeps its shape; *: all. The borders of others "
+        "may drift, those of all if the list is empty",
+    ),
+    (
+        "App::PropertyEnumeration",
+        "Refine",
+        "Whether elements near the tool are divided first. Automatic: where the tool is finer than "
+        "the mesh; Size: where edges are longer than RefineSize",
+    ),
+    (
+        "App::PropertyLength",
+        "RefineSize",
+        "Longest edge at the tool (of a crack that ends inside, at its front) if Refine is Size",
+    ),
 )
 SURFACE_DEFAULTS = {
     "Method": (list(femscalpel.operators.METHODS), "snap"),
@@ -286,5 +344,12 @@ def surface_options(obj, mesh):
     """
     preserve = None if "*" in obj.PreservedGroups else [*obj.PreservedGroups, *bookkeeping_groups(mesh)]
     refine = {"Automatic": None, "Never": False, "Size": obj.RefineSize.Value}[obj.Refine]
-    return dict(name=obj.GroupName, method=obj.Method, transition=obj.Transition or None, feature_angle=obj.FeatureAngle.Value,
-                preserve=preserve, refine=refine, skin=skin_of(obj))
+    return dict(
+        name=obj.GroupName,
+        method=obj.Method,
+        transition=obj.Transition or None,
+        feature_angle=obj.FeatureAngle.Value,
+        preserve=preserve,
+        refine=refine,
+        skin=skin_of(obj),
+    )

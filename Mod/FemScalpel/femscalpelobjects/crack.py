@@ -14,10 +14,18 @@ class Crack(MeshOperation):
     Type = "FemScalpel::Crack"
 
     INPUTS = (
-        ("App::PropertyPlacement", "PlanePlacement", "The crack's plane: XY plane of this placement, z is the positive side"),
+        (
+            "App::PropertyPlacement",
+            "PlanePlacement",
+            "The crack's plane: XY plane of this placement, z is the positive side",
+        ),
         *PATCH_INPUTS,
         *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips, NAME_FRONT the front"),
+        (
+            "App::PropertyString",
+            "GroupName",
+            "Prefix of the new groups: NAME_P and NAME_N are the lips, NAME_FRONT the front",
+        ),
     )
     DEFAULTS = {**PATCH_DEFAULTS, **SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
 

@@ -18,8 +18,13 @@ class CurvedCrack(MeshOperation):
         *SURFACE_INPUTS,
         ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips, P outside"),
     )
-    DEFAULTS = {**SHAPE_DEFAULTS, **AXIS_DEFAULTS, **SURFACE_DEFAULTS, "ToolShape": (list(SHAPES[1:]), "Sphere"),
-                "GroupName": ("CRACK",)}
+    DEFAULTS = {
+        **SHAPE_DEFAULTS,
+        **AXIS_DEFAULTS,
+        **SURFACE_DEFAULTS,
+        "ToolShape": (list(SHAPES[1:]), "Sphere"),
+        "GroupName": ("CRACK",),
+    }
 
     def tools(self, obj):
         return [shape_of(obj)]

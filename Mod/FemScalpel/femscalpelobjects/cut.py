@@ -16,11 +16,25 @@ class Cut(MeshOperation):
         ("App::PropertyPlacement", "PlanePlacement", "The middle of the slot: XY plane of this placement"),
         ("App::PropertyLength", "Width", "Of the slot"),
         ("App::PropertyBool", "Through", "Whether the slot goes through the whole part; otherwise it ends at a bottom"),
-        ("App::PropertyPlacement", "BottomPlacement", "The bottom: XY plane of this placement, z points into the material that stays"),
+        (
+            "App::PropertyPlacement",
+            "BottomPlacement",
+            "The bottom: XY plane of this placement, z points into the material that stays",
+        ),
         *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the walls, NAME_BOTTOM the bottom"),
+        (
+            "App::PropertyString",
+            "GroupName",
+            "Prefix of the new groups: NAME_P and NAME_N are the walls, NAME_BOTTOM the bottom",
+        ),
     )
-    DEFAULTS = {**SURFACE_DEFAULTS, "Method": (["snap"], "snap"), "Width": (1,), "Through": (True,), "GroupName": ("CUT",)}
+    DEFAULTS = {
+        **SURFACE_DEFAULTS,
+        "Method": (["snap"], "snap"),
+        "Width": (1,),
+        "Through": (True,),
+        "GroupName": ("CUT",),
+    }
 
     def tools(self, obj):
         middle, normal = obj.PlanePlacement.Base, direction_of(obj.PlanePlacement)
@@ -30,4 +44,6 @@ class Cut(MeshOperation):
 
     def operate(self, obj, mesh, tools):
         bottom = None if obj.Through else tools[2]
-        return femscalpel.cut(mesh, plane_of(obj.PlanePlacement), width=obj.Width.Value, bottom=bottom, **surface_options(obj, mesh))
+        return femscalpel.cut(
+            mesh, plane_of(obj.PlanePlacement), width=obj.Width.Value, bottom=bottom, **surface_options(obj, mesh)
+        )

@@ -17,7 +17,11 @@ class CylindricalCrack(MeshOperation):
         *AXIS_INPUTS,
         *CYLINDER_PART_INPUTS,
         *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips, P outside, NAME_FRONT the front"),
+        (
+            "App::PropertyString",
+            "GroupName",
+            "Prefix of the new groups: NAME_P and NAME_N are the lips, P outside, NAME_FRONT the front",
+        ),
     )
     DEFAULTS = {**AXIS_DEFAULTS, **CYLINDER_PART_DEFAULTS, **SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
 

@@ -14,11 +14,19 @@ class Drill(MeshOperation):
 
     INPUTS = (
         *AXIS_INPUTS,
-        ("App::PropertyVectorList", "Positions", "Where the holes are, in the placement's own axes; empty: one, at its origin"),
+        (
+            "App::PropertyVectorList",
+            "Positions",
+            "Where the holes are, in the placement's own axes; empty: one, at its origin",
+        ),
         ("App::PropertyBool", "Through", "Whether the holes go through; otherwise they end flat"),
         ("App::PropertyLength", "Depth", "How far blind holes go beyond the placement's origin, along its z"),
         *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_WALL, NAME_BOTTOM, and with several holes NAME_WALL1, ..."),
+        (
+            "App::PropertyString",
+            "GroupName",
+            "Prefix of the new groups: NAME_WALL, NAME_BOTTOM, and with several holes NAME_WALL1, ...",
+        ),
     )
     DEFAULTS = {**AXIS_DEFAULTS, **SURFACE_DEFAULTS, "Through": (True,), "GroupName": ("HOLE",)}
 

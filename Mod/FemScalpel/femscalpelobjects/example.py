@@ -29,7 +29,8 @@ def _read():
 
 
 def open_example():
-    """Makes a document "Caisson" with the mesh in an analysis, and returns it. Raises FileNotFoundError without the file."""
+    """Makes a document "Caisson" with the mesh in an analysis, and returns it. Raises FileNotFoundError without the
+    file."""
     mesh = femmesh_bridge.to_femmesh(_read())
     doc = FreeCAD.newDocument("Caisson")
     obj = doc.addObject("Fem::FemMeshObject", "Caisson")

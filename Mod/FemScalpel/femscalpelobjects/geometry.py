@@ -10,14 +10,21 @@ _MARGIN = 0.05  # part of FreeCAD's tolerance that is used
 
 def geometry_of(obj):
     """The object whose shape the mesh of `obj` is made from, or None."""
-    return next((part for part in (getattr(obj, name, None) for name in ("Part", "Shape")) if getattr(part, "Shape", None) is not None), None)
+    return next(
+        (
+            part
+            for part in (getattr(obj, name, None) for name in ("Part", "Shape"))
+            if getattr(part, "Shape", None) is not None
+        ),
+        None,
+    )
 
 
 def shapes_of(obj):
     """The shapes the mesh of `obj` lies on, as [(name, shape)], in global coordinates.
 
-    The geometry it is made from, named "", and those faces, edges, vertices and solids of other objects, and vertices of the
-    geometry, that the members of an analysis with `obj` or with a mesh it is made from refer to.
+    The geometry it is made from, named "", and those faces, edges, vertices and solids of other objects, and vertices
+    of the geometry, that the members of an analysis with `obj` or with a mesh it is made from refer to.
     """
     geometry = geometry_of(obj)
     found = {"": geometry.Shape} if geometry is not None else {}
@@ -37,11 +44,13 @@ def shapes_of(obj):
 def element_of(part, name):
     """The face, edge, vertex or solid `name` of a document object, in global coordinates."""
     from femtools.geomtools import get_element
+
     return get_element(part, name)
 
 
 def name_of(where, shape, kind, index):
-    """What messages call a part of a shape: "Face4" of the geometry, "Box.Face4" of another object, "Box.Solid1 Face4"."""
+    """What messages call a part of a shape: "Face4" of the geometry, "Box.Face4" of another object, "Box.Solid1
+    Face4"."""
     if not where or shape.ShapeType == kind:
         return where or f"{kind}{index + 1}"
     return f"{where} {kind}{index + 1}"
@@ -89,7 +98,8 @@ class Face(Entity):
         self.solids = solids
 
     def holds(self, points):
-        """Boolean array: points that need no look at the shape, as they are on its plane (and came to be inside its edges)."""
+        """Boolean array: points that need no look at the shape, as they are on its plane (and came to be inside its
+        edges)."""
         if not isinstance(self.surface, Part.Plane):
             return np.zeros(len(points), bool)
         return np.abs((points - self.surface.Position) @ np.array(self.surface.Axis)) < _MARGIN * self.tolerance
@@ -138,7 +148,9 @@ def nearest(start, entities, tools, size):
     else:
         place = start.copy()
         for _ in range(30):
-            conditions = [face.condition(place) for face in entities] + [_condition(tool, place, size) for tool in tools]
+            conditions = [face.condition(place) for face in entities] + [
+                _condition(tool, place, size) for tool in tools
+            ]
             values = np.array([value for value, _ in conditions])
             if np.abs(values).max() < 1e-13 * size:
                 break
@@ -146,8 +158,9 @@ def nearest(start, entities, tools, size):
             place += step
             if np.linalg.norm(step) < 1e-15 * size:
                 break
-    on = all(entity.distance(place) < _MARGIN * entity.tolerance for entity in entities) and \
-        all(abs(tool.distance(place)[0]) < 1e-9 * size for tool in tools)
+    on = all(entity.distance(place) < _MARGIN * entity.tolerance for entity in entities) and all(
+        abs(tool.distance(place)[0]) < 1e-9 * size for tool in tools
+    )
     return place if on else None
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Renaming the groups of a mesh, in a way that can be undone.
 
-FreeCAD does not put an old mesh back when a transaction is undone (see undo.py). So what was renamed is kept in a property
-of the object, RenamedGroups, which does come back, and the names in the mesh follow it.
+FreeCAD does not put an old mesh back when a transaction is undone (see undo.py). So what was renamed is kept in a
+property of the object, RenamedGroups, which does come back, and the names in the mesh follow it.
 """
 
 from . import undo
@@ -18,7 +18,10 @@ _shown = {}
 def rename_group(obj, old, new, kind=None):
     """See ObjectsFemScalpel.renameGroup()."""
     if undo.is_ours(obj):
-        raise ValueError(f"'{obj.Label}' makes its groups anew with its mesh. Rename the group in the source mesh, or change GroupName")
+        raise ValueError(
+            f"'{obj.Label}' makes its groups anew with its mesh. Rename the group in the source mesh, or change "
+            f"GroupName"
+        )
     if not new.strip():
         raise ValueError("the new name is empty")
     present = [(_kind(obj.FemMesh, g), obj.FemMesh.getGroupName(g)) for g in obj.FemMesh.Groups]
@@ -34,7 +37,9 @@ def rename_group(obj, old, new, kind=None):
             obj.setEditorMode(_PROPERTY, 2)
         names = dict(getattr(obj, _PROPERTY))
         _shown.setdefault(_key(obj), dict(names))
-        first = next((key for key, name in names.items() if name == old and key.startswith(kind + ":")), f"{kind}:{old}")
+        first = next(
+            (key for key, name in names.items() if name == old and key.startswith(kind + ":")), f"{kind}:{old}"
+        )
         names[first] = new
         setattr(obj, _PROPERTY, names)
         follow(obj)

@@ -25,12 +25,13 @@ def nodes_around(mesh, tools, rings):
 
 
 def nodes_of_long_edges(mesh, tools, size, gradation, reach, rings):
-    """Boolean array: nodes of the elements that femscalpel.refine() divides first, and of `rings` layers around them."""
+    """Boolean array: nodes of the elements that femscalpel.refine() divides first, and of `rings` layers around
+    them."""
     distance = np.min([np.abs(tool.distance(mesh.points)) for tool in tools], axis=0)
     allowed = size + gradation * np.maximum(0, distance - reach)
     near = np.zeros(mesh.node_count, bool)
     for name, nodes in mesh.cells.items():
-        corners = mesh.points[nodes[:, :CELL_TYPES[name][2]]]
+        corners = mesh.points[nodes[:, : CELL_TYPES[name][2]]]
         width = np.linalg.norm(np.ptp(corners, axis=1), axis=1)  # no edge is longer
         near[nodes[width > allowed[nodes].min(axis=1)]] = True
     return _with_rings(mesh, near, rings)
@@ -49,7 +50,9 @@ def _rows(ids, wanted):
     """Positions of `wanted` numbers in `ids`; those not there are left out."""
     order = np.argsort(ids)
     at = np.minimum(np.searchsorted(ids[order], wanted), max(len(ids) - 1, 0))
-    return (order[at], ids[order][at] == wanted) if len(ids) else (np.zeros(len(wanted), int), np.zeros(len(wanted), bool))
+    return (
+        (order[at], ids[order][at] == wanted) if len(ids) else (np.zeros(len(wanted), int), np.zeros(len(wanted), bool))
+    )
 
 
 def nodes_of_facets(mesh, facets):
@@ -66,7 +69,9 @@ def nodes_of_facets(mesh, facets):
 
 def nodes_of_elements(mesh, numbers):
     """Node indices of triangle elements."""
-    found = [mesh.cells[name][np.isin(mesh.cell_ids[name], numbers)].ravel() for name in TRIANGLES if name in mesh.cells]
+    found = [
+        mesh.cells[name][np.isin(mesh.cell_ids[name], numbers)].ravel() for name in TRIANGLES if name in mesh.cells
+    ]
     return np.unique(np.concatenate(found)) if found else np.empty(0, np.int64)
 
 

@@ -31,8 +31,8 @@ def carry_mid_sides(mesh, points, changed, free):
 
 
 def spoilt_by(mesh, points, changed):
-    """Indices of changed nodes to put back: of each element that is inverted or much worse at `points` than at mesh.points,
-    the one that moved most."""
+    """Indices of changed nodes to put back: of each element that is inverted or much worse at `points` than at
+    mesh.points, the one that moved most."""
     shift = np.linalg.norm(points - mesh.points, axis=1)
     spoilt = []
     for name in TETRAS + TRIANGLES:
@@ -48,10 +48,10 @@ def spoilt_by(mesh, points, changed):
 
 def _quality(name, points):
     """Mean ratio of the corners of elements, shape (m, k, 3); 0 for quadratic ones inverted at an integration point."""
-    corners = points[:, :4 if name in TETRAS else 3]
+    corners = points[:, : 4 if name in TETRAS else 3]
     ids = np.arange(corners.shape[0] * corners.shape[1]).reshape(corners.shape[:2])
     linear = femscalpel.Mesh(corners.reshape(-1, 3), {"tetra" if name in TETRAS else "triangle": ids})
-    quality, = femscalpel.mean_ratio(linear).values() if len(ids) else (np.empty(0),)
+    (quality,) = femscalpel.mean_ratio(linear).values() if len(ids) else (np.empty(0),)
     if name == "tetra10" and len(ids):
         quality = np.where(_jacobians(points).min(axis=1) > 0, quality, 0)
     return quality

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Keeps the nodes of a mesh on the geometry it was made from, while an operator changes it.
 
-FreeCAD finds the nodes of a load or a support by geometry: those less than the shape's tolerance, mostly 1e-7 mm, from the
-face, edge or vertex the constraint refers to. A mesh knows its geometry to the width of its elements only. So a node that
-moves or is born on a curved face, or on a face inside the material that no mesh group marks (between two solids), would no
-longer be found, and the load, support or material would end there without a message.
+FreeCAD finds the nodes of a load or a support by geometry: those less than the shape's tolerance, mostly 1e-7 mm, from
+the face, edge or vertex the constraint refers to. A mesh knows its geometry to the width of its elements only. So a
+node that moves or is born on a curved face, or on a face inside the material that no mesh group marks (between two
+solids), would no longer be found, and the load, support or material would end there without a message.
 """
 
 import Fem
@@ -64,7 +64,9 @@ class OnShape:
                 self._vertices.append(vertex)
                 continue
             solids = Owners((solid, solid.Faces) for solid in shape.Solids)
-            faces = [Face(name_of(where, shape, "Face", i), face, len(solids.of(face))) for i, face in enumerate(shape.Faces)]
+            faces = [
+                Face(name_of(where, shape, "Face", i), face, len(solids.of(face))) for i, face in enumerate(shape.Faces)
+            ]
             owners = Owners((face, face.shape.Edges) for face in faces)
             for face in faces:
                 face.nodes = finder.getNodesByFace(face.shape)
@@ -105,7 +107,8 @@ class OnShape:
                     self._add_group(face, "element", mesh.cell_ids[name][chosen[lying]])
 
     def _lying_on(self, triangles, owners):
-        """For each face the rows of `triangles` (corner nodes) that lie on it; `owners`: how many tetrahedra each belongs to."""
+        """For each face the rows of `triangles` (corner nodes) that lie on it; `owners`: how many tetrahedra each
+        belongs to."""
         lying = []
         for face in self._faces:
             on_face = np.isin(self._mesh.node_ids, face.nodes)
@@ -200,11 +203,14 @@ class OnShape:
         for entity, nodes in entities:
             off = [d for d in map(entity.distance, points[nodes]) if not d < entity.tolerance]
             if off:
-                self.lost.append(f"{entity.name}: {len(off)} node{'s are' if len(off) > 1 else ' is'} off it by up to {max(off):.3g}")
+                self.lost.append(
+                    f"{entity.name}: {len(off)} node{'s are' if len(off) > 1 else ' is'} off it by up to {max(off):.3g}"
+                )
         return points
 
     def _new_members(self, mesh):
-        """[(face or edge, indices of the nodes on it that are new or have moved and are not at once seen to be right)]."""
+        """[(face or edge, indices of the nodes on it that are new or have moved and are not at once seen to be
+        right)]."""
         known, moved, _ = self._compared(mesh)
         fresh = ~known | moved
 

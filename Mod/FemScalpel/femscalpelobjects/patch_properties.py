@@ -10,10 +10,18 @@ from .tool_properties import direction_of
 #: Parts of a plane, by the name of their class in femscalpel.
 PATCHES = ("Whole", "Disk", "Ellipse", "Polygon", "HalfPlane")
 PATCH_INPUTS = (
-    ("App::PropertyEnumeration", "Patch", "Part of the plane that cracks; placed by PlanePlacement, its border is the crack front"),
+    (
+        "App::PropertyEnumeration",
+        "Patch",
+        "Part of the plane that cracks; placed by PlanePlacement, its border is the crack front",
+    ),
     ("App::PropertyLength", "PatchRadius", "Of the disk; of the ellipse along the placement's x axis"),
     ("App::PropertyLength", "PatchSecondRadius", "Of the ellipse along the placement's y axis"),
-    ("App::PropertyVectorList", "PatchCorners", "Of the polygon, in order around it, in the placement's own axes (z = 0)"),
+    (
+        "App::PropertyVectorList",
+        "PatchCorners",
+        "Of the polygon, in order around it, in the placement's own axes (z = 0)",
+    ),
 )
 PATCH_DEFAULTS = {"Patch": (list(PATCHES), "Whole"), "PatchRadius": (1,), "PatchSecondRadius": (0.5,)}
 
@@ -36,7 +44,9 @@ def patch_of(obj):
     if obj.Patch == "Ellipse":
         return femscalpel.Ellipse(placement.Base, (obj.PatchRadius.Value, obj.PatchSecondRadius.Value), along)
     if obj.Patch == "Polygon":
-        return femscalpel.Polygon([placement.multVec(FreeCAD.Vector(corner.x, corner.y, 0)) for corner in obj.PatchCorners])
+        return femscalpel.Polygon(
+            [placement.multVec(FreeCAD.Vector(corner.x, corner.y, 0)) for corner in obj.PatchCorners]
+        )
     if obj.Patch == "HalfPlane":
         return femscalpel.HalfPlane(placement.Base, along)
     return None
@@ -76,4 +86,7 @@ def part_fronts_of(obj):
     if obj.EndAngle.Value - obj.StartAngle.Value == 360:
         return ends
     around = [FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), angle.Value) for angle in (obj.StartAngle, obj.EndAngle)]
-    return ends + [femscalpel.Plane(placement.Base, (placement.Rotation * turn).multVec(FreeCAD.Vector(0, 1, 0))) for turn in around]
+    return ends + [
+        femscalpel.Plane(placement.Base, (placement.Rotation * turn).multVec(FreeCAD.Vector(0, 1, 0)))
+        for turn in around
+    ]

@@ -14,9 +14,9 @@ class _ReportedAs(type):
 class Reason(RuntimeError, metaclass=_ReportedAs):
     """Why an object cannot be computed, for the user, who can mend it: a broken link, a tool beside the part.
 
-    FreeCAD marks an object only when its execute() raises, and then prints a traceback to the report view. It is printed by
-    Python, which leaves it out while sys.tracebacklimit is 0: that is so as long as an instance lives, and FreeCAD drops it
-    when it has reported it. Errors of other classes keep their traceback.
+    FreeCAD marks an object only when its execute() raises, and then prints a traceback to the report view. It is
+    printed by Python, which leaves it out while sys.tracebacklimit is 0: that is so as long as an instance lives, and
+    FreeCAD drops it when it has reported it. Errors of other classes keep their traceback.
     """
 
     _alive = 0

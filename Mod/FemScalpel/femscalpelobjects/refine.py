@@ -21,8 +21,14 @@ class Refine(MeshOperation):
         ("App::PropertyFloat", "Gradation", "How much longer edges may be per unit of distance beyond that"),
         ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
     )
-    DEFAULTS = {**AXIS_DEFAULTS, **SHAPE_DEFAULTS, "ToolShape": (list(SHAPES), "Cylinder"), "Size": (1,), "Gradation": (0.5,),
-                "FeatureAngle": (30,)}
+    DEFAULTS = {
+        **AXIS_DEFAULTS,
+        **SHAPE_DEFAULTS,
+        "ToolShape": (list(SHAPES), "Cylinder"),
+        "Size": (1,),
+        "Gradation": (0.5,),
+        "FeatureAngle": (30,),
+    }
 
     def tools(self, obj):
         return [shape_of(obj)]
@@ -31,5 +37,12 @@ class Refine(MeshOperation):
         return nodes_of_long_edges(mesh, tools, obj.Size.Value, obj.Gradation, obj.Reach.Value, rings=4)
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.refine(mesh, tools, obj.Size.Value, gradation=obj.Gradation, reach=obj.Reach.Value,
-                                 feature_angle=obj.FeatureAngle.Value, skin=skin_of(obj))
+        return femscalpel.refine(
+            mesh,
+            tools,
+            obj.Size.Value,
+            gradation=obj.Gradation,
+            reach=obj.Reach.Value,
+            feature_angle=obj.FeatureAngle.Value,
+            skin=skin_of(obj),
+        )

@@ -17,11 +17,22 @@ AXIS_DEFAULTS = {"Radius": (1,)}
 #: Tools by the name of their class in femscalpel.
 SHAPES = ("Plane", "Cylinder", "Sphere", "Torus", "Cone", "Face")
 SHAPE_INPUTS = (
-    ("App::PropertyEnumeration", "ToolShape", "What the tool is; AxisPlacement is its centre and axis, or a plane's normal"),
-    ("App::PropertyLinkSub", "ToolFace", "If the tool is a face: the face, or several that meet smoothly, or all of an object"),
+    (
+        "App::PropertyEnumeration",
+        "ToolShape",
+        "What the tool is; AxisPlacement is its centre and axis, or a plane's normal",
+    ),
+    (
+        "App::PropertyLinkSub",
+        "ToolFace",
+        "If the tool is a face: the face, or several that meet smoothly, or all of an object",
+    ),
     ("App::PropertyLength", "TubeRadius", "Of a torus' tube; Radius is that of its ring"),
-    ("App::PropertyAngle", "HalfAngle", "Between the axis of a cone, which opens along it, and its side; Radius is that at the "
-     "placement's origin"),
+    (
+        "App::PropertyAngle",
+        "HalfAngle",
+        "Between the axis of a cone, which opens along it, and its side; Radius is that at the " "placement's origin",
+    ),
 )
 SHAPE_DEFAULTS = {"TubeRadius": (0.25,), "HalfAngle": (30,)}
 
@@ -37,7 +48,8 @@ def plane_of(placement):
 
 
 def shape_of(obj):
-    """The femscalpel tool that the properties AXIS_INPUTS and SHAPE_INPUTS mean. Raises femscalpel.ToolError or ValueError."""
+    """The femscalpel tool that the properties AXIS_INPUTS and SHAPE_INPUTS mean. Raises femscalpel.ToolError or
+    ValueError."""
     center, axis, radius = obj.AxisPlacement.Base, direction_of(obj.AxisPlacement), obj.Radius.Value
     if obj.ToolShape == "Plane":
         return plane_of(obj.AxisPlacement)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Makes meshes follow undo, redo and aborted transactions.
 
-FreeCAD does not put the old mesh back: a FemMesh given to an object overwrites the one the transaction has kept (seen with
-0.20.2). The other properties do come back. So whenever an object's inputs are no longer those its mesh was made from, it is
-recomputed.
+FreeCAD does not put the old mesh back: a FemMesh given to an object overwrites the one the transaction has kept (seen
+with 0.20.2). The other properties do come back. So whenever an object's inputs are no longer those its mesh was made
+from, it is recomputed.
 """
 
 import FreeCAD
@@ -19,8 +19,11 @@ def is_ours(obj):
 
 def _inputs(obj):
     """The values of the properties the mesh depends on, comparable."""
-    return {name: obj.dumpPropertyContent(name) for name in obj.PropertiesList
-            if name not in _ASIDE and obj.getGroupOfProperty(name) != "Result"}
+    return {
+        name: obj.dumpPropertyContent(name)
+        for name in obj.PropertiesList
+        if name not in _ASIDE and obj.getGroupOfProperty(name) != "Result"
+    }
 
 
 class _Watch:
@@ -47,9 +50,13 @@ class _Watch:
 
     def _mend(self, document):
         from .group_names import follow_all
+
         follow_all(document)
-        outdated = [o for o in document.Objects
-                    if is_ours(o) and self._made_from.get(self._key(o), None) not in (None, _inputs(o))]
+        outdated = [
+            o
+            for o in document.Objects
+            if is_ours(o) and self._made_from.get(self._key(o), None) not in (None, _inputs(o))
+        ]
         for obj in outdated:
             obj.touch()
         if outdated:

@@ -5,8 +5,8 @@
 
 namespace femscalpel {
 
-std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vector<int>& known, const std::vector<Vec3>& given,
-                                            const std::vector<int>& unknown) {
+std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vector<int>& known,
+                                            const std::vector<Vec3>& given, const std::vector<int>& unknown) {
     const BandMesh& band = d.band;
     using Field = std::vector<Vec3>;
     Field out(unknown.size(), Vec3::Zero());

@@ -12,7 +12,7 @@ namespace femscalpel {
 /// `known` nodes have the displacements `given`; `unknown` nodes move within their constraints'
 /// tangent space; all others stay. One sparse, positive definite system, solved by conjugate gradients.
 /// Returns one displacement per unknown node.
-std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vector<int>& known, const std::vector<Vec3>& given,
-                                            const std::vector<int>& unknown);
+std::vector<Vec3> bar_network_displacements(const Deformable& d, const std::vector<int>& known,
+                                            const std::vector<Vec3>& given, const std::vector<int>& unknown);
 
 }  // namespace femscalpel

@@ -32,13 +32,16 @@ MidSide fit(const Deformable& d, const Vec3& a, const Vec3& b, const EdgeShape& 
         return mid;
     }
     const double close = 1e-9 * (b - a).norm();
-    if (shape.held > 0 && Deformable::off_tools(shape.tools, mid.at, shape.held) <= close && d.constraints.distance(shape.constraint, mid.at) <= std::max(close, d.rounding))
+    if (shape.held > 0 && Deformable::off_tools(shape.tools, mid.at, shape.held) <= close &&
+        d.constraints.distance(shape.constraint, mid.at) <= std::max(close, d.rounding))
         return mid;
     // On its tools at least, for the lips; whoever made the edge has to look for another.
     mid.fits = false;
     x = chord;
-    if (shape.tools && d.constraints.project(NodeConstraint{}, shape.tools, x) && (x - chord).norm() < reach) mid.at = x;
-    else mid.at = chord;
+    if (shape.tools && d.constraints.project(NodeConstraint{}, shape.tools, x) && (x - chord).norm() < reach)
+        mid.at = x;
+    else
+        mid.at = chord;
     return mid;
 }
 
@@ -59,8 +62,8 @@ EdgeShape shape_of(const Deformable& d, int a, int b) {
     return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b), d.held_between(a, b)};
 }
 
-/// How far the mid-side node of an edge of the band is from the chord wherever the edge's ends are: 0 if the edge is straight, infinity if
-/// that depends on a curved shape or a tool.
+/// How far the mid-side node of an edge of the band is from the chord wherever the edge's ends are: 0 if the edge is
+/// straight, infinity if that depends on a curved shape or a tool.
 double farthest_bulge(const Deformable& d, int a, int b) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const double bulge = d.mids.may_bulge(a, b) ? d.mids.bulge(a, b).norm() : 0;
@@ -103,12 +106,15 @@ double ratio(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corne
 /// The same, its mid-side nodes by mid(i, j), a function of the places of an edge's ends among the corners.
 double ratio_by_ends(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corners_too) {
     const auto edges = edges_of(corner.size());
-    return ratio(corner, [&](std::size_t k) { return mid(edges[k][0], edges[k][1]); }, at);
+    return ratio(
+        corner, [&](std::size_t k) { return mid(edges[k][0], edges[k][1]); }, at);
 }
 
 /// The corners of an element, were its nodes at place_of(node).
 struct Corners {
-    Corners(std::span<const int> nodes, auto place_of) : count(nodes.size()) { std::ranges::transform(nodes, at.begin(), place_of); }
+    Corners(std::span<const int> nodes, auto place_of) : count(nodes.size()) {
+        std::ranges::transform(nodes, at.begin(), place_of);
+    }
 
     operator std::span<const Vec3>() const { return std::span(at).first(count); }
 
@@ -120,7 +126,9 @@ struct Corners {
 
 Contact edge_tools(const Deformable& d, int a, int b) {
     const Contact tools = d.edge_contact(a, b);
-    if (!tools.has(d.barrier) || d.constraints.is_straight(d.constraints.on_edge(d.band, a, b)) || is_between_sides(d, a, b)) return tools;
+    if (!tools.has(d.barrier) || d.constraints.is_straight(d.constraints.on_edge(d.band, a, b)) ||
+        is_between_sides(d, a, b))
+        return tools;
     return tools.without(d.barrier);
 }
 
@@ -133,7 +141,8 @@ MidSide mid_side(const Deformable& d, int a, int b) {
 
 bool is_second_order(const Deformable& d, BandElement e) {
     const CellType type = e.cell(d.band).type;
-    return e.triangle ? type == CellType::triangle6 && d.constraints.is_shell(e.origin(d.band)) : type == CellType::tetra10;
+    return e.triangle ? type == CellType::triangle6 && d.constraints.is_shell(e.origin(d.band))
+                      : type == CellType::tetra10;
 }
 
 CurvedStar::CurvedStar(Deformable& d, int node) : d_(d), node_(node) {}
@@ -169,7 +178,8 @@ bool CurvedStar::is_surely_sound(const Element& e, const Vec3& x) const {
     const Vec3 a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0);
     const Vec3 bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
     const double determinant = a.dot(bc);
-    // Bulges times gradients of shape functions, 4 sqrt(3) at most, times the inverse of the straight element's Jacobian.
+    // Bulges times gradients of shape functions, 4 sqrt(3) at most, times the inverse of the straight element's
+    // Jacobian.
     const double inverse = std::sqrt(bc.squaredNorm() + ca.squaredNorm() + ab.squaredNorm());
     static const double small = (1 - std::cbrt(curved_limit)) / (4 * std::sqrt(3.0));
     return determinant > 0 && e.bulges * inverse < small * determinant;
@@ -189,10 +199,14 @@ double CurvedStar::worst(const Vec3& x, double enough) {
         if (may_skip && is_surely_sound(e, x)) continue;
         const Corners corner(std::span(e.corner).first(e.corners), [&](int v) { return d_.band.nodes[v].at; });
         worst = std::min(worst, ratio(corner, [&](std::size_t k) {
-            Edge& edge = edges_[e.edge[k]];
-            if (!std::exchange(edge.found, true)) edge.mid = edge.bulge == 0 ? MidSide{(d_.band.nodes[edge.a].at + d_.band.nodes[edge.b].at) / 2, true} : mid_side(d_, edge.a, edge.b);
-            return edge.mid;
-        }));
+                             Edge& edge = edges_[e.edge[k]];
+                             if (!std::exchange(edge.found, true))
+                                 edge.mid =
+                                     edge.bulge == 0
+                                         ? MidSide{(d_.band.nodes[edge.a].at + d_.band.nodes[edge.b].at) / 2, true}
+                                         : mid_side(d_, edge.a, edge.b);
+                             return edge.mid;
+                         }));
         // It is likely to be the one that fails at the next place, too.
         if (worst < enough) std::swap(elements_[0], elements_[i]);
     }
@@ -218,7 +232,9 @@ bool CurvedStar::stays_sound(const Vec3& x) {
 double curved_shape(const Deformable& d, BandElement element, ShapeAt at) {
     if (!is_second_order(d, element)) return 1;
     const auto v = element.nodes(d.band);
-    return ratio_by_ends(Corners(v, [&](int n) { return d.band.nodes[n].at; }), [&](int i, int j) { return mid_side(d, v[i], v[j]); }, at);
+    return ratio_by_ends(
+        Corners(v, [&](int n) { return d.band.nodes[n].at; }), [&](int i, int j) { return mid_side(d, v[i], v[j]); },
+        at);
 }
 
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) { return CurvedStar(d, node).stays_sound(x); }
@@ -235,14 +251,17 @@ double curved_children(const Deformable& d, int a, int b, const Vec3& at, const 
         for (const int replaced : {a, b}) {
             const Corners corner(v, [&](int n) { return n == replaced ? at : band.nodes[n].at; });
             worst = std::min(worst, ratio_by_ends(corner, [&](int i, int j) {
-                if (v[i] != replaced && v[j] != replaced) return mid_side(d, v[i], v[j]);
-                const int other = v[i] == replaced ? v[j] : v[i];
-                const Contact both = tools.common(d.contact[other]);
-                const Vec3 &x = corner.at[i], &y = corner.at[j];
-                if (other == a) return fit(d, x, y, {along, both, t * t * d.mids.bulge(a, b), held});
-                if (other == b) return fit(d, x, y, {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b), held});
-                return fit(d, x, y, {d.constraints.on_face(band, a, b, other), both, d.mids.bulge_across(a, b, other, t), std::max(held, d.held_off[other])});
-            }));
+                                 if (v[i] != replaced && v[j] != replaced) return mid_side(d, v[i], v[j]);
+                                 const int other = v[i] == replaced ? v[j] : v[i];
+                                 const Contact both = tools.common(d.contact[other]);
+                                 const Vec3 &x = corner.at[i], &y = corner.at[j];
+                                 if (other == a) return fit(d, x, y, {along, both, t * t * d.mids.bulge(a, b), held});
+                                 if (other == b)
+                                     return fit(d, x, y, {along, both, (1 - t) * (1 - t) * d.mids.bulge(a, b), held});
+                                 return fit(d, x, y,
+                                            {d.constraints.on_face(band, a, b, other), both,
+                                             d.mids.bulge_across(a, b, other, t), std::max(held, d.held_off[other])});
+                             }));
         }
     });
     return worst;
@@ -257,10 +276,12 @@ double curved_merged(const Deformable& d, int p, int t) {
         if (std::ranges::find(v, t) != v.end()) return;
         const Corners corner(v, [&](int n) { return band.nodes[n == p ? t : n].at; });
         worst = std::min(worst, ratio_by_ends(corner, [&](int i, int j) {
-            if (v[i] != p && v[j] != p) return mid_side(d, v[i], v[j]);
-            const int other = v[i] == p ? v[j] : v[i];
-            return fit(d, corner.at[i], corner.at[j], {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]), Vec3::Zero(), d.held_between(t, other)});
-        }));
+                             if (v[i] != p && v[j] != p) return mid_side(d, v[i], v[j]);
+                             const int other = v[i] == p ? v[j] : v[i];
+                             return fit(d, corner.at[i], corner.at[j],
+                                        {d.constraints.on_edge(band, p, other), d.contact[t].common(d.contact[other]),
+                                         Vec3::Zero(), d.held_between(t, other)});
+                         }));
     });
     return worst;
 }

@@ -20,7 +20,9 @@ struct BandElement {
     bool operator==(const BandElement&) const = default;
     bool alive(const BandMesh& band) const { return triangle ? band.triangles.alive(slot) : band.tetras.alive(slot); }
     int origin(const BandMesh& band) const { return triangle ? band.triangles.origin(slot) : band.tetras.origin(slot); }
-    const CellRef& cell(const BandMesh& band) const { return (triangle ? band.triangle_cells : band.tetra_cells)[origin(band)]; }
+    const CellRef& cell(const BandMesh& band) const {
+        return (triangle ? band.triangle_cells : band.tetra_cells)[origin(band)];
+    }
     /// Its corners. Not to be kept while elements are added, split or merged.
     std::span<const int> nodes(const BandMesh& band) const {
         return triangle ? std::span<const int>(band.triangles[slot]) : std::span<const int>(band.tetras[slot]);
@@ -51,22 +53,22 @@ struct MidSide {
     bool fits;  ///< false: there is no point near the chord on the surface, curve and tools the edge is on
 };
 
-/// The tools the edge a-b lies on. Where a curved skin touches a tool, an edge can have both ends on it without being part of
-/// the interface; it stays with the skin.
+/// The tools the edge a-b lies on. Where a curved skin touches a tool, an edge can have both ends on it without being
+/// part of the interface; it stays with the skin.
 Contact edge_tools(const Deformable& d, int a, int b);
 
-/// Mid-side node of an edge of the band with its ends where they are: it keeps its place relative to the chord, and on a
-/// curved surface or curve of the input, or on tools, it lies on them.
+/// Mid-side node of an edge of the band with its ends where they are: it keeps its place relative to the chord, and on
+/// a curved surface or curve of the input, or on tools, it lies on them.
 MidSide mid_side(const Deformable& d, int a, int b);
 
-/// The second-order elements around a node of which several places are to be tried. The mid-side nodes of the edges across
-/// from it are found once; so nothing else may change from then on.
+/// The second-order elements around a node of which several places are to be tried. The mid-side nodes of the edges
+/// across from it are found once; so nothing else may change from then on.
 class CurvedStar {
 public:
     CurvedStar(Deformable& d, int node);
 
-    /// Smallest curved_ratio() of the elements, were the node at `x`; 1 if they are straight, -1 if a mid-side node does not
-    /// fit. Looks no further once it is below `enough`. Moves the node there and back.
+    /// Smallest curved_ratio() of the elements, were the node at `x`; 1 if they are straight, -1 if a mid-side node
+    /// does not fit. Looks no further once it is below `enough`. Moves the node there and back.
     double worst(const Vec3& x, double enough = -std::numeric_limits<double>::infinity());
 
     /// Neighbours have moved: their mid-side nodes are to be found anew.

@@ -18,7 +18,8 @@ void deform(Deformable& d, const std::vector<int>& interface, const std::vector<
         if (!d.constraints.project(v, d.contact[v], x) || d.is_barred(v, x)) continue;
         // Node by node the displacement is only right once all have moved, so a loss is tolerated while
         // elements stay sound.
-        if (quality_around(d, v, x) > quality_around(d, v, d.band.nodes[v].at) && keeps_curved_shape(d, v, x)) d.band.nodes[v].at = x;
+        if (quality_around(d, v, x) > quality_around(d, v, d.band.nodes[v].at) && keeps_curved_shape(d, v, x))
+            d.band.nodes[v].at = x;
     }
     std::vector<int> movable = interface;
     movable.insert(movable.end(), transition.begin(), transition.end());

@@ -8,10 +8,12 @@ namespace femscalpel {
 
 MidSides::MidSides(const BandMesh& band, const Mesh& mesh, double rounding) : any_(!band.mid_nodes.empty()) {
     for (const auto& [key, mid] : band.mid_nodes) {
-        const Vec3 &a = band.nodes[static_cast<int>(key >> 32)].at, &b = band.nodes[static_cast<int>(key & 0xffffffffu)].at;
+        const Vec3 &a = band.nodes[static_cast<int>(key >> 32)].at,
+                   &b = band.nodes[static_cast<int>(key & 0xffffffffu)].at;
         const Vec3 bulge = mesh.points[mid] - (a + b) / 2;
         // Text files round: what is straight to nine digits is straight.
-        if (bulge.norm() > std::max(1e-8 * (a - b).norm(), rounding)) set_bulge(static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu), bulge);
+        if (bulge.norm() > std::max(1e-8 * (a - b).norm(), rounding))
+            set_bulge(static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu), bulge);
     }
 }
 
@@ -34,8 +36,8 @@ void MidSides::split(const BandMesh& band, int a, int b, int p, double t) {
 
 namespace {
 
-/// How a bent edge adds to the Jacobian of a straight simplex of dimension D, at its integration points and then at its corners: its
-/// bulge times the gradient of its shape function 4 l_a l_b. Edges as in traits(): 01 12 20, and 03 13 23.
+/// How a bent edge adds to the Jacobian of a straight simplex of dimension D, at its integration points and then at its
+/// corners: its bulge times the gradient of its shape function 4 l_a l_b. Edges as in traits(): 01 12 20, and 03 13 23.
 template <int D>
 struct Bends {
     static constexpr int corners = D + 1, edges = D * (D + 1) / 2, samples = 2 * corners;
@@ -44,12 +46,16 @@ struct Bends {
     std::array<std::array<Gradient, edges>, samples> gradients;
 
     Bends() {
-        const double near = D == 3 ? (5 + 3 * std::sqrt(5.0)) / 20 : 2.0 / 3, far = (1 - near) / D;  // integration points
+        const double near = D == 3 ? (5 + 3 * std::sqrt(5.0)) / 20 : 2.0 / 3,
+                     far = (1 - near) / D;  // integration points
         for (int p = 0; p < samples; ++p)
             for (int k = 0; k < edges; ++k) {
                 const auto [i, j] = ends[k];
-                const auto weight = [&](int corner) { return p % corners == corner ? (p < corners ? near : 1) : (p < corners ? far : 0); };
-                for (int axis = 0; axis < D; ++axis) gradients[p][k][axis] = 4 * (weight(i) * slope(j, axis) + weight(j) * slope(i, axis));
+                const auto weight = [&](int corner) {
+                    return p % corners == corner ? (p < corners ? near : 1) : (p < corners ? far : 0);
+                };
+                for (int axis = 0; axis < D; ++axis)
+                    gradients[p][k][axis] = 4 * (weight(i) * slope(j, axis) + weight(j) * slope(i, axis));
             }
     }
 
@@ -73,8 +79,10 @@ double smallest_ratio(const Vec3* x, int samples) {
     Vec3 normal = Vec3::Zero();
     if constexpr (D == 2) normal = straight[0].cross(straight[1]);
     const auto size = [&](const std::array<Vec3, D>& column) {
-        if constexpr (D == 2) return column[0].cross(column[1]).dot(normal);
-        else return column[0].cross(column[1]).dot(column[2]);
+        if constexpr (D == 2)
+            return column[0].cross(column[1]).dot(normal);
+        else
+            return column[0].cross(column[1]).dot(column[2]);
     };
     double smallest = std::numeric_limits<double>::infinity();
     for (int p = 0; p < samples; ++p) {
@@ -87,7 +95,8 @@ double smallest_ratio(const Vec3* x, int samples) {
 }
 
 double smallest_ratio(std::span<const Vec3> nodes, bool at_corners) {
-    return nodes.size() == 6 ? smallest_ratio<2>(nodes.data(), at_corners ? 6 : 3) : smallest_ratio<3>(nodes.data(), at_corners ? 8 : 4);
+    return nodes.size() == 6 ? smallest_ratio<2>(nodes.data(), at_corners ? 6 : 3)
+                             : smallest_ratio<3>(nodes.data(), at_corners ? 8 : 4);
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ public:
     void split(const BandMesh& band, int a, int b, int p, double t);
 
     void set_bulge(int a, int b, const Vec3& bulge) {
-        if (bulge.isZero(0)) bulges_.erase(edge_key(a, b));
+        if (bulge.isZero(0))
+            bulges_.erase(edge_key(a, b));
         else {
             bulges_[edge_key(a, b)] = bulge;
             mark_ends(a, b);
@@ -66,7 +67,9 @@ public:
     const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
 
 private:
-    bool ends_bulge(int node) const { return node < static_cast<int>(end_of_bulge_.size()) && end_of_bulge_[node] != 0; }
+    bool ends_bulge(int node) const {
+        return node < static_cast<int>(end_of_bulge_.size()) && end_of_bulge_[node] != 0;
+    }
     void mark_ends(int a, int b) {
         end_of_bulge_.resize(std::max(end_of_bulge_.size(), static_cast<std::size_t>(std::max(a, b)) + 1), 0);
         end_of_bulge_[a] = end_of_bulge_[b] = 1;
@@ -83,12 +86,14 @@ inline double fraction(const Vec3& a, const Vec3& b, const Vec3& at) {
     return std::clamp(chord.dot(at - a) / chord.squaredNorm(), 0.0, 1.0);
 }
 
-/// Smallest Jacobian determinant of a second-order simplex at its integration points and its corners, over that of the straight
-/// element with the same corners: 1 if it is straight, not positive if it is folded. `nodes`: ten points in the order of
-/// CellType::tetra10, or six in that of CellType::triangle6. A triangle in space counts as seen along the normal of its corners'.
+/// Smallest Jacobian determinant of a second-order simplex at its integration points and its corners, over that of the
+/// straight element with the same corners: 1 if it is straight, not positive if it is folded. `nodes`: ten points in
+/// the order of CellType::tetra10, or six in that of CellType::triangle6. A triangle in space counts as seen along the
+/// normal of its corners'.
 double curved_ratio(std::span<const Vec3> nodes);
 
-/// The same at the integration points alone, those of solvers: four in a tetrahedron (C3D10, TETRA10), three in a triangle.
+/// The same at the integration points alone, those of solvers: four in a tetrahedron (C3D10, TETRA10), three in a
+/// triangle.
 double integration_ratio(std::span<const Vec3> nodes);
 
 }  // namespace femscalpel

@@ -41,7 +41,9 @@ constexpr double along_shape = 0.5;
 
 class UnionFind {
 public:
-    explicit UnionFind(int count) : parent_(static_cast<std::size_t>(count)) { std::iota(parent_.begin(), parent_.end(), 0); }
+    explicit UnionFind(int count) : parent_(static_cast<std::size_t>(count)) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
     int find(int i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
@@ -72,14 +74,18 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         high = high.cwiseMax(n.at);
     }
     // Rounding grows with the coordinates themselves, so a model far from the origin counts as larger.
-    if (node_count > 0) size_ = std::max({(high - low).norm(), 0.1 * low.cwiseAbs().maxCoeff(), 0.1 * high.cwiseAbs().maxCoeff()});
+    if (node_count > 0)
+        size_ = std::max({(high - low).norm(), 0.1 * low.cwiseAbs().maxCoeff(), 0.1 * high.cwiseAbs().maxCoeff()});
     // The plane and line go through nodes that are off by as much themselves.
     flat_ = std::max(flat_tolerance * size_, options.rounding);
     close_ = std::max({1e-10 * size_, options.tolerance, options.rounding});
 
-    const auto movable = [&](auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); }); };
+    const auto movable = [&](auto& nodes) {
+        return std::ranges::any_of(nodes, [&](int v) { return band.nodes[v].movable(); });
+    };
     const auto shared = [](const auto& list, int a, int b) {
-        return std::ranges::any_of(list.around(a), [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
+        return std::ranges::any_of(list.around(a),
+                                   [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
     };
 
     // 1. Faces to be kept; which triangles are shells of their own, which segments hang loose.
@@ -175,7 +181,7 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         int kind;
         bool border;
         int groups;
-        bool fold;  // the skin comes back along itself: the front of a crack
+        bool fold;         // the skin comes back along itself: the front of a crack
         bool parts_shape;  // faces of the shape meet here, or one ends
         int shape_face;    // or all faces of the skin here lie on this one
     };
@@ -194,21 +200,33 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
             for (std::size_t k = i; k < end; ++k) kind.push_back(faces[edges[k].second].kind);
             std::sort(kind.begin() + 1, kind.end());
             // A segment on a smooth surface does not part it.
-            if (end - i == 2 && is_smooth(key, edges[i].second, edges[i + 1].second)) joined.unite(edges[i].second, edges[i + 1].second);
+            if (end - i == 2 && is_smooth(key, edges[i].second, edges[i + 1].second))
+                joined.unite(edges[i].second, edges[i + 1].second);
             const int k = crease_kinds.emplace(std::move(kind), static_cast<int>(crease_kinds.size())).first->second;
             std::set<int> cads;
             for (std::size_t e = i; e < end; ++e)
                 if (!faces[edges[e].second].internal) cads.insert(faces[edges[e].second].cad);
-            creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k,
-                               end - i == 1 && faces[edges[i].second].shell, line == line_family.end() ? 0 : groups_of_line(line->second),
-                               folds_back(key, std::span(edges).subspan(i, end - i)), cads.size() > 1 || end - i == 1, cads.size() == 1 ? *cads.begin() : -1});
+            creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)},
+                               k,
+                               end - i == 1 && faces[edges[i].second].shell,
+                               line == line_family.end() ? 0 : groups_of_line(line->second),
+                               folds_back(key, std::span(edges).subspan(i, end - i)),
+                               cads.size() > 1 || end - i == 1,
+                               cads.size() == 1 ? *cads.begin() : -1});
         }
         if (line != line_family.end()) line_family.erase(line);
         i = end;
     }
     for (const auto& [key, family] : line_family) {  // segments inside the material
-        const int k = crease_kinds.emplace(std::vector<int>{family}, static_cast<int>(crease_kinds.size())).first->second;
-        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)}, k, false, groups_of_line(family), false, false, -1});
+        const int k =
+            crease_kinds.emplace(std::vector<int>{family}, static_cast<int>(crease_kinds.size())).first->second;
+        creases.push_back({{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)},
+                           k,
+                           false,
+                           groups_of_line(family),
+                           false,
+                           false,
+                           -1});
     }
 
     // 3. Surfaces.
@@ -252,7 +270,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         facet.height = (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / longest;
         for (int k = 0; k < 3; ++k) {
             const Vec3 control = 2 * facet.mid[k] - (facet.corner[k] + facet.corner[(k + 1) % 3]) / 2;
-            facet.radius = std::max({facet.radius, (facet.corner[k] - facet.centre).norm(), (control - facet.centre).norm()});
+            facet.radius =
+                std::max({facet.radius, (facet.corner[k] - facet.centre).norm(), (control - facet.centre).norm()});
         }
         band.skin.add(facet.node, facet.surface);
         if (!faces[f].internal && !faces[f].shell)
@@ -303,7 +322,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     UnionFind chained(static_cast<int>(creases.size()));
     std::vector<int> crease_cad(creases.size(), -1);
     for (std::size_t c = 0; c < creases.size() && shape_; ++c)
-        if (creases[c].parts_shape) crease_cad[c] = shape_edge(band.nodes[creases[c].nodes[0]].at, band.nodes[creases[c].nodes[1]].at);
+        if (creases[c].parts_shape)
+            crease_cad[c] = shape_edge(band.nodes[creases[c].nodes[0]].at, band.nodes[creases[c].nodes[1]].at);
     std::vector<char> passes(static_cast<std::size_t>(node_count), 0);
     for (int v = 0; v < node_count; ++v) {
         const auto& c = creases_at[v];
@@ -321,7 +341,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         Segment& segment = segments_[c];
         segment.node = creases[c].nodes;
         segment.cad = crease_cad[c];
-        if (segment.cad < 0 && creases[c].shape_face >= 0 && !shape_->is_plane(creases[c].shape_face)) segment.cad_face = creases[c].shape_face;
+        if (segment.cad < 0 && creases[c].shape_face >= 0 && !shape_->is_plane(creases[c].shape_face))
+            segment.cad_face = creases[c].shape_face;
         for (int k = 0; k < 2; ++k) {
             segment.end[k] = band.nodes[segment.node[k]].at;
             segments_around_[segment.node[k]].push_back(c);
@@ -333,7 +354,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
         segment.radius = std::max((segment.end[0] - chord).norm(), 2 * (segment.mid - chord).norm());
         if (curve_of[root] < 0) {
             curve_of[root] = static_cast<int>(curves_.size());
-            curves_.push_back({true, creases[c].border, creases[c].groups, segment.end[0], (segment.end[1] - segment.end[0]).normalized()});
+            curves_.push_back({true, creases[c].border, creases[c].groups, segment.end[0],
+                               (segment.end[1] - segment.end[0]).normalized()});
         }
         segment.curve = curve_of[root];
         band.creases.add(segment.node, segment.curve);
@@ -361,7 +383,8 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
     // 5. Freedom of each node. Isolated members of groups (IE) do not move.
     kinds_ = boundaries.kinds();
     if (!options.related.empty())
-        for (int v = 0; v < node_count; ++v) related_.push_back(std::ranges::binary_search(options.related, band.nodes[v].global));
+        for (int v = 0; v < node_count; ++v)
+            related_.push_back(std::ranges::binary_search(options.related, band.nodes[v].global));
     has_shortcuts_ = !boundaries.shortcuts().empty();
     for (const BandBoundaries::Node& n : boundaries.isolated()) {
         nodes_[n.node].freedom = NodeFreedom::fixed;
@@ -396,8 +419,10 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                 }
                 const double bend = away[0].cross(away[1]).norm();
                 const bool front = creases[creases_at[v][0]].fold && creases[creases_at[v][1]].fold;
-                if (front && bend > std::max(straight_front, options.rounding / length)) c.freedom = NodeFreedom::fixed;
-                else if (bend > 0 && segments_[creases_at[v][0]].cad < 0) leash_[v] = deepest_dent / bend * length;
+                if (front && bend > std::max(straight_front, options.rounding / length))
+                    c.freedom = NodeFreedom::fixed;
+                else if (bend > 0 && segments_[creases_at[v][0]].cad < 0)
+                    leash_[v] = deepest_dent / bend * length;
             }
         } else if (!around.empty()) {
             // One closed fan of one surface; two sheets that touch in this node alone pin it.
@@ -406,11 +431,13 @@ NodeConstraints::NodeConstraints(BandMesh& band, const Mesh& mesh, const Constra
                 for (int f : around)
                     if (std::ranges::find(fan, f) == fan.end()) {
                         int shared = 0;
-                        for (int w : facets_[f].node) shared += std::ranges::find(facets_[fan[k]].node, w) != facets_[fan[k]].node.end();
+                        for (int w : facets_[f].node)
+                            shared += std::ranges::find(facets_[fan[k]].node, w) != facets_[fan[k]].node.end();
                         if (shared >= 2) fan.push_back(f);
                     }
-            const bool one = fan.size() == around.size() &&
-                             std::ranges::all_of(around, [&](int f) { return facets_[f].surface == facets_[around[0]].surface; });
+            const bool one = fan.size() == around.size() && std::ranges::all_of(around, [&](int f) {
+                                 return facets_[f].surface == facets_[around[0]].surface;
+                             });
             c.freedom = one ? NodeFreedom::surface : NodeFreedom::fixed;
             c.hint = around[0];
             c.shape = facets_[around[0]].surface;
@@ -466,7 +493,8 @@ bool NodeConstraints::is_skin_edge(const BandMesh& band, int a, int b) const {
 }
 
 bool NodeConstraints::is_exterior_edge(const BandMesh& band, int a, int b) const {
-    if (const int crease = band.creases.find({a, b}); crease >= 0 && curves_[band.creases.tag(crease)].border) return true;
+    if (const int crease = band.creases.find({a, b}); crease >= 0 && curves_[band.creases.tag(crease)].border)
+        return true;
     return std::ranges::any_of(band.skin.around(a), [&](int s) {
         const Surface& surface = surfaces_[band.skin.tag(s)];
         return !surface.internal && !surface.shell && std::ranges::find(band.skin[s], b) != band.skin[s].end();
@@ -504,7 +532,8 @@ NodeConstraints::Foot NodeConstraints::foot_on(const Facet& f, const Vec3& x, do
     }
     // Closest point of the six-node face: Newton in its parameters from the flat foot, with the sides as bounds.
     const Vec3 &c = f.corner[0], cu = 4 * f.mid[0] - 3 * c - f.corner[1], cv = 4 * f.mid[2] - 3 * c - f.corner[2];
-    const Vec3 cuu = 2 * (c + f.corner[1] - 2 * f.mid[0]), cvv = 2 * (c + f.corner[2] - 2 * f.mid[2]), cuv = 4 * (c - f.mid[0] + f.mid[1] - f.mid[2]);
+    const Vec3 cuu = 2 * (c + f.corner[1] - 2 * f.mid[0]), cvv = 2 * (c + f.corner[2] - 2 * f.mid[2]),
+               cuv = 4 * (c - f.mid[0] + f.mid[1] - f.mid[2]);
     double u = bary[1], v = bary[2];
     for (int iteration = 0;; ++iteration) {
         const Vec3 pu = cu + 2 * u * cuu + v * cuv, pv = cv + 2 * v * cvv + u * cuv;
@@ -513,7 +542,8 @@ NodeConstraints::Foot NodeConstraints::foot_on(const Facet& f, const Vec3& x, do
         const double gu = pu.dot(r), gv = pv.dot(r), quu = pu.squaredNorm(), quv = pu.dot(pv), qvv = pv.squaredNorm();
         double huu = quu - 2 * r.dot(cuu), huv = quv - r.dot(cuv), hvv = qvv - 2 * r.dot(cvv);
         double determinant = huu * hvv - huv * huv;
-        if (!(huu > 0.1 * quu && hvv > 0.1 * qvv && determinant > 0.1 * (quu * qvv - quv * quv))) {  // far away: Gauss-Newton
+        if (!(huu > 0.1 * quu && hvv > 0.1 * qvv &&
+              determinant > 0.1 * (quu * qvv - quv * quv))) {  // far away: Gauss-Newton
             huu = quu;
             huv = quv;
             hvv = qvv;
@@ -616,7 +646,8 @@ int NodeConstraints::shape_face(const std::array<Vec3, 3>& corner) const {
         const std::vector<int> here = shape_->faces_at(corner[k], tolerance);
         std::erase_if(common, [&](int f) { return std::ranges::find(here, f) == here.end(); });
     }
-    const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3, normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3,
+               normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (const int f : common) {
@@ -734,7 +765,8 @@ bool NodeConstraints::project(const NodeConstraint& c, const Contact& tools, Vec
         };
         if (i == 0)
             for (const Tool* t : tools.tools())
-                if (along_shape(t->normal(foot.at)).squaredNorm() < parallel && std::abs(t->distance(foot.at)) <= near) across = across.without(t);
+                if (along_shape(t->normal(foot.at)).squaredNorm() < parallel && std::abs(t->distance(foot.at)) <= near)
+                    across = across.without(t);
         if (std::sqrt(foot.distance2) <= (exact ? tight : accept) && off_tools(x, across) <= tight) return done();
         if (!across) {
             x = foot.at;
@@ -774,13 +806,17 @@ int NodeConstraints::tangents(int node, const Contact& tools, const Vec3& x, Eig
     Eigen::Matrix3d held;
     int count = 0;
     switch (c.freedom) {
-        case NodeFreedom::fixed: return 0;
+        case NodeFreedom::fixed:
+            return 0;
         case NodeFreedom::curve:
             if (tools) return 0;
             basis.col(0) = curve_foot(c, x).normal;
             return 1;
-        case NodeFreedom::surface: held.col(count++) = surface_foot(c, x).normal; break;
-        case NodeFreedom::free: break;
+        case NodeFreedom::surface:
+            held.col(count++) = surface_foot(c, x).normal;
+            break;
+        case NodeFreedom::free:
+            break;
     }
     for (const Tool* t : tools.tools()) {
         if (count == 3) return 0;
@@ -788,19 +824,26 @@ int NodeConstraints::tangents(int node, const Contact& tools, const Vec3& x, Eig
         for (int k = 0; k < count; ++k) n -= held.col(k).dot(n) * held.col(k);
         const double length = n.norm();
         if (length < 1e-3) {
-            if (c.freedom == NodeFreedom::surface && count == 1 && surfaces_[c.shape].flat && std::isinf(t->feature_size())) continue;  // a plane on a plane
+            if (c.freedom == NodeFreedom::surface && count == 1 && surfaces_[c.shape].flat &&
+                std::isinf(t->feature_size()))
+                continue;  // a plane on a plane
             return 0;
         }
         held.col(count++) = n / length;
     }
     switch (count) {
-        case 0: basis.setIdentity(); return 3;
+        case 0:
+            basis.setIdentity();
+            return 3;
         case 1:
             basis.col(0) = held.col(0).unitOrthogonal();
             basis.col(1) = held.col(0).cross(basis.col(0));
             return 2;
-        case 2: basis.col(0) = held.col(0).cross(held.col(1)).normalized(); return 1;
-        default: return 0;
+        case 2:
+            basis.col(0) = held.col(0).cross(held.col(1)).normalized();
+            return 1;
+        default:
+            return 0;
     }
 }
 
@@ -827,24 +870,33 @@ std::vector<GroupIndex> NodeConstraints::groups_at(const BandMesh& band, int nod
     return {groups.begin(), groups.end()};
 }
 
-std::vector<NodeConstraints::GroupCount> NodeConstraints::count_by_group(const BandMesh& band, std::span<const int> nodes,
+std::vector<NodeConstraints::GroupCount> NodeConstraints::count_by_group(const BandMesh& band,
+                                                                         std::span<const int> nodes,
                                                                          std::size_t group_count) const {
     // Many nodes lie on few combinations of kinds: these are counted, and spread over their groups at the end.
     std::map<std::vector<int>, GroupCount> by_kinds;
     for (const int v : nodes) {
         GroupCount& count = by_kinds[kinds_at(band, v)];
         switch (nodes_[v].freedom) {
-            case NodeFreedom::free: break;
-            case NodeFreedom::surface: ++count.surface; break;
-            case NodeFreedom::curve: ++count.line; break;
-            case NodeFreedom::fixed: ++count.fixed; break;
+            case NodeFreedom::free:
+                break;
+            case NodeFreedom::surface:
+                ++count.surface;
+                break;
+            case NodeFreedom::curve:
+                ++count.line;
+                break;
+            case NodeFreedom::fixed:
+                ++count.fixed;
+                break;
         }
     }
     std::vector<GroupCount> out(group_count);
     std::vector<GroupIndex> groups;
     for (const auto& [combination, count] : by_kinds) {
         groups.clear();
-        for (const int kind : combination) groups.insert(groups.end(), kinds_.groups(kind).begin(), kinds_.groups(kind).end());
+        for (const int kind : combination)
+            groups.insert(groups.end(), kinds_.groups(kind).begin(), kinds_.groups(kind).end());
         std::ranges::sort(groups);
         groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
         for (const GroupIndex g : groups) {

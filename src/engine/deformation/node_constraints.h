@@ -30,16 +30,19 @@ struct NodeConstraint {
 
 /// Which groups' boundaries are kept, and what counts as a feature line.
 struct ConstraintOptions {
-    double feature_angle = 30;           ///< degrees
-    std::vector<bool> drifting_groups;   ///< by group index: boundary may drift; empty = all are kept
-    std::vector<bool> meaningless;       ///< by group index: as if the group were not there; empty = none
-    std::vector<bool> kept_hidden;       ///< by group index: hidden, but its boundary is kept; empty = none
-    std::vector<Index> pinned;           ///< nodes (indices in the mesh, ascending) that must not move
-    std::vector<Index> related;          ///< nodes (as pinned): one born on the skin between two of them must not move, so that matching sides keep matching
-    std::vector<Index> on_shortcuts;     ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
-    const CadShape* shape = nullptr;     ///< what the mesh was made from: its skin is taken to be this, where it lies on it
-    double tolerance = 0;                ///< what is nearer than this to something lies on it
-    double rounding = 0;                 ///< what is flat or straight but for so much is so: a few times coordinate_rounding(), or 0
+    double feature_angle = 30;          ///< degrees
+    std::vector<bool> drifting_groups;  ///< by group index: boundary may drift; empty = all are kept
+    std::vector<bool> meaningless;      ///< by group index: as if the group were not there; empty = none
+    std::vector<bool> kept_hidden;      ///< by group index: hidden, but its boundary is kept; empty = none
+    std::vector<Index> pinned;          ///< nodes (indices in the mesh, ascending) that must not move
+    std::vector<Index> related;  ///< nodes (as pinned): one born on the skin between two of them must not move, so that
+                                 ///< matching sides keep matching
+    std::vector<Index>
+        on_shortcuts;  ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
+    const CadShape* shape =
+        nullptr;           ///< what the mesh was made from: its skin is taken to be this, where it lies on it
+    double tolerance = 0;  ///< what is nearer than this to something lies on it
+    double rounding = 0;   ///< what is flat or straight but for so much is so: a few times coordinate_rounding(), or 0
 };
 
 /// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of
@@ -47,8 +50,9 @@ struct ConstraintOptions {
 ///
 /// Surfaces are the input's own triangles, taken apart at feature lines and group borders; a surface
 /// whose triangles are coplanar is treated as the exact plane. Second-order faces are followed as the
-/// curved faces they are. Curves likewise. Where the shape the mesh was made from is known, faces and feature lines of the skin
-/// that lie on it are followed as its faces and edges; edges between triangles of one of its faces are no feature lines.
+/// curved faces they are. Curves likewise. Where the shape the mesh was made from is known, faces and feature lines of
+/// the skin that lie on it are followed as its faces and edges; edges between triangles of one of its faces are no
+/// feature lines.
 class NodeConstraints {
 public:
     /// Analyses `band` and fills its `skin` and `creases` (tag: surface or curve index).
@@ -59,16 +63,20 @@ public:
     /// Must be called after BandMesh::split_edge() made `node`: it keeps to what its edge was on.
     void add_node(const BandMesh& band, int node);
 
-    /// Whether equations relate the node to others, or both ends of the edge it was born on; and whether an edge of the skin runs
-    /// between such nodes. What is made or taken away there on one side of a pair would be missed on the other.
+    /// Whether equations relate the node to others, or both ends of the edge it was born on; and whether an edge of the
+    /// skin runs between such nodes. What is made or taken away there on one side of a pair would be missed on the
+    /// other.
     bool is_related(int node) const { return !related_.empty() && related_[node]; }
-    bool is_related_edge(const BandMesh& band, int a, int b) const { return is_related(a) && is_related(b) && is_skin_edge(band, a, b); }
+    bool is_related_edge(const BandMesh& band, int a, int b) const {
+        return is_related(a) && is_related(b) && is_skin_edge(band, a, b);
+    }
 
     /// Whether the mid-side node of the edge a-b must not move: an isolated member of a group (IE), or pinned.
     bool has_fixed_middles() const { return !fixed_middles_.empty(); }
     bool has_fixed_middle(int a, int b) const { return fixed_middles_.contains(edge_key(a, b)); }
 
-    /// To be called after add_node() for a node that was such a mid-side node, and for nodes that are held beside a tool.
+    /// To be called after add_node() for a node that was such a mid-side node, and for nodes that are held beside a
+    /// tool.
     void fix_node(int node) { nodes_[node].freedom = NodeFreedom::fixed; }
 
     /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
@@ -78,9 +86,10 @@ public:
     NodeConstraint on_face(const BandMesh& band, int a, int b, int c) const;
 
     /// Moves `x` to a near point that satisfies the node's constraints and lies on all of `tools`.
-    /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined. A tool that runs along the
-    /// node's surface or line, and on it but for the rounding of coordinates, adds nothing to it: there the tool is what counts.
-    /// With `held` (Deformable::held_off) the tool may be so far off what it runs along, and then stays so.
+    /// False when there is none nearby (parallel surfaces, a fixed node off the tool); `x` is then undefined. A tool
+    /// that runs along the node's surface or line, and on it but for the rounding of coordinates, adds nothing to it:
+    /// there the tool is what counts. With `held` (Deformable::held_off) the tool may be so far off what it runs along,
+    /// and then stays so.
     bool project(int node, const Contact& tools, Vec3& x) const { return project(nodes_[node], tools, x); }
     bool project(const NodeConstraint& constraint, const Contact& tools, Vec3& x, double held = 0) const;
 
@@ -112,14 +121,16 @@ public:
     /// Whether the constraint's shape at `constraint.hint` is a curved face or edge of ConstraintOptions::shape.
     bool is_on_shape(const NodeConstraint& c) const {
         return (c.freedom == NodeFreedom::surface && facets_[c.hint].cad >= 0 && !surfaces_[c.shape].flat) ||
-               (c.freedom == NodeFreedom::curve && (segments_[c.hint].cad >= 0 || segments_[c.hint].cad_face >= 0) && !curves_[c.shape].straight);
+               (c.freedom == NodeFreedom::curve && (segments_[c.hint].cad >= 0 || segments_[c.hint].cad_face >= 0) &&
+                !curves_[c.shape].straight);
     }
 
     bool is_flat(int surface) const { return surfaces_[surface].flat; }
 
     /// Whether the chord between two points on the constraint's shape is on it, too.
     bool is_straight(const NodeConstraint& c) const {
-        return c.freedom == NodeFreedom::surface ? surfaces_[c.shape].flat : c.freedom != NodeFreedom::curve || curves_[c.shape].straight;
+        return c.freedom == NodeFreedom::surface ? surfaces_[c.shape].flat
+                                                 : c.freedom != NodeFreedom::curve || curves_[c.shape].straight;
     }
     bool is_straight(int curve) const { return curves_[curve].straight; }
     bool is_internal(int surface) const { return surfaces_[surface].internal; }
@@ -150,7 +161,8 @@ public:
         Index fixed = 0;    ///< do not move
     };
     /// For each of `group_count` groups of the mesh, how many of `nodes` lie on its boundary (BE, LE and IE).
-    std::vector<GroupCount> count_by_group(const BandMesh& band, std::span<const int> nodes, std::size_t group_count) const;
+    std::vector<GroupCount> count_by_group(const BandMesh& band, std::span<const int> nodes,
+                                           std::size_t group_count) const;
 
     /// The groups of the mesh that have their boundary (BE, LE, IE) at a node, ascending.
     std::vector<GroupIndex> groups_at(const BandMesh& band, int node) const;
@@ -164,7 +176,7 @@ public:
     bool is_loose(int line_origin) const { return loose_[line_origin] != 0; }
 
 private:
-    struct Facet {               // a reference triangle, by input positions
+    struct Facet {  // a reference triangle, by input positions
         std::array<Vec3, 3> corner;
         std::array<Vec3, 3> mid;  // of edges 01, 12, 20
         Vec3 centre = Vec3::Zero();
@@ -180,7 +192,7 @@ private:
         bool flat = true;
         bool internal = false;  // between two tetrahedra
         bool shell = false;
-        int kind = 0;           // groups with their boundary here, in kinds_
+        int kind = 0;  // groups with their boundary here, in kinds_
         Vec3 normal = Vec3::Zero();
         Vec3 origin = Vec3::Zero();
     };
@@ -229,7 +241,7 @@ private:
     std::vector<Curve> curves_;
     std::vector<std::vector<int>> facets_around_;    // by input node
     std::vector<std::vector<int>> segments_around_;  // by input node
-    std::vector<char> related_;   // nodes related by equations, and those born between them; empty if none
+    std::vector<char> related_;  // nodes related by equations, and those born between them; empty if none
     std::vector<double> leash_;
     std::vector<char> exterior_;
     std::vector<char> shell_;
@@ -238,8 +250,8 @@ private:
     std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds
     std::unordered_set<std::uint64_t> fixed_middles_;
     bool has_shortcuts_ = false;
-    double size_ = 1;  // of the band, for tolerances
-    double flat_ = 0;  // what is no farther off a plane or line is on it
+    double size_ = 1;   // of the band, for tolerances
+    double flat_ = 0;   // what is no farther off a plane or line is on it
     double close_ = 0;  // a tool that is no farther off what it runs along is on it
     const CadShape* shape_ = nullptr;
     ShapeMatch match_;

@@ -21,13 +21,13 @@ constexpr int opposite_face[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}
 /// One element as a function of the position x of one of its corners:
 /// 1 / mean ratio = S(x) / (c M(x)^e), S the sum of squared edges, M volume or area, linear in x.
 struct Term {
-    Vec3 gradient;      // of M
-    double offset;      // M = gradient.x + offset
-    Vec3 corner_sum;    // of the other corners
-    double constant;    // S = edges |x|^2 - 2 x.corner_sum + constant
-    double edges;       // 3 or 2
-    double exponent;    // 2/3 or 1
-    double scale;       // 1 / c
+    Vec3 gradient;    // of M
+    double offset;    // M = gradient.x + offset
+    Vec3 corner_sum;  // of the other corners
+    double constant;  // S = edges |x|^2 - 2 x.corner_sum + constant
+    double edges;     // 3 or 2
+    double exponent;  // 2/3 or 1
+    double scale;     // 1 / c
 
     double inverse_quality(const Vec3& x) const {
         const double measure = gradient.dot(x) + offset;
@@ -58,8 +58,8 @@ public:
             term.gradient = (b - a).cross(c - a) / 6;
             term.offset = -term.gradient.dot(a);
             term.corner_sum = a + b + c;
-            term.constant = a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() + (c - a).squaredNorm() +
-                            (c - b).squaredNorm();
+            term.constant = a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() +
+                            (c - a).squaredNorm() + (c - b).squaredNorm();
             term.edges = 3;
             term.exponent = 2.0 / 3;
             term.scale = tetra_scale;
@@ -171,9 +171,16 @@ void minimise(Deformable& d, const Star& star, int v, const auto& tangent, int d
 }  // namespace
 
 Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& options)
-    : band(std::move(b)), constraints(band, mesh, options), mids(band, mesh, options.rounding), membership(band, mesh),
-      contact(static_cast<std::size_t>(band.size())), side(static_cast<std::size_t>(band.size()), 0),
-      off_tool(static_cast<std::size_t>(band.size()), 0), tolerance(options.tolerance), rounding(options.rounding), held_off(static_cast<std::size_t>(band.size()), 0) {
+    : band(std::move(b)),
+      constraints(band, mesh, options),
+      mids(band, mesh, options.rounding),
+      membership(band, mesh),
+      contact(static_cast<std::size_t>(band.size())),
+      side(static_cast<std::size_t>(band.size()), 0),
+      off_tool(static_cast<std::size_t>(band.size()), 0),
+      tolerance(options.tolerance),
+      rounding(options.rounding),
+      held_off(static_cast<std::size_t>(band.size()), 0) {
     check_cancelled();
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -228,7 +235,8 @@ Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, co
                 if (std::ranges::find(list[s], b) == list[s].end()) continue;
                 for (const int replaced : {a, b}) {
                     std::array<Vec3, 4> corner;
-                    for (std::size_t k = 0; k < list[s].size(); ++k) corner[k] = list[s][k] == replaced ? p : band.nodes[list[s][k]].at;
+                    for (std::size_t k = 0; k < list[s].size(); ++k)
+                        corner[k] = list[s][k] == replaced ? p : band.nodes[list[s][k]].at;
                     worst = std::min(worst, quality(corner, s));
                 }
             }
@@ -237,21 +245,26 @@ Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, co
         look(band.triangles, [&](const auto& c, int s) {
             const int origin = band.triangles.origin(s);
             if (!constraints.is_shell(origin)) return 1.0;
-            return std::copysign(mean_ratio(c[0], c[1], c[2]), (c[1] - c[0]).cross(c[2] - c[0]).dot(shell_normals[origin]));
+            return std::copysign(mean_ratio(c[0], c[1], c[2]),
+                                 (c[1] - c[0]).cross(c[2] - c[0]).dot(shell_normals[origin]));
         });
         return worst;
     };
     const NodeConstraint constraint = constraints.on_edge(band, a, b);
     if (constraint.freedom == NodeFreedom::free && !tools) return {at, true, worst_child(at)};
     Vec3 fitted = at;
-    const bool found = constraints.project(constraint, tools, fitted, held_between(a, b)) && (fitted - at).norm() < (band.nodes[a].at - band.nodes[b].at).norm();
+    const bool found = constraints.project(constraint, tools, fitted, held_between(a, b)) &&
+                       (fitted - at).norm() < (band.nodes[a].at - band.nodes[b].at).norm();
     const double worst = worst_child(at);
     if (found) {
         const double worst_fitted = fitted == at ? worst : worst_child(fitted);
         if (worst_fitted > 0.2 * worst) return {fitted, true, worst_fitted};
     }
     const double close = std::max(1e-9 * (band.nodes[a].at - band.nodes[b].at).norm(), tolerance);
-    return {at, off_tools(tools, at, held_between(a, b)) <= close && constraints.distance(constraint, at) <= std::max(1e3 * close, rounding), worst};
+    return {at,
+            off_tools(tools, at, held_between(a, b)) <= close &&
+                constraints.distance(constraint, at) <= std::max(1e3 * close, rounding),
+            worst};
 }
 
 Contact Deformable::edge_contact(int a, int b) const {
@@ -305,14 +318,18 @@ bool quality_around_is_below(double limit, const Deformable& d, int node) {
            });
 }
 
-long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options) { return relax_from(d, movable, movable, options); }
+long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options) {
+    return relax_from(d, movable, movable, options);
+}
 
-long relax_from(Deformable& d, const std::vector<int>& near, const std::vector<int>& movable, const RelaxationOptions& options) {
+long relax_from(Deformable& d, const std::vector<int>& near, const std::vector<int>& movable,
+                const RelaxationOptions& options) {
     BandMesh& band = d.band;
     std::vector<char> may_move(static_cast<std::size_t>(band.size()), 0);
     for (const int v : near) may_move[v] = 1;
     // Elements worse than the target; only they give their nodes a reason to move.
-    std::vector<char> poor_tetra(static_cast<std::size_t>(band.tetras.size())), poor_shell(static_cast<std::size_t>(band.triangles.size()));
+    std::vector<char> poor_tetra(static_cast<std::size_t>(band.tetras.size())),
+        poor_shell(static_cast<std::size_t>(band.triangles.size()));
     const auto look_at_shell = [&](int t) {
         poor_shell[t] = d.constraints.is_shell(band.triangles.origin(t)) && shell_quality(d, t) < options.target;
     };
@@ -352,12 +369,15 @@ long relax_from(Deformable& d, const std::vector<int>& near, const std::vector<i
             const Vec3 before = node.at;
             CurvedStar& curved = curved_stars.try_emplace(v, d, v).first->second;
             curved.forget_places();
-            // Second-order elements are looked at where the node comes to, and on the way only if it must not come there.
+            // Second-order elements are looked at where the node comes to, and on the way only if it must not come
+            // there.
             minimise(d, star, v, tangent, doublings, [](const Vec3&) { return true; });
             if (node.at != before) {
                 const Vec3 after = std::exchange(node.at, before);
-                if (curved.stays_sound(after)) node.at = after;
-                else minimise(d, star, v, tangent, doublings, [&](const Vec3& x) { return curved.stays_sound(x); });
+                if (curved.stays_sound(after))
+                    node.at = after;
+                else
+                    minimise(d, star, v, tangent, doublings, [&](const Vec3& x) { return curved.stays_sound(x); });
             }
             if (node.at == before) continue;
             ++moves;

@@ -16,23 +16,26 @@ struct Deformable {
     BandMesh band;
     NodeConstraints constraints;
     MidSides mids;
-    NodeMembership membership;         ///< node groups of each node
-    std::vector<Contact> contact;      ///< by node: the tools it must stay on
-    std::vector<Vec3> shell_normals;   ///< by triangle origin: the input's unit normal (shells only)
-    const Tool* barrier = nullptr;     ///< a tool no node may pass through, if `side` of it is not 0
-    std::vector<signed char> side;     ///< by node: sign of its distance to `barrier`
-    std::vector<char> off_tool;        ///< by node: it may slide, but is not to be put on a tool
-    double tolerance = 0;              ///< ConstraintOptions::tolerance
-    double rounding = 0;               ///< ConstraintOptions::rounding
-    long visits = 0;                   ///< how often relaxation has tried to move a node: a measure of its work that does not depend on the machine
-    std::vector<double> held_off;      ///< by node: how far off its tools it may be, as it is held beside them; see hold_beside()
+    NodeMembership membership;        ///< node groups of each node
+    std::vector<Contact> contact;     ///< by node: the tools it must stay on
+    std::vector<Vec3> shell_normals;  ///< by triangle origin: the input's unit normal (shells only)
+    const Tool* barrier = nullptr;    ///< a tool no node may pass through, if `side` of it is not 0
+    std::vector<signed char> side;    ///< by node: sign of its distance to `barrier`
+    std::vector<char> off_tool;       ///< by node: it may slide, but is not to be put on a tool
+    double tolerance = 0;             ///< ConstraintOptions::tolerance
+    double rounding = 0;              ///< ConstraintOptions::rounding
+    long visits = 0;  ///< how often relaxation has tried to move a node: a measure of its work that does not depend on
+                      ///< the machine
+    std::vector<double>
+        held_off;  ///< by node: how far off its tools it may be, as it is held beside them; see hold_beside()
 
     Deformable(BandMesh band, const Mesh& mesh, const ConstraintOptions& options);
 
     /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
     int split_edge(int a, int b, const Vec3& at, const Contact& tools);
 
-    /// Makes a node count as lying on `tools` where it is, though something else holds it a little beside them: it stays there.
+    /// Makes a node count as lying on `tools` where it is, though something else holds it a little beside them: it
+    /// stays there.
     void hold_beside(int node, const Contact& tools);
 
     /// How far a node is off the tools it is in contact with, beyond what it is held off.
@@ -61,7 +64,8 @@ struct Deformable {
     /// How far what lies between two nodes may be off the tools that both are on.
     double held_between(int a, int b) const { return std::max(held_off[a], held_off[b]); }
 
-    /// Whether a node must not be at `x`: behind the barrier, or so far along a bent line that the line would lose its shape.
+    /// Whether a node must not be at `x`: behind the barrier, or so far along a bent line that the line would lose its
+    /// shape.
     bool is_barred(int node, const Vec3& x) const {
         return (barrier && side[node] != 0 && barrier->distance(x) * side[node] <= 0) ||
                (x - band.nodes[node].start).norm() > constraints.leash(node);
@@ -97,6 +101,7 @@ struct RelaxationOptions {
 long relax(Deformable& d, const std::vector<int>& movable, const RelaxationOptions& options = {});
 
 /// The same after a change: begins at the movable nodes near it and spreads to others as far as nodes move.
-long relax_from(Deformable& d, const std::vector<int>& near, const std::vector<int>& movable, const RelaxationOptions& options = {});
+long relax_from(Deformable& d, const std::vector<int>& near, const std::vector<int>& movable,
+                const RelaxationOptions& options = {});
 
 }  // namespace femscalpel

@@ -83,7 +83,8 @@ void mark_outer_nodes(const BandMesh& band, std::vector<char>& marked) {
 /// node: a row is short and in one place, which beats a hash table.
 class TetraFaces {
 public:
-    TetraFaces(const BandMesh& band, const std::vector<char>& counts) : start_(static_cast<std::size_t>(band.size()) + 1, 0) {
+    TetraFaces(const BandMesh& band, const std::vector<char>& counts)
+        : start_(static_cast<std::size_t>(band.size()) + 1, 0) {
         std::vector<char> movable(static_cast<std::size_t>(band.size()));
         for (int v = 0; v < band.size(); ++v) movable[v] = band.nodes[v].movable();
         SparseCheck check;
@@ -142,8 +143,8 @@ private:
 
 }  // namespace
 
-BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting, std::span<const Index> on_shortcuts,
-                               const std::vector<bool>& meaningless) {
+BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting,
+                               std::span<const Index> on_shortcuts, const std::vector<bool>& meaningless) {
     Sets sets(sets_);
     std::vector<int> kept(static_cast<std::size_t>(mesh.families.size()), -1);
     const auto kept_groups = [&](FamilyIndex f) {
@@ -159,7 +160,9 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     const auto of_cell = [&](const CellRef& c) { return kept_groups(family_of(c)); };
     // Whether an element or facet inside the material or on the skin is kept where it is: it is in no group, or in
     // one that is kept.
-    const auto counts_for_nothing = [&](GroupIndex g) { return mesh.groups[g].hidden || (!meaningless.empty() && meaningless[g]); };
+    const auto counts_for_nothing = [&](GroupIndex g) {
+        return mesh.groups[g].hidden || (!meaningless.empty() && meaningless[g]);
+    };
     const auto is_kept = [&](FamilyIndex f) {
         return kept_groups(f) != 0 || std::ranges::all_of(mesh.families.groups(f), counts_for_nothing);
     };
@@ -220,7 +223,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     std::vector<int> face_of_shell(static_cast<std::size_t>(band.triangles.size()), -1);
     const auto face_on = [&](const std::array<int, 3>& v) {
         for (const int other : band.triangles.around(v[0]))
-            if (face_of_shell[other] >= 0 && holds(band.triangles[other], v[1]) && holds(band.triangles[other], v[2])) return face_of_shell[other];
+            if (face_of_shell[other] >= 0 && holds(band.triangles[other], v[1]) && holds(band.triangles[other], v[2]))
+                return face_of_shell[other];
         return -1;
     };
     for (int t = 0; t < band.triangles.size(); ++t) {
@@ -261,7 +265,8 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     for (const Face& shell : faces_) note_kept(shell);
     if (!on_shortcuts.empty())
         for (int v = 0; v < band.size(); ++v)
-            if (!band.is_new(v) && std::ranges::binary_search(on_shortcuts, mesh.node_ids[band.nodes[v].global])) on_kept[v] = in[v];
+            if (!band.is_new(v) && std::ranges::binary_search(on_shortcuts, mesh.node_ids[band.nodes[v].global]))
+                on_kept[v] = in[v];
     const auto opposite = [&](int tetra, const std::array<int, 3>& face) {
         for (const int v : band.tetras[tetra])
             if (!holds(face, v)) return in[v];
@@ -296,9 +301,11 @@ BandBoundaries::BandBoundaries(const BandMesh& band, const Mesh& mesh, const std
     };
     for (int l = 0; l < band.lines.size(); ++l)
         if (band.lines.alive(l) && movable(band.lines[l]))
-            if (const CellRef& cell = band.line_cells[band.lines.origin(l)]; is_kept(family_of(cell))) put_line(band.lines[l], of_cell(cell), true);
+            if (const CellRef& cell = band.line_cells[band.lines.origin(l)]; is_kept(family_of(cell)))
+                put_line(band.lines[l], of_cell(cell), true);
     for (int f = 0; f < band.facet_edges.size(); ++f)
-        if (band.facet_edges.alive(f) && movable(band.facet_edges[f]) && is_kept(mesh.facets[band.facet_edges.tag(f)].family))
+        if (band.facet_edges.alive(f) && movable(band.facet_edges[f]) &&
+            is_kept(mesh.facets[band.facet_edges.tag(f)].family))
             put_line(band.facet_edges[f], kept_groups(mesh.facets[band.facet_edges.tag(f)].family), true);
     std::unordered_map<std::uint64_t, int> seen;
     const auto link = [&](int a, int b) {

@@ -30,10 +30,10 @@ class BandBoundaries {
 public:
     /// A face of a tetrahedron, or a shell.
     struct Face {
-        std::array<int, 3> nodes;         ///< band nodes; normal out of tetra[0]
-        int kind = 0;                     ///< groups with BE or LE here; for a shell, those it is part of
-        std::array<int, 2> tetra{-1, -1}; ///< slots of the tetrahedra behind and in front; none for a shell
-        bool element = false;             ///< a triangle element or a facet that is to be kept lies here
+        std::array<int, 3> nodes;          ///< band nodes; normal out of tetra[0]
+        int kind = 0;                      ///< groups with BE or LE here; for a shell, those it is part of
+        std::array<int, 2> tetra{-1, -1};  ///< slots of the tetrahedra behind and in front; none for a shell
+        bool element = false;              ///< a triangle element or a facet that is to be kept lies here
         bool is_shell() const { return tetra[0] < 0; }
         bool is_skin() const { return tetra[0] >= 0 && tetra[1] < 0; }
         bool is_internal() const { return tetra[1] >= 0; }
@@ -44,7 +44,8 @@ public:
         int kind = 0;
         bool element = false;
     };
-    /// A face or an edge (its last node is there twice) through the material that is in LE or BE of node groups but is not kept.
+    /// A face or an edge (its last node is there twice) through the material that is in LE or BE of node groups but is
+    /// not kept.
     struct Shortcut {
         std::array<int, 3> nodes;
         int kind;
@@ -55,14 +56,15 @@ public:
         int kind;
     };
 
-    /// Analyses `band`. Groups with drifting[g] count for nothing; if `drifting` is empty, hidden groups do. `on_shortcuts`: numbers,
-    /// ascending, of nodes that were born on shortcuts: they count as nodes on kept faces of their groups. `meaningless`: by group index, groups that
-    /// drift as hidden ones do: an element in no other group is in none.
-    BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {}, std::span<const Index> on_shortcuts = {},
-                   const std::vector<bool>& meaningless = {});
+    /// Analyses `band`. Groups with drifting[g] count for nothing; if `drifting` is empty, hidden groups do.
+    /// `on_shortcuts`: numbers, ascending, of nodes that were born on shortcuts: they count as nodes on kept faces of
+    /// their groups. `meaningless`: by group index, groups that drift as hidden ones do: an element in no other group
+    /// is in none.
+    BandBoundaries(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting = {},
+                   std::span<const Index> on_shortcuts = {}, const std::vector<bool>& meaningless = {});
 
-    /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once, also where several
-    /// shells have the same nodes: its groups are those of all.
+    /// Every face of a tetrahedron that is skin, or has a kind, or has an element; every shell. Each once, also where
+    /// several shells have the same nodes: its groups are those of all.
     std::span<const Face> faces() const { return faces_; }
     std::span<const Line> lines() const { return lines_; }
     std::span<const Shortcut> shortcuts() const { return shortcuts_; }

@@ -23,13 +23,16 @@ struct GroupTotals {
 
 std::vector<GroupTotals> by_group(const Mesh& mesh, const FamilyTotals& totals) {
     std::vector<GroupTotals> out(mesh.groups.size());
-    const auto families = std::min<std::size_t>(totals.by_family.size(), static_cast<std::size_t>(mesh.families.size()));
+    const auto families =
+        std::min<std::size_t>(totals.by_family.size(), static_cast<std::size_t>(mesh.families.size()));
     for (std::size_t f = 0; f < families; ++f) {
         const FamilyTotals::Entry& e = totals.by_family[f];
         for (GroupIndex g : mesh.families.groups(static_cast<FamilyIndex>(f))) {
             GroupTotals& t = out[g];
             switch (mesh.groups[g].kind) {
-                case GroupKind::node: t.count += e.nodes; break;
+                case GroupKind::node:
+                    t.count += e.nodes;
+                    break;
                 case GroupKind::facet:
                     t.count += e.facets;
                     t.facet_area += e.facet_area;
@@ -132,12 +135,16 @@ std::vector<GroupRecord> compare_groups(const Mesh& before, const FamilyTotals& 
             r.measure_after = now[g].facet_area;
         } else if (group.kind == GroupKind::element) {
             r.measure_before = was.measure[r.dimension];
-            r.measure_after = now[g].cells[r.dimension] > 0 ? now[g].measure[r.dimension] : 0;  // without what rounding leaves
+            r.measure_after =
+                now[g].cells[r.dimension] > 0 ? now[g].measure[r.dimension] : 0;  // without what rounding leaves
         }
         const bool same_measure = std::abs(r.measure_after - r.measure_before) <= 1e-9 * std::abs(r.measure_before);
-        if (is_new) r.status = "new";
-        else if (r.count_before > 0 && r.count_after == 0) r.status = "became empty";
-        else r.status = same_measure ? "kept" : "changed";
+        if (is_new)
+            r.status = "new";
+        else if (r.count_before > 0 && r.count_after == 0)
+            r.status = "became empty";
+        else
+            r.status = same_measure ? "kept" : "changed";
         records.push_back(std::move(r));
     }
     return records;

@@ -15,20 +15,22 @@ namespace femscalpel {
 struct GroupRecord {
     std::string name;
     GroupKind kind = GroupKind::node;
-    int dimension = 0;            ///< of the largest members; 0 for nodes
+    int dimension = 0;  ///< of the largest members; 0 for nodes
     Index count_before = 0;
     Index count_after = 0;
     double measure_before = 0;
     double measure_after = 0;
-    Index nodes_moved = 0;        ///< nodes of the group (or of its elements) that changed place
-    bool boundary_kept = true;    ///< false: the operator was told that the boundary may drift
-    double boundary_drift = 0;    ///< largest distance of its moved boundary nodes, and shortcuts (groups.md), from the boundary's old shape
+    Index nodes_moved = 0;      ///< nodes of the group (or of its elements) that changed place
+    bool boundary_kept = true;  ///< false: the operator was told that the boundary may drift
+    double boundary_drift =
+        0;  ///< largest distance of its moved boundary nodes, and shortcuts (groups.md), from the boundary's old shape
     /// Nodes near the tool that lie on the group's boundary (BE, LE, IE), by what all their constraints together but
     /// the tool leave them: a surface, a line, nothing.
     Index nodes_on_surface = 0;
     Index nodes_on_line = 0;
     Index nodes_fixed = 0;
-    std::string status;           ///< "untouched", "kept", "changed", "reduced" (lost members to a tool), "became empty" or "new"
+    std::string
+        status;  ///< "untouched", "kept", "changed", "reduced" (lost members to a tool), "became empty" or "new"
 };
 
 /// Number and measure of the members of each elementary group (family), by dimension.

@@ -39,7 +39,9 @@ bool NodeMembership::merge_links(const BandMesh& band, int p, int t) const {
     if (in_[t] == in_[p] || in_[t] == 0) return false;
     const auto joined = [&](std::initializer_list<int> nodes) {
         const auto in = [&](const auto& list) {
-            return std::ranges::any_of(list.around(t), [&](int s) { return std::ranges::all_of(nodes, [&](int v) { return holds(list[s], v); }); });
+            return std::ranges::any_of(list.around(t), [&](int s) {
+                return std::ranges::all_of(nodes, [&](int v) { return holds(list[s], v); });
+            });
         };
         return in(band.tetras) || in(band.triangles);
     };

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-
 namespace femscalpel {
 namespace {
 
@@ -15,7 +14,9 @@ constexpr int tetra_faces[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
 
 class OpenedAreas {
 public:
-    OpenedAreas(const BandMesh& band, const Mesh& mesh) : band_(band), mesh_(mesh), families_(mesh.families) { find_members(); }
+    OpenedAreas(const BandMesh& band, const Mesh& mesh) : band_(band), mesh_(mesh), families_(mesh.families) {
+        find_members();
+    }
 
     std::vector<std::string> run() {
         if (edges_.empty() && faces_.empty()) return {};
@@ -30,8 +31,10 @@ public:
             for (const Index id : cells)
                 if (named++ < 5) numbers += (named > 1 ? ", " : "") + std::to_string(id);
             if (named > 5) numbers += ", ...";
-            out.push_back("group '" + group.name + "' covers " + (cells.size() > 1 ? "elements " : "element ") + numbers +
-                          ", or faces of them, only by the edges or faces around: these were split, and no elements are made inside, so the group covers less than "
+            out.push_back("group '" + group.name + "' covers " + (cells.size() > 1 ? "elements " : "element ") +
+                          numbers +
+                          ", or faces of them, only by the edges or faces around: these were split, and no elements "
+                          "are made inside, so the group covers less than "
                           "before. If it is meant to cover them, put the elements themselves into a group");
         }
         return out;
@@ -80,7 +83,8 @@ private:
         for (const int tag : tags) add_facet(tag);
         for (int v = band_.original_nodes(); v < band_.size(); ++v) {
             const auto& [a, b] = band_.births[v - band_.original_nodes()];
-            if (band_.in_use(v) && !band_.is_new(a) && !band_.is_new(b)) split_.insert(sorted(Edge{band_.nodes[a].global, band_.nodes[b].global}));
+            if (band_.in_use(v) && !band_.is_new(a) && !band_.is_new(b))
+                split_.insert(sorted(Edge{band_.nodes[a].global, band_.nodes[b].global}));
         }
     }
 
@@ -144,6 +148,8 @@ private:
 
 }  // namespace
 
-std::vector<std::string> warnings_of_opened_areas(const BandMesh& band, const Mesh& mesh) { return OpenedAreas(band, mesh).run(); }
+std::vector<std::string> warnings_of_opened_areas(const BandMesh& band, const Mesh& mesh) {
+    return OpenedAreas(band, mesh).run();
+}
 
 }  // namespace femscalpel

@@ -16,7 +16,8 @@ std::vector<bool> drifting_groups(const Mesh& mesh, const std::optional<std::vec
         if (!mesh.find_group(name))
             throw ToolError("preserve names '" + name + "', but the mesh has no group of that name");
     std::vector<bool> drifting;
-    for (const Group& g : mesh.groups) drifting.push_back(!g.hidden && std::ranges::find(*preserve, g.name) == preserve->end());
+    for (const Group& g : mesh.groups)
+        drifting.push_back(!g.hidden && std::ranges::find(*preserve, g.name) == preserve->end());
     return drifting;
 }
 
@@ -32,19 +33,26 @@ std::vector<bool> opposite(std::vector<bool> flags) {
 DriftGauge::DriftGauge(const BandMesh& band, const Mesh& mesh, std::vector<bool> drifting)
     : DriftGauge(band, mesh, opposite(std::move(drifting)), {}, false) {}
 
-DriftGauge DriftGauge::of_shortcuts(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting, std::vector<Index> on_shortcuts) {
+DriftGauge DriftGauge::of_shortcuts(const BandMesh& band, const Mesh& mesh, const std::vector<bool>& drifting,
+                                    std::vector<Index> on_shortcuts) {
     std::vector<bool> ignored;
-    for (std::size_t g = 0; g < mesh.groups.size(); ++g) ignored.push_back(mesh.groups[g].hidden || (!drifting.empty() && drifting[g]));
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+        ignored.push_back(mesh.groups[g].hidden || (!drifting.empty() && drifting[g]));
     return {band, mesh, std::move(ignored), std::move(on_shortcuts), true};
 }
 
-DriftGauge::DriftGauge(const BandMesh& band, const Mesh& mesh, std::vector<bool> ignored, std::vector<Index> on_shortcuts, bool only_shortcuts)
-    : ignored_(std::move(ignored)), on_shortcuts_(std::move(on_shortcuts)), only_shortcuts_(only_shortcuts), around_(static_cast<std::size_t>(band.size())) {
+DriftGauge::DriftGauge(const BandMesh& band, const Mesh& mesh, std::vector<bool> ignored,
+                       std::vector<Index> on_shortcuts, bool only_shortcuts)
+    : ignored_(std::move(ignored)),
+      on_shortcuts_(std::move(on_shortcuts)),
+      only_shortcuts_(only_shortcuts),
+      around_(static_cast<std::size_t>(band.size())) {
     for (const BandNode& n : band.nodes) old_at_.push_back(n.at);
     old_ = pieces(band, mesh, kinds_);
     for (std::size_t p = 0; p < old_.size(); ++p)
         for (const int v : old_[p].nodes)
-            if (around_[v].empty() || around_[v].back() != static_cast<int>(p)) around_[v].push_back(static_cast<int>(p));
+            if (around_[v].empty() || around_[v].back() != static_cast<int>(p))
+                around_[v].push_back(static_cast<int>(p));
 }
 
 std::vector<DriftGauge::Piece> DriftGauge::pieces(const BandMesh& band, const Mesh& mesh, FamilyTable& kinds) const {
@@ -76,7 +84,8 @@ std::vector<DriftGauge::Piece> DriftGauge::pieces(const BandMesh& band, const Me
     return out;
 }
 
-void DriftGauge::measure(const Vec3& x, std::span<const int> ancestors, const std::set<GroupIndex>& groups, bool (*counts)(const Piece&), std::vector<double>& drift) const {
+void DriftGauge::measure(const Vec3& x, std::span<const int> ancestors, const std::set<GroupIndex>& groups,
+                         bool (*counts)(const Piece&), std::vector<double>& drift) const {
     // Pieces at the nodes it comes from, and one further.
     std::set<int> near;
     for (const int a : ancestors)
@@ -87,12 +96,14 @@ void DriftGauge::measure(const Vec3& x, std::span<const int> ancestors, const st
         if (!counts(old_[p])) continue;
         const auto& [a, b, c] = old_[p].nodes;
         Vec3 shares;
-        const Vec3 foot = old_[p].is_edge() ? closest_on_segment(old_at_[a], old_at_[b], x) : closest_on_triangle(old_at_[a], old_at_[b], old_at_[c], x, shares);
+        const Vec3 foot = old_[p].is_edge() ? closest_on_segment(old_at_[a], old_at_[b], x)
+                                            : closest_on_triangle(old_at_[a], old_at_[b], old_at_[c], x, shares);
         by_distance.push_back({(foot - x).norm(), p});
     }
     std::ranges::sort(by_distance);
     for (const GroupIndex g : groups) {
-        const auto first = std::ranges::find_if(by_distance, [&](const auto& d) { return kinds_.contains(old_[d.second].kind, g); });
+        const auto first =
+            std::ranges::find_if(by_distance, [&](const auto& d) { return kinds_.contains(old_[d.second].kind, g); });
         if (first != by_distance.end()) drift[g] = std::max(drift[g], first->first);
     }
 }
@@ -100,7 +111,8 @@ void DriftGauge::measure(const Vec3& x, std::span<const int> ancestors, const st
 std::vector<double> DriftGauge::drift(const BandMesh& now, const Mesh& mesh) const {
     std::vector<double> out(mesh.groups.size(), 0);
     FamilyTable kinds;
-    std::vector<std::array<std::set<GroupIndex>, 2>> groups_at(static_cast<std::size_t>(now.size()));  // on faces, edges
+    std::vector<std::array<std::set<GroupIndex>, 2>> groups_at(
+        static_cast<std::size_t>(now.size()));  // on faces, edges
     const auto changed = [&](int v) { return now.is_new(v) || now.nodes[v].at != now.nodes[v].start; };
     std::vector<int> ancestors;
     const auto gather = [&](auto&& self, int v) -> void {
@@ -120,15 +132,19 @@ std::vector<double> DriftGauge::drift(const BandMesh& now, const Mesh& mesh) con
         ancestors.clear();
         for (const int v : p.nodes) gather(gather, v);
         const auto at = [&](int k) -> const Vec3& { return now.nodes[p.nodes[k]].at; };
-        for (const Vec3& x : {at(0), at(1), at(2), p.is_edge() ? Vec3((at(0) + at(1)) / 2) : Vec3((at(0) + at(1) + at(2)) / 3)})
-            measure(x, ancestors, groups, [](const Piece&) { return true; }, out);
+        for (const Vec3& x :
+             {at(0), at(1), at(2), p.is_edge() ? Vec3((at(0) + at(1)) / 2) : Vec3((at(0) + at(1) + at(2)) / 3)})
+            measure(
+                x, ancestors, groups, [](const Piece&) { return true; }, out);
     }
     for (int v = 0; v < now.size(); ++v)
         for (int edge = 0; edge < 2; ++edge) {
             if (groups_at[v][edge].empty()) continue;
             ancestors.clear();
             gather(gather, v);
-            measure(now.nodes[v].at, ancestors, groups_at[v][edge], edge ? [](const Piece& p) { return p.is_edge(); } : [](const Piece& p) { return !p.is_edge(); }, out);
+            measure(
+                now.nodes[v].at, ancestors, groups_at[v][edge],
+                edge ? [](const Piece& p) { return p.is_edge(); } : [](const Piece& p) { return !p.is_edge(); }, out);
         }
     return out;
 }

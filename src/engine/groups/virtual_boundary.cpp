@@ -142,11 +142,11 @@ struct Centre {
     Face corners;
 };
 constexpr Centre face_centres[] = {
-    {CellType::triangle7, 6, {0, 1, 2, none}},   {CellType::quad9, 8, {0, 1, 2, 3}},
-    {CellType::wedge18, 15, {0, 1, 4, 3}},       {CellType::wedge18, 16, {1, 2, 5, 4}},
-    {CellType::wedge18, 17, {2, 0, 3, 5}},       {CellType::hexahedron27, 20, {0, 4, 7, 3}},
-    {CellType::hexahedron27, 21, {1, 2, 6, 5}},  {CellType::hexahedron27, 22, {0, 1, 5, 4}},
-    {CellType::hexahedron27, 23, {3, 2, 6, 7}},  {CellType::hexahedron27, 24, {0, 1, 2, 3}},
+    {CellType::triangle7, 6, {0, 1, 2, none}},  {CellType::quad9, 8, {0, 1, 2, 3}},
+    {CellType::wedge18, 15, {0, 1, 4, 3}},      {CellType::wedge18, 16, {1, 2, 5, 4}},
+    {CellType::wedge18, 17, {2, 0, 3, 5}},      {CellType::hexahedron27, 20, {0, 4, 7, 3}},
+    {CellType::hexahedron27, 21, {1, 2, 6, 5}}, {CellType::hexahedron27, 22, {0, 1, 5, 4}},
+    {CellType::hexahedron27, 23, {3, 2, 6, 7}}, {CellType::hexahedron27, 24, {0, 1, 2, 3}},
     {CellType::hexahedron27, 25, {4, 5, 6, 7}},
 };
 
@@ -155,8 +155,8 @@ constexpr Centre face_centres[] = {
 struct VirtualBoundaryFinder::Tables {
     const Mesh& mesh;
     int dimension;
-    Rows<Index> around;             // packed elements of dimension 1 to 3 at each corner node, in mesh order
-    Rows<FamilyIndex> families;     // of each group
+    Rows<Index> around;                // packed elements of dimension 1 to 3 at each corner node, in mesh order
+    Rows<FamilyIndex> families;        // of each group
     Rows<Index> nodes, cells, facets;  // of each family: node, packed element, index in Mesh::facets
 
     explicit Tables(const Mesh& m) : mesh(m), dimension(m.dimension()) {
@@ -234,7 +234,9 @@ private:
     }
 
     template <class Nodes>
-    static bool holds(const Nodes& nodes, Index node) { return std::ranges::find(nodes, node) != nodes.end(); }
+    static bool holds(const Nodes& nodes, Index node) {
+        return std::ranges::find(nodes, node) != nodes.end();
+    }
 
     void collect_node_group() {
         std::vector<char> family(static_cast<std::size_t>(mesh_.families.size()), 0);
@@ -269,7 +271,8 @@ private:
             for (const CellBlock& b : mesh_.blocks())
                 if (traits(b.type).dimension > 0)
                     for (Index c = 0; c < b.size(); ++c)
-                        if (const Index element = pack(b.type, c); std::ranges::any_of(corners(element), in)) look(element);
+                        if (const Index element = pack(b.type, c); std::ranges::any_of(corners(element), in))
+                            look(element);
         } else {
             // Each once, from its first group node.
             for (const FamilyIndex f : t_.families[group_])
@@ -308,9 +311,11 @@ private:
         const CellTraits& t = traits(c.type);
         const auto n = mesh_.block(c.type).nodes(c.cell);
         for (std::size_t k = 0; k < t.edges.size(); ++k)
-            if (in(n[t.edges[k][0]]) && in(n[t.edges[k][1]])) covered.push_back(n[static_cast<std::size_t>(t.corners) + k]);
+            if (in(n[t.edges[k][0]]) && in(n[t.edges[k][1]]))
+                covered.push_back(n[static_cast<std::size_t>(t.corners) + k]);
         for (const Centre& centre : face_centres)
-            if (centre.type == c.type && std::ranges::all_of(centre.corners, [&](Index k) { return k == none || in(n[k]); }))
+            if (centre.type == c.type &&
+                std::ranges::all_of(centre.corners, [&](Index k) { return k == none || in(n[k]); }))
                 covered.push_back(n[centre.node]);
         if (all) covered.insert(covered.end(), n.begin() + t.corners, n.end());
     }
@@ -322,20 +327,28 @@ private:
                 check();
                 const auto n = corners(element);
                 const int dimension = traits_of(element).dimension;
-                if (dimension >= 2 && dimension == t_.dimension) area_.push_back(element);
-                else if (dimension == 2) faces_.insert(face_of(n)).belongs = true;
-                else if (dimension == 1) edges_.insert({n[0], n[1]}).belongs = true;
-                else points_.push_back(n[0]);
+                if (dimension >= 2 && dimension == t_.dimension)
+                    area_.push_back(element);
+                else if (dimension == 2)
+                    faces_.insert(face_of(n)).belongs = true;
+                else if (dimension == 1)
+                    edges_.insert({n[0], n[1]}).belongs = true;
+                else
+                    points_.push_back(n[0]);
             }
             for (const Index facet : t_.facets[f]) {
                 const Facet& at = mesh_.facets[static_cast<std::size_t>(facet)];
                 const Index element = pack(at.type, at.cell);
                 const CellTraits& t = traits(at.type);
                 const auto n = corners(element);
-                if (t.dimension == 3) faces_.insert(face_of(t, n, static_cast<std::size_t>(at.face - 1))).belongs = true;
-                else if (at.face > 2) edges_.insert({n[t.edges[at.face - 3][0]], n[t.edges[at.face - 3][1]]}).belongs = true;
-                else if (t_.dimension == 2) area_.push_back(element);
-                else faces_.insert(face_of(n)).belongs = true;
+                if (t.dimension == 3)
+                    faces_.insert(face_of(t, n, static_cast<std::size_t>(at.face - 1))).belongs = true;
+                else if (at.face > 2)
+                    edges_.insert({n[t.edges[at.face - 3][0]], n[t.edges[at.face - 3][1]]}).belongs = true;
+                else if (t_.dimension == 2)
+                    area_.push_back(element);
+                else
+                    faces_.insert(face_of(n)).belongs = true;
             }
         }
         close_faces();
@@ -360,8 +373,10 @@ private:
                 if (t.dimension < 2 || !holds(n, b)) continue;
                 if (t.dimension == 2) {
                     if (!belong_all_edges(face_of(n))) continue;
-                    if (t_.dimension == 2) area_.push_back(element);
-                    else faces_.insert(face_of(n)).belongs = true;
+                    if (t_.dimension == 2)
+                        area_.push_back(element);
+                    else
+                        faces_.insert(face_of(n)).belongs = true;
                     continue;
                 }
                 for (std::size_t k = 0; k < t.faces.size(); ++k)
@@ -454,12 +469,16 @@ private:
         };
         if (t_.dimension == 3)
             for (const auto& face : faces_.entries()) {
-                if (face.areas == 1) put_face(out_.bounding, face);
-                else if (face.areas == 0 && face.belongs) put_face(out_.linking, face);
+                if (face.areas == 1)
+                    put_face(out_.bounding, face);
+                else if (face.areas == 0 && face.belongs)
+                    put_face(out_.linking, face);
             }
         for (const auto& edge : edges_.entries()) {
-            if (edge.areas == 1) put_edge(out_.bounding, edge);
-            else if (edge.areas == 0 && edge.belongs && !edge.covered) put_edge(out_.linking, edge);
+            if (edge.areas == 1)
+                put_edge(out_.bounding, edge);
+            else if (edge.areas == 0 && edge.belongs && !edge.covered)
+                put_edge(out_.linking, edge);
         }
         isolate_points();
         for (const Index element : area_) {
@@ -471,7 +490,8 @@ private:
     void isolate_points() {
         if (points_.empty()) return;
         std::vector<Index> covered;
-        for (const Index element : area_) covered.insert(covered.end(), corners(element).begin(), corners(element).end());
+        for (const Index element : area_)
+            covered.insert(covered.end(), corners(element).begin(), corners(element).end());
         for (const auto& face : faces_.entries())
             for (const Index v : face.nodes()) covered.push_back(v);
         for (const auto& edge : edges_.entries())

@@ -69,8 +69,8 @@ struct VirtualBoundary {
 /// rule "born on LE or inside BE joins, nothing joins through IE" gives a node born on an edge exactly
 /// the node groups of both its ends (FamilyTable::intersect), and Figure 9 is right: consecutive
 /// nodes on the border of a shell are linked, and the node born between n1 and n2 joins.
-/// Splitting keeps this true: what is all in the group among the parts is exactly the parts of what was. Merging nodes need not,
-/// so operators merge none that would link members anew (NodeMembership::merge_links).
+/// Splitting keeps this true: what is all in the group among the parts is exactly the parts of what was. Merging nodes
+/// need not, so operators merge none that would link members anew (NodeMembership::merge_links).
 ///
 /// Second-order elements count by their corners. A mid-side or centre node of a node group is IE unless all
 /// corners of its edge, face or element are in the group.

@@ -352,8 +352,10 @@ private:
             warn_of_parameters(card, {"TYPE", "ELSET", "PARENT", "DLOAD"});
             const std::string* label = card.parameter("TYPE");
             if (!label || deck_key(*label).empty()) throw ReadError(card.where() + ": *ELEMENT needs TYPE=");
-            if (const auto type = deck_element_type(*label)) read_card(c, card, *type, nodes);
-            else if (deck_key(*label).starts_with('U')) read_user_elements(c, card, nodes);
+            if (const auto type = deck_element_type(*label))
+                read_card(c, card, *type, nodes);
+            else if (deck_key(*label).starts_with('U'))
+                read_user_elements(c, card, nodes);
             else
                 throw ReadError(card.where() + ": elements of type " + *label + " are not known to CalculiX");
         }
@@ -483,8 +485,10 @@ private:
                     throw ReadError(line.where() + "element number " + std::to_string(id) + " is used before");
                 for (int k = 0; type && k < traits(type->cell).nodes;) {
                     Index unused = 0;
-                    if (!line.at_end()) k += line.integer(unused);
-                    else line.next_data_line();
+                    if (!line.at_end())
+                        k += line.integer(unused);
+                    else
+                        line.next_data_line();
                 }
             }
         }

@@ -40,8 +40,10 @@ void append_coordinate(std::string& out, double value) {
         const char* mantissa_end = std::find(text, const_cast<char*>(end), 'e');
         std::string digits, sign;
         for (const char* p = text; p < mantissa_end; ++p) {
-            if (*p == '-') sign = "-";
-            else if (*p != '.') digits += *p;
+            if (*p == '-')
+                sign = "-";
+            else if (*p != '.')
+                digits += *p;
         }
         while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
         const int exponent = std::atoi(std::string(mantissa_end + 1, end).c_str());
@@ -79,8 +81,12 @@ struct LooseElement {
 class DeckWriter {
 public:
     explicit DeckWriter(const Mesh& mesh)
-        : mesh_(mesh), input_(deck_of(mesh)), numbers_(mesh), index_(input_->sets()),
-          members_of_card_(members_by_card(mesh, *input_)), contributed_(input_->cards().size()) {}
+        : mesh_(mesh),
+          input_(deck_of(mesh)),
+          numbers_(mesh),
+          index_(input_->sets()),
+          members_of_card_(members_by_card(mesh, *input_)),
+          contributed_(input_->cards().size()) {}
 
     std::string write() {
         if (mesh_.node_count() == 0) throw WriteError("the mesh has no nodes");
@@ -136,9 +142,12 @@ private:
                 const Group& group = mesh_.groups[static_cast<std::size_t>(g)];
                 const auto it = by_group.find(group.name);
                 if (!group.hidden || it == by_group.end()) continue;
-                if (group.kind == GroupKind::node) node_cards_of_family_[f].push_back(it->second);
-                else if (card_of_family_[f] != none) two_cards[f] = 1;
-                else card_of_family_[f] = it->second;
+                if (group.kind == GroupKind::node)
+                    node_cards_of_family_[f].push_back(it->second);
+                else if (card_of_family_[f] != none)
+                    two_cards[f] = 1;
+                else
+                    card_of_family_[f] = it->second;
             }
         for (const CellBlock& b : mesh_.blocks())
             for (Index i = 0; i < b.size(); ++i)
@@ -423,7 +432,8 @@ private:
                 if (changed) break;
                 for (std::size_t s = 0; s < roles_.size(); ++s) {
                     const DeckSet& set = input_->sets()[s];
-                    const bool is_surface = set.type == DeckSetType::node_surface || set.type == DeckSetType::element_surface;
+                    const bool is_surface =
+                        set.type == DeckSetType::node_surface || set.type == DeckSetType::element_surface;
                     if (roles_[s].state != SetRole::by_cards || is_surface != surfaces) continue;
                     if (now[s].members == members_[s] && now[s].unheld == set.unheld && now[s].absent == set.absent)
                         continue;
@@ -457,9 +467,12 @@ private:
     void write_card(std::size_t c) {
         const Card& card = input_->cards()[c];
         tail_.clear();
-        if (card.keyword == "NODE") write_node_card(c, card);
-        else if (card.keyword == "ELEMENT") write_element_card(c, card);
-        else if (card.keyword == "NSET" || card.keyword == "ELSET" || card.keyword == "SURFACE") write_set_card(card);
+        if (card.keyword == "NODE")
+            write_node_card(c, card);
+        else if (card.keyword == "ELEMENT")
+            write_element_card(c, card);
+        else if (card.keyword == "NSET" || card.keyword == "ELSET" || card.keyword == "SURFACE")
+            write_set_card(card);
         else
             for (const DeckText& t : card.text) put(t.text);
         if (card.keyword == "NODE" || card.keyword == "ELEMENT")
@@ -508,8 +521,10 @@ private:
             Vec3 x(0, 0, 0);
             bool same = true;
             for (int k = 0; k < 3 && !line.at_end(); ++k) same = line.number(x[k]) && same;
-            if (same && x == mesh_.points[static_cast<std::size_t>(*node)]) put(line.raw());
-            else put_node(*node);
+            if (same && x == mesh_.points[static_cast<std::size_t>(*node)])
+                put(line.raw());
+            else
+                put_node(*node);
         }
         for (Index id : members_of_card_[c]) {
             const Index node = *numbers_.node(id);
@@ -550,8 +565,10 @@ private:
             CardReader line(card);
             while (line.next_line()) {
                 if (line.is_data()) release_tail();
-                if (line.is_data()) put(line.raw());
-                else tail_.push_back(line.raw());
+                if (line.is_data())
+                    put(line.raw());
+                else
+                    tail_.push_back(line.raw());
             }
             return;
         }
@@ -588,9 +605,12 @@ private:
             for (std::size_t k = 0; k < count;) {
                 if (line.at_end()) {
                     if (!line.next_line()) break;
-                    if (line.is_data()) record.push_back(line.raw());
-                    else if (keep) record.push_back(line.raw());
-                    else tail_.push_back(line.raw());
+                    if (line.is_data())
+                        record.push_back(line.raw());
+                    else if (keep)
+                        record.push_back(line.raw());
+                    else
+                        tail_.push_back(line.raw());
                     continue;
                 }
                 Index node = 0;
@@ -697,7 +717,8 @@ private:
     }
 
     /// Lines "set, label" of an element surface all of whose faces are still on it, and, added, what they give.
-    std::vector<std::string_view> lines_still_true(std::size_t s, std::vector<Index>& given, std::vector<std::array<Index, 2>>& unheld) const {
+    std::vector<std::string_view> lines_still_true(std::size_t s, std::vector<Index>& given,
+                                                   std::vector<std::array<Index, 2>>& unheld) const {
         std::vector<std::string_view> out;
         if (input_->sets()[s].type != DeckSetType::element_surface) return out;
         for (const Card& card : input_->cards()) {
@@ -712,10 +733,14 @@ private:
                 std::vector<Index> faces;
                 std::vector<std::array<Index, 2>> loose;
                 for (const Index id : members_[*named])
-                    if (traits(numbers_.cell(id)->type).dimension < 2) loose.push_back({id, label});
-                    else faces.push_back(8 * id + label);
+                    if (traits(numbers_.cell(id)->type).dimension < 2)
+                        loose.push_back({id, label});
+                    else
+                        faces.push_back(8 * id + label);
                 for (const auto& [id, unused] : input_->sets()[*named].unheld) loose.push_back({id, label});
-                const auto is_unheld = [&](const auto& face) { return std::ranges::find(unheld, face) != unheld.end(); };
+                const auto is_unheld = [&](const auto& face) {
+                    return std::ranges::find(unheld, face) != unheld.end();
+                };
                 if (!std::ranges::includes(members_[s], faces) || !std::ranges::all_of(loose, is_unheld)) continue;
                 out.push_back(line.raw());
                 given.insert(given.end(), faces.begin(), faces.end());
@@ -726,7 +751,8 @@ private:
     }
 
     void write_set(DeckSetType type, const std::string& name, std::span<const Index> members,
-                   std::span<const std::array<Index, 2>> unheld, const std::string& remark, std::span<const std::string_view> lines = {}) {
+                   std::span<const std::array<Index, 2>> unheld, const std::string& remark,
+                   std::span<const std::string_view> lines = {}) {
         if (!remark.empty()) put_line(remark);
         const bool empty = members.empty() && unheld.empty();
         switch (type) {
@@ -737,8 +763,12 @@ private:
             case DeckSetType::elset:
                 put_line(empty ? "*ELEMENT, TYPE=" + any_label() + ", ELSET=" + name : "*ELSET, ELSET=" + name);
                 break;
-            case DeckSetType::node_surface: put_line("*SURFACE, NAME=" + name + ", TYPE=NODE"); break;
-            case DeckSetType::element_surface: put_line("*SURFACE, NAME=" + name + ", TYPE=ELEMENT"); break;
+            case DeckSetType::node_surface:
+                put_line("*SURFACE, NAME=" + name + ", TYPE=NODE");
+                break;
+            case DeckSetType::element_surface:
+                put_line("*SURFACE, NAME=" + name + ", TYPE=ELEMENT");
+                break;
         }
         for (const std::string_view line : lines) put(line);
         if (type == DeckSetType::element_surface) {
@@ -786,20 +816,20 @@ private:
     DeckSetIndex index_;
     std::vector<std::vector<Index>> members_of_card_;  // per card: numbers of what stands under it
     std::vector<std::vector<Index>> contributed_;      // per card: what its NSET= or ELSET= adds
-    std::vector<char> drops_parameter_;            // per card
+    std::vector<char> drops_parameter_;                // per card
     std::size_t last_node_card_ = 0, last_element_card_ = 0, last_mesh_card_ = 0;
     std::vector<std::size_t> card_of_family_;                     // *ELEMENT card of elements, or none
     std::vector<std::vector<std::size_t>> node_cards_of_family_;  // *NODE cards of nodes
     std::vector<LooseElement> loose_;                             // of dimension 0 to 2, by type and cell
     std::array<std::vector<Fate>, cell_type_count> fates_;        // of all elements
-    std::vector<char> planes_;  // by family
+    std::vector<char> planes_;                                    // by family
     std::vector<std::size_t> group_of_set_;
     std::vector<std::vector<Index>> members_;  // per set: what it must have, as in SetMembers
     std::vector<SetRole> roles_;
     std::vector<char> has_own_card_, is_written_;  // per set
     std::vector<NewSet> new_sets_;
     std::unordered_map<std::string, std::string> names_;  // set key -> group
-    std::vector<std::size_t> node_written_under_;  // the *NODE card that wrote a node last
+    std::vector<std::size_t> node_written_under_;         // the *NODE card that wrote a node last
     std::array<std::vector<char>, cell_type_count> element_written_;
     std::vector<std::string_view> tail_;
     std::string out_, eol_ = "\n";

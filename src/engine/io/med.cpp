@@ -253,8 +253,10 @@ public:
         if (!std::filesystem::is_regular_file(status)) fail("not a file");
         file_size_ = std::filesystem::file_size(path_, error);
         if (error) fail("cannot be read: " + error.message());
-        if (std::FILE* probe = std::fopen(path_.c_str(), "rb")) std::fclose(probe);
-        else fail(std::string("cannot be read: ") + std::strerror(errno));
+        if (std::FILE* probe = std::fopen(path_.c_str(), "rb"))
+            std::fclose(probe);
+        else
+            fail(std::string("cannot be read: ") + std::strerror(errno));
 
         if (H5Fis_hdf5(path_.c_str()) <= 0) fail("not a MED file (nor any HDF5 file)");
         if (!sound(path_)) fail("truncated or damaged: its structure cannot be read");
@@ -305,7 +307,8 @@ private:
                 damaged("the description of mesh " + std::to_string(i));
             if (type != MED_UNSTRUCTURED_MESH) continue;
             if (axis_type != MED_CARTESIAN)
-                fail("mesh '" + std::string(name_) + "' has cylindrical or spherical coordinates; convert it to Cartesian ones");
+                fail("mesh '" + std::string(name_) +
+                     "' has cylindrical or spherical coordinates; convert it to Cartesian ones");
             if (space_dimension != axes) damaged("the dimension of mesh '" + std::string(name_) + "'");
             med_float time = 0;
             if (steps < 1 || MEDmeshComputationStepInfo(fid_, name_, 1, &step_, &iteration_, &time) < 0)
@@ -334,7 +337,8 @@ private:
                 damaged("family " + std::to_string(i));
             if (family.number == 0) continue;
             for (med_int g = 0; g < groups; ++g) {
-                std::string group = trimmed(names.data() + static_cast<std::size_t>(g) * MED_LNAME_SIZE, MED_LNAME_SIZE);
+                std::string group =
+                    trimmed(names.data() + static_cast<std::size_t>(g) * MED_LNAME_SIZE, MED_LNAME_SIZE);
                 if (!group.empty()) family.names.push_back(std::move(group));
             }
             families_.push_back(std::move(family));
@@ -342,7 +346,8 @@ private:
         numbers_.build(families_);
         for (std::size_t i = 0; i < families_.size(); ++i)
             if (numbers_.find(families_[i].number) != static_cast<std::int32_t>(i))
-                fail("contradictory or damaged: family number " + std::to_string(families_[i].number) + " is declared twice");
+                fail("contradictory or damaged: family number " + std::to_string(families_[i].number) +
+                     " is declared twice");
     }
 
     /// No array can be larger than this; a larger count is damage. Compressed files shrink at most so much.
@@ -585,7 +590,9 @@ FacetElement facet_element(const Mesh& mesh, const Facet& facet) {
     const CellTraits& t = traits(facet.type);
     const std::span<const Index> nodes = mesh.block(facet.type).nodes(facet.cell);
     FacetElement out;
-    const auto push = [&](int local) { out.nodes[static_cast<std::size_t>(out.size++)] = nodes[static_cast<std::size_t>(local)]; };
+    const auto push = [&](int local) {
+        out.nodes[static_cast<std::size_t>(out.size++)] = nodes[static_cast<std::size_t>(local)];
+    };
     const auto push_middle = [&](int a, int b) {
         for (std::size_t e = 0; e < t.edges.size(); ++e)
             if ((t.edges[e][0] == a && t.edges[e][1] == b) || (t.edges[e][0] == b && t.edges[e][1] == a))
@@ -607,7 +614,8 @@ FacetElement facet_element(const Mesh& mesh, const Facet& facet) {
     if (t.dimension == 3) {
         const auto& face = t.faces[static_cast<std::size_t>(facet.face) - 1];
         while (count < 4 && face[static_cast<std::size_t>(count)] >= 0) ++count;
-        for (int k = 0; k < count; ++k) corners[static_cast<std::size_t>(k)] = face[static_cast<std::size_t>((count - k) % count)];
+        for (int k = 0; k < count; ++k)
+            corners[static_cast<std::size_t>(k)] = face[static_cast<std::size_t>((count - k) % count)];
         if (facet.type == CellType::hexahedron27) centre = hexahedron27_face_node[facet.face - 1];
         if (facet.type == CellType::wedge18) centre = wedge18_face_node[facet.face - 1];
     } else {
@@ -752,7 +760,8 @@ private:
         std::string name = mesh_.name.substr(0, MED_NAME_SIZE);
         // Do not cut through a UTF-8 character.
         if (name.size() < mesh_.name.size())
-            while (!name.empty() && (static_cast<unsigned char>(mesh_.name[name.size()]) & 0xC0) == 0x80) name.pop_back();
+            while (!name.empty() && (static_cast<unsigned char>(mesh_.name[name.size()]) & 0xC0) == 0x80)
+                name.pop_back();
         for (char& c : name)
             if (c == '/' || c == '\0') c = '_';
         while (!name.empty() && name.back() == ' ') name.pop_back();
@@ -799,12 +808,14 @@ private:
         const auto families = std::make_unique_for_overwrite<med_int[]>(size);
         SparseCheck sparse_check(1 << 14);
         for (std::size_t i = 0; i < size; ++i, sparse_check()) {
-            for (std::size_t a = 0; a < 3; ++a) coordinates[a * size + i] = mesh_.points[i][static_cast<Eigen::Index>(a)];
+            for (std::size_t a = 0; a < 3; ++a)
+                coordinates[a * size + i] = mesh_.points[i][static_cast<Eigen::Index>(a)];
             numbers[i] = med_number(mesh_.node_ids[i]);
             families[i] = nodes_.number[static_cast<std::size_t>(mesh_.node_families[i])];
         }
         const auto count = static_cast<med_int>(n);
-        check(MEDmeshNodeCoordinateWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_NO_INTERLACE, count, coordinates.get()),
+        check(MEDmeshNodeCoordinateWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_NO_INTERLACE, count,
+                                      coordinates.get()),
               "the coordinates");
         check_cancelled();
         check(MEDmeshEntityNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, count, numbers.get()),
@@ -836,14 +847,15 @@ private:
                 families[at] = elements_.number[static_cast<std::size_t>(block->families[c])];
             }
         }
-        check(MEDmeshElementConnectivityWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type.geometry, MED_NODAL,
-                                           MED_NO_INTERLACE, count, connectivity.get()),
+        check(MEDmeshElementConnectivityWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type.geometry,
+                                           MED_NODAL, MED_NO_INTERLACE, count, connectivity.get()),
               "the connectivity");
         check_cancelled();
         check(MEDmeshEntityNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_CELL, type.geometry, count, numbers.get()),
               "the element numbers");
         check_cancelled();
-        check(MEDmeshEntityFamilyNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_CELL, type.geometry, count, families.get()),
+        check(MEDmeshEntityFamilyNumberWr(fid_, name_, MED_NO_DT, MED_NO_IT, MED_CELL, type.geometry, count,
+                                          families.get()),
               "the families of the elements");
     }
 

@@ -23,14 +23,17 @@ namespace {
 
 /// VTK's cell type numbers in the order of CellType (vtkCellType.h).
 constexpr std::array<std::uint8_t, cell_type_count> vtk_types = {1,  3,  21, 5,  22, 34, 9,  23, 28, 10,
-                                                                24, 14, 27, 13, 26, 32, 12, 25, 29};
+                                                                 24, 14, 27, 13, 26, 32, 12, 25, 29};
 
 /// Length of the valid UTF-8 character that `text` begins with; 0 if there is none.
 std::size_t utf8_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byte(0);
-    const std::size_t n = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3
-                          : lead >= 0xF0 && lead < 0xF5                 ? 4 : 0;
+    const std::size_t n = lead < 0x80                   ? 1
+                          : lead >= 0xC2 && lead < 0xE0 ? 2
+                          : lead >= 0xE0 && lead < 0xF0 ? 3
+                          : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                        : 0;
     if (n == 0 || text.size() < n) return 0;
     for (std::size_t i = 1; i < n; ++i)
         if ((byte(i) & 0xC0) != 0x80) return 0;
@@ -52,12 +55,18 @@ std::string escaped(std::string_view text) {
             out += static_cast<char>(0xC0 | (c >> 6));
             out += static_cast<char>(0x80 | (c & 0x3F));
             n = 1;
-        } else if (c < 0x20) out += '_';
-        else if (c == '&') out += "&amp;";
-        else if (c == '<') out += "&lt;";
-        else if (c == '>') out += "&gt;";
-        else if (c == '"') out += "&quot;";
-        else out += text.substr(0, n);
+        } else if (c < 0x20)
+            out += '_';
+        else if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += text.substr(0, n);
         text.remove_prefix(n);
     }
     return out;
@@ -104,7 +113,8 @@ private:
             uLongf length = packed.size();
             const std::size_t here = std::min(block_size, size - b * block_size);
             // With a buffer of this size only lack of memory can make it fail.
-            if (compress2(packed.data(), &length, bytes + b * block_size, static_cast<uLong>(here), Z_BEST_SPEED) != Z_OK)
+            if (compress2(packed.data(), &length, bytes + b * block_size, static_cast<uLong>(here), Z_BEST_SPEED) !=
+                Z_OK)
                 throw std::bad_alloc();
             const auto stored = static_cast<std::uint64_t>(length);
             std::memcpy(data.data() + head + (3 + b) * sizeof stored, &stored, sizeof stored);
@@ -128,7 +138,8 @@ private:
 /// 1 for the families that contain `group`, by family.
 std::vector<std::uint8_t> families_with(const Mesh& mesh, GroupIndex group) {
     std::vector<std::uint8_t> in(static_cast<std::size_t>(mesh.families.size()));
-    for (FamilyIndex f = 0; f < mesh.families.size(); ++f) in[static_cast<std::size_t>(f)] = mesh.families.contains(f, group);
+    for (FamilyIndex f = 0; f < mesh.families.size(); ++f)
+        in[static_cast<std::size_t>(f)] = mesh.families.contains(f, group);
     return in;
 }
 
@@ -209,7 +220,8 @@ void write_cells(Document& document, const Mesh& mesh) {
 void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
     AtomicFile target(path);
     Document document;
-    document.xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    document.xml =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
     document.xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
     document.xml += "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n";
     document.xml += "<Piece NumberOfPoints=\"" + std::to_string(mesh.node_count()) + "\" NumberOfCells=\"" +

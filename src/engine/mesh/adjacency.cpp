@@ -20,7 +20,8 @@ Adjacency::Adjacency(const Mesh& mesh) : start_(mesh.points.size() + 1, 0) {
         SparseCheck check(1 << 16);
         for (Index c = 0; c < b.size(); ++c, check())
             for (int k = 0; k < t.corners; ++k)
-                cells_[fill[b.connectivity[static_cast<std::size_t>(c) * t.nodes + k]]++] = c * cell_type_count + static_cast<Index>(b.type);
+                cells_[fill[b.connectivity[static_cast<std::size_t>(c) * t.nodes + k]]++] =
+                    c * cell_type_count + static_cast<Index>(b.type);
     }
 }
 
@@ -42,10 +43,13 @@ CellLists elements_near(const Mesh& mesh, const std::vector<std::int8_t>& level,
     }
     // One bit per element puts them in order at next to no cost.
     std::array<std::vector<bool>, cell_type_count> near;
-    for (const CellBlock& block : mesh.blocks()) near[static_cast<int>(block.type)].resize(static_cast<std::size_t>(block.size()));
+    for (const CellBlock& block : mesh.blocks())
+        near[static_cast<int>(block.type)].resize(static_cast<std::size_t>(block.size()));
     for (std::size_t n = 0; n < level.size(); ++n)
         if (level[n] >= 0)
-            adjacency->around(static_cast<Index>(n), [&](CellType type, Index cell) { near[static_cast<int>(type)][static_cast<std::size_t>(cell)] = true; });
+            adjacency->around(static_cast<Index>(n), [&](CellType type, Index cell) {
+                near[static_cast<int>(type)][static_cast<std::size_t>(cell)] = true;
+            });
     for (std::size_t type = 0; type < near.size(); ++type)
         for (std::size_t c = 0; c < near[type].size(); ++c)
             if (near[type][c]) cells[type].push_back(static_cast<Index>(c));

@@ -31,7 +31,8 @@ private:
 /// Indices of elements, ascending, by type.
 using CellLists = std::array<std::vector<Index>, cell_type_count>;
 
-/// The elements with a corner node where level[node] >= 0. One pass over the elements, unless their `adjacency` is given.
+/// The elements with a corner node where level[node] >= 0. One pass over the elements, unless their `adjacency` is
+/// given.
 CellLists elements_near(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency);
 
 }  // namespace femscalpel

@@ -48,8 +48,9 @@ void BandMesh::merge_node(int p, int t) {
 }
 
 bool BandMesh::is_cut_edge(int a, int b) const {
-    return cut_edges.find({a, b}) >= 0 ||
-           std::ranges::any_of(cut_faces.around(a), [&](int s) { return std::ranges::find(cut_faces[s], b) != cut_faces[s].end(); });
+    return cut_edges.find({a, b}) >= 0 || std::ranges::any_of(cut_faces.around(a), [&](int s) {
+               return std::ranges::find(cut_faces[s], b) != cut_faces[s].end();
+           });
 }
 
 bool BandMesh::is_cut_border(int a, int b) const {
@@ -116,7 +117,8 @@ double BandMesh::mean_edge_length(int node) const {
     return count > 0 ? sum / count : 0;
 }
 
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency, bool simplices_only) {
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency,
+                      bool simplices_only) {
     BandMesh band;
     const CellLists chosen = elements_near(mesh, level, adjacency);
     check_cancelled();
@@ -129,12 +131,14 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, c
             for (int k = 0; k < t.corners; ++k) local[block.connectivity[c * t.nodes + k]] = 0;
         if (!t.simplex && !cells.empty()) {
             std::string numbers;
-            for (std::size_t k = 0; k < cells.size() && k < 5; ++k) numbers += (k ? ", " : "") + std::to_string(block.ids[cells[k]]);
+            for (std::size_t k = 0; k < cells.size() && k < 5; ++k)
+                numbers += (k ? ", " : "") + std::to_string(block.ids[cells[k]]);
             if (cells.size() > 5) numbers += ", ...";
-            throw UnsupportedElementError("the tool's band reaches " + std::to_string(cells.size()) + " " + std::string(t.name) +
-                                          " elements (" + numbers +
-                                          "); only triangles and tetrahedra can be cut. Choose a smaller transition, move the tool, "
-                                          "or split these elements into tetrahedra first");
+            throw UnsupportedElementError(
+                "the tool's band reaches " + std::to_string(cells.size()) + " " + std::string(t.name) + " elements (" +
+                numbers +
+                "); only triangles and tetrahedra can be cut. Choose a smaller transition, move the tool, "
+                "or split these elements into tetrahedra first");
         }
     }
     for (std::size_t n = 0; n < local.size(); ++n)
@@ -144,7 +148,8 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, c
         }
     for_each_list(band, [&](auto& list) { list.resize_nodes(band.size()); });
 
-    const auto fill = [&]<std::size_t N>(SimplexList<N>& list, std::vector<CellRef>& refs, CellType linear, std::optional<CellType> quadratic) {
+    const auto fill = [&]<std::size_t N>(SimplexList<N>& list, std::vector<CellRef>& refs, CellType linear,
+                                         std::optional<CellType> quadratic) {
         std::vector<std::array<int, N>> simplices;
         for (const std::optional<CellType> type : {std::optional(linear), quadratic}) {
             if (!type) continue;
@@ -160,7 +165,8 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, c
                 refs.push_back({*type, c});
                 if (t.quadratic)
                     for (std::size_t e = 0; e < t.edges.size(); ++e)
-                        band.mid_nodes.emplace(edge_key(v[t.edges[e][0]], v[t.edges[e][1]]), n[t.corners + static_cast<int>(e)]);
+                        band.mid_nodes.emplace(edge_key(v[t.edges[e][0]], v[t.edges[e][1]]),
+                                               n[t.corners + static_cast<int>(e)]);
             }
         }
         check_cancelled();
@@ -176,8 +182,10 @@ BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, c
         const std::vector<Index>& cells = chosen[static_cast<int>(type)];
         const auto at = std::ranges::lower_bound(cells, cell);
         if (at == cells.end() || *at != cell) return -1;
-        const CellType first = traits(type).dimension == 3 ? CellType::tetra : CellType::triangle;  // fill() put it first
-        return static_cast<int>(at - cells.begin()) + (type == first ? 0 : static_cast<int>(chosen[static_cast<int>(first)].size()));
+        const CellType first =
+            traits(type).dimension == 3 ? CellType::tetra : CellType::triangle;  // fill() put it first
+        return static_cast<int>(at - cells.begin()) +
+               (type == first ? 0 : static_cast<int>(chosen[static_cast<int>(first)].size()));
     };
     for (std::size_t k = 0; k < mesh.facets.size(); ++k) {
         const Facet& f = mesh.facets[k];

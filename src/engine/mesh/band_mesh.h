@@ -105,7 +105,8 @@ public:
     /// Slot of a simplex with exactly these nodes in any order, or -1.
     int find(const Nodes& wanted) const {
         for (const int s : around_[wanted[0]])
-            if (std::ranges::all_of(wanted, [&](int v) { return std::ranges::find(nodes_[s], v) != nodes_[s].end(); })) return s;
+            if (std::ranges::all_of(wanted, [&](int v) { return std::ranges::find(nodes_[s], v) != nodes_[s].end(); }))
+                return s;
         return -1;
     }
 
@@ -124,11 +125,11 @@ inline std::uint64_t edge_key(int a, int b) {
 
 /// A node of a BandMesh.
 struct BandNode {
-    Vec3 at;             ///< where it is now
-    Vec3 start;          ///< where it was in the input, or where it was born
-    Index global = -1;   ///< index in the input mesh; -1 for a node born here
-    int level = 0;       ///< how many edges away from the tool's elements; -1 for the fixed outer ring
-    bool gone = false;   ///< all its elements were removed
+    Vec3 at;            ///< where it is now
+    Vec3 start;         ///< where it was in the input, or where it was born
+    Index global = -1;  ///< index in the input mesh; -1 for a node born here
+    int level = 0;      ///< how many edges away from the tool's elements; -1 for the fixed outer ring
+    bool gone = false;  ///< all its elements were removed
     bool movable() const { return level >= 0; }
 };
 
@@ -151,7 +152,7 @@ public:
     SimplexList<3> facet_faces;  ///< facets of tetrahedra, normal out of their element (tag: index in Mesh::facets)
     SimplexList<2> facet_edges;  ///< facets on edges of triangles, in their direction (tag likewise)
     std::vector<std::pair<int, int>> facet_sides;  ///< facets that are a whole side of a triangle: (slot, index)
-    std::vector<CellRef> tetra_cells;     ///< by slot of the original element
+    std::vector<CellRef> tetra_cells;              ///< by slot of the original element
     std::vector<CellRef> triangle_cells;
     std::vector<CellRef> line_cells;
     std::vector<CellRef> vertex_cells;
@@ -200,7 +201,9 @@ public:
 
 /// Copies the elements of `mesh` that have a node with 0 <= level[node]; `level` is -1 elsewhere. One pass over the
 /// elements, unless their `adjacency` is given.
-/// Throws UnsupportedElementError naming the elements when one of them is not a simplex, or leaves them out if `simplices_only`.
-BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency = nullptr, bool simplices_only = false);
+/// Throws UnsupportedElementError naming the elements when one of them is not a simplex, or leaves them out if
+/// `simplices_only`.
+BandMesh extract_band(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency = nullptr,
+                      bool simplices_only = false);
 
 }  // namespace femscalpel

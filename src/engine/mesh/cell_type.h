@@ -37,11 +37,11 @@ inline constexpr int cell_type_count = 19;
 /// What is fixed for an element type.
 struct CellTraits {
     CellType type;
-    std::string_view name;  ///< meshio's name, e.g. "tetra10"
-    int dimension;          ///< 0 to 3
-    int nodes;              ///< nodes per element
-    int corners;            ///< corner nodes per element
-    CellType linear;        ///< the type with the same corners and no other nodes
+    std::string_view name;                              ///< meshio's name, e.g. "tetra10"
+    int dimension;                                      ///< 0 to 3
+    int nodes;                                          ///< nodes per element
+    int corners;                                        ///< corner nodes per element
+    CellType linear;                                    ///< the type with the same corners and no other nodes
     std::span<const std::array<std::int8_t, 2>> edges;  ///< corner pairs; the mid-side node of edge k
                                                         ///< of a quadratic element is node corners + k
     /// Local faces of a volume element as lists of corners (-1 ends a triangle), in CalculiX's

@@ -9,8 +9,8 @@ namespace femscalpel {
 
 /// A part of a mesh, as a mesh of its own.
 struct Crop {
-    Mesh mesh;                  ///< numbers, coordinates, families, groups (also those left empty) as in the whole
-    std::vector<Index> nodes;   ///< index in the whole mesh of each node, ascending
+    Mesh mesh;                 ///< numbers, coordinates, families, groups (also those left empty) as in the whole
+    std::vector<Index> nodes;  ///< index in the whole mesh of each node, ascending
 };
 
 /// The elements `cells` of a mesh, with their nodes and facets. The order of nodes and

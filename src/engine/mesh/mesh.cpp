@@ -11,9 +11,12 @@ namespace femscalpel {
 
 std::string_view to_string(GroupKind kind) {
     switch (kind) {
-        case GroupKind::node: return "node";
-        case GroupKind::element: return "element";
-        case GroupKind::facet: return "facet";
+        case GroupKind::node:
+            return "node";
+        case GroupKind::element:
+            return "element";
+        case GroupKind::facet:
+            return "facet";
     }
     return "";
 }
@@ -64,9 +67,7 @@ Index Mesh::add_cell(CellType type, std::span<const Index> nodes, Index id, Fami
     return b.size() - 1;
 }
 
-Index Mesh::largest_node_id() const {
-    return node_ids.empty() ? 0 : *std::ranges::max_element(node_ids);
-}
+Index Mesh::largest_node_id() const { return node_ids.empty() ? 0 : *std::ranges::max_element(node_ids); }
 
 Index Mesh::largest_cell_id() const {
     Index largest = 0;
@@ -107,8 +108,10 @@ void Mesh::validate() const {
     ids.clear();
     for (const CellBlock& b : blocks_) {
         const CellTraits& t = traits(b.type);
-        if (b.connectivity.size() != b.ids.size() * static_cast<std::size_t>(t.nodes) || b.families.size() != b.ids.size())
-            throw Error("connectivity or families of the " + std::string(t.name) + " elements do not match their number");
+        if (b.connectivity.size() != b.ids.size() * static_cast<std::size_t>(t.nodes) ||
+            b.families.size() != b.ids.size())
+            throw Error("connectivity or families of the " + std::string(t.name) +
+                        " elements do not match their number");
         for (Index c = 0; c < b.size(); ++c, check()) {
             const std::string who = std::string(t.name) + " element " + std::to_string(b.ids[c]);
             if (b.ids[c] <= 0) throw Error(who + ": element numbers must be positive");
@@ -133,15 +136,20 @@ struct NumberIndex::Tables {
         std::unordered_map<Index, std::int64_t> sparse;
 
         void reserve(Index largest, Index count) {
-            if (largest < 4 * count + 1024) flat.assign(static_cast<std::size_t>(largest) + 1, -1);
-            else sparse.reserve(static_cast<std::size_t>(count));
+            if (largest < 4 * count + 1024)
+                flat.assign(static_cast<std::size_t>(largest) + 1, -1);
+            else
+                sparse.reserve(static_cast<std::size_t>(count));
         }
         void put(Index id, std::int64_t value) {
-            if (!flat.empty()) flat[static_cast<std::size_t>(id)] = value;
-            else sparse.emplace(id, value);
+            if (!flat.empty())
+                flat[static_cast<std::size_t>(id)] = value;
+            else
+                sparse.emplace(id, value);
         }
         std::int64_t get(Index id) const {
-            if (!flat.empty()) return id >= 0 && id < static_cast<Index>(flat.size()) ? flat[static_cast<std::size_t>(id)] : -1;
+            if (!flat.empty())
+                return id >= 0 && id < static_cast<Index>(flat.size()) ? flat[static_cast<std::size_t>(id)] : -1;
             const auto it = sparse.find(id);
             return it == sparse.end() ? -1 : it->second;
         }
@@ -206,8 +214,9 @@ int last_face(CellType type) {
 
 void check_facet(const Group& group, CellType type, Index id, Index face) {
     if (face < 1 || face > last_face(type))
-        throw Error(describe(group) + " names face " + std::to_string(face) + " of element " + std::to_string(id) + ", a " +
-                    std::string(traits(type).name) + ", which has faces 1 to " + std::to_string(last_face(type)));
+        throw Error(describe(group) + " names face " + std::to_string(face) + " of element " + std::to_string(id) +
+                    ", a " + std::string(traits(type).name) + ", which has faces 1 to " +
+                    std::to_string(last_face(type)));
 }
 
 using FacetKey = std::array<Index, 3>;  // type, cell, face
@@ -282,8 +291,10 @@ void set_group_members(Mesh& mesh, GroupIndex group, const GroupMembers& members
     SparseCheck check;
     for (Index id : members.ids) {
         check();
-        if (g.kind == GroupKind::node) nodes.push_back(find_node(numbers, g, id));
-        else cells.push_back(find_cell(numbers, g, id));
+        if (g.kind == GroupKind::node)
+            nodes.push_back(find_node(numbers, g, id));
+        else
+            cells.push_back(find_cell(numbers, g, id));
     }
     if (g.kind == GroupKind::facet) {
         if (members.faces.size() != members.ids.size())
@@ -345,7 +356,8 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members) {
                 cell_pairs.group.push_back(static_cast<GroupIndex>(g));
             }
         } else {
-            if (m.faces.size() != m.ids.size()) throw Error(describe(group) + " needs one face number per element number");
+            if (m.faces.size() != m.ids.size())
+                throw Error(describe(group) + " needs one face number per element number");
             for (std::size_t i = 0; i < m.ids.size(); ++i) {
                 const CellRef c = find_cell(numbers, group, m.ids[i]);
                 check_facet(group, c.type, m.ids[i], m.faces[i]);
@@ -385,7 +397,8 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members) {
         set.clear();
         for (; i < facet_pairs.size() && facet_pairs[i].first == key; ++i) set.push_back(facet_pairs[i].second);
         set.erase(std::unique(set.begin(), set.end()), set.end());
-        mesh.facets.push_back({static_cast<CellType>(key[0]), static_cast<std::int8_t>(key[2]), mesh.families.intern(set), key[1]});
+        mesh.facets.push_back(
+            {static_cast<CellType>(key[0]), static_cast<std::int8_t>(key[2]), mesh.families.intern(set), key[1]});
     }
 }
 

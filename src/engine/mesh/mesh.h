@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/cell_type.h"
 #include "error.h"
+#include "mesh/cell_type.h"
 #include "mesh/family_table.h"
 
 namespace femscalpel {
@@ -40,9 +40,9 @@ struct Group {
 /// All elements of one type.
 struct CellBlock {
     CellType type = CellType::vertex;
-    std::vector<Index> connectivity;     ///< size() x nodes per element, indices into Mesh::points
-    std::vector<Index> ids;              ///< element numbers, unique in the mesh
-    std::vector<FamilyIndex> families;   ///< one per element
+    std::vector<Index> connectivity;    ///< size() x nodes per element, indices into Mesh::points
+    std::vector<Index> ids;             ///< element numbers, unique in the mesh
+    std::vector<FamilyIndex> families;  ///< one per element
 
     Index size() const { return static_cast<Index>(ids.size()); }
     std::span<const Index> nodes(Index cell) const {

@@ -21,7 +21,8 @@ const std::vector<GaussPoint>& tetra_rule() {
     static const std::vector<GaussPoint> rule = [] {
         std::vector<GaussPoint> r{{{0.25, 0.25, 0.25}, -4.0 / 5 / 6}};
         const double a = 1.0 / 6, b = 0.5;
-        for (const Vec3& p : {Vec3(a, a, a), Vec3(b, a, a), Vec3(a, b, a), Vec3(a, a, b)}) r.push_back({p, 9.0 / 20 / 6});
+        for (const Vec3& p : {Vec3(a, a, a), Vec3(b, a, a), Vec3(a, b, a), Vec3(a, a, b)})
+            r.push_back({p, 9.0 / 20 / 6});
         return r;
     }();
     return rule;
@@ -71,16 +72,22 @@ std::vector<GaussPoint> wedge_rule() {
 /// The reference coordinates of an element's nodes.
 std::vector<Vec3> reference_nodes(CellType type) {
     static const Vec3 simplex[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    static const Vec3 cube[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    static const Vec3 cube[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                 {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
     static const Vec3 wedge[6] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
     const CellTraits& t = traits(type);
     std::vector<Vec3> nodes;
     for (int k = 0; k < t.corners; ++k) {
-        if (t.corners == 8) nodes.push_back(cube[k]);
-        else if (t.corners == 6) nodes.push_back(wedge[k]);
-        else if (t.dimension == 2 && t.corners == 4) nodes.push_back({cube[k].x(), cube[k].y(), 0});
-        else if (t.dimension == 1) nodes.push_back({k == 0 ? -1.0 : 1.0, 0, 0});
-        else nodes.push_back(simplex[k]);
+        if (t.corners == 8)
+            nodes.push_back(cube[k]);
+        else if (t.corners == 6)
+            nodes.push_back(wedge[k]);
+        else if (t.dimension == 2 && t.corners == 4)
+            nodes.push_back({cube[k].x(), cube[k].y(), 0});
+        else if (t.dimension == 1)
+            nodes.push_back({k == 0 ? -1.0 : 1.0, 0, 0});
+        else
+            nodes.push_back(simplex[k]);
     }
     return nodes;
 }
@@ -103,7 +110,12 @@ public:
             if (type == CellType::wedge18)
                 for (auto f : {std::initializer_list<int>{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}) centre(f);
             if (type == CellType::hexahedron27) {
-                for (auto f : {std::initializer_list<int>{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}})
+                for (auto f : {std::initializer_list<int>{0, 4, 7, 3},
+                               {1, 2, 6, 5},
+                               {0, 1, 5, 4},
+                               {3, 7, 6, 2},
+                               {0, 3, 2, 1},
+                               {4, 5, 6, 7}})
                     centre(f);
                 centre({0, 1, 2, 3, 4, 5, 6, 7});
             }
@@ -124,7 +136,8 @@ public:
                 if (powers_[j][axis] > 0) {
                     std::array<int, 3> p = powers_[j];
                     --p[axis];
-                    out.row(axis) += powers_[j][axis] * monomial(p, x) * coefficients_.row(static_cast<Eigen::Index>(j));
+                    out.row(axis) +=
+                        powers_[j][axis] * monomial(p, x) * coefficients_.row(static_cast<Eigen::Index>(j));
                 }
         return out;
     }
@@ -146,14 +159,20 @@ private:
                     // Serendipity: total degree counting only exponents above one stays below "order".
                     const int superlinear = (i > 1 ? i : 0) + (j > 1 ? j : 0) + (k > 1 ? k : 0);
                     bool in = false;
-                    if (tensor && full) in = std::max({i, j, k}) <= 2;
-                    else if (tensor) in = std::max({i, j, k}) <= order && superlinear <= (order == 2 ? 2 : 0);
+                    if (tensor && full)
+                        in = std::max({i, j, k}) <= 2;
+                    else if (tensor)
+                        in = std::max({i, j, k}) <= order && superlinear <= (order == 2 ? 2 : 0);
                     else if (t.corners == 6) {
                         const int ij = i + j;
-                        if (type == CellType::wedge18) in = ij <= 2 && k <= 2;
-                        else if (order == 1) in = ij <= 1 && k <= 1;
-                        else in = (ij <= 2 && k <= 1) || (ij <= 1 && k == 2);
-                    } else in = i + j + k <= order;
+                        if (type == CellType::wedge18)
+                            in = ij <= 2 && k <= 2;
+                        else if (order == 1)
+                            in = ij <= 1 && k <= 1;
+                        else
+                            in = (ij <= 2 && k <= 1) || (ij <= 1 && k == 2);
+                    } else
+                        in = i + j + k <= order;
                     if (in) powers_.push_back({i, j, k});
                 }
     }
@@ -173,10 +192,14 @@ const Integrator& integrator(CellType type) {
         for (const CellTraits& t : all_cell_types()) {
             if (t.dimension == 0 || t.corners == 5) continue;
             std::vector<GaussPoint> rule;
-            if (t.dimension == 3 && t.corners == 4) rule = tetra_rule();
-            else if (t.dimension == 2 && t.corners == 3) rule = triangle_rule();
-            else if (t.corners == 6) rule = wedge_rule();
-            else rule = tensor_rule(t.dimension);
+            if (t.dimension == 3 && t.corners == 4)
+                rule = tetra_rule();
+            else if (t.dimension == 2 && t.corners == 3)
+                rule = triangle_rule();
+            else if (t.corners == 6)
+                rule = wedge_rule();
+            else
+                rule = tensor_rule(t.dimension);
             // The seventh node of a triangle is taken to lie where the other six put it.
             const ShapeGradients shape(t.type == CellType::triangle7 ? CellType::triangle6 : t.type);
             for (const GaussPoint& g : rule) {
@@ -192,7 +215,8 @@ const Integrator& integrator(CellType type) {
 /// Volume of a pyramid: its base split by a diagonal, averaged over both diagonals.
 double pyramid_volume(const std::array<Vec3, 5>& p) {
     return (signed_volume(p[0], p[1], p[2], p[4]) + signed_volume(p[0], p[2], p[3], p[4]) +
-            signed_volume(p[0], p[1], p[3], p[4]) + signed_volume(p[1], p[2], p[3], p[4])) / 2;
+            signed_volume(p[0], p[1], p[3], p[4]) + signed_volume(p[1], p[2], p[3], p[4])) /
+           2;
 }
 
 }  // namespace
@@ -200,8 +224,8 @@ double pyramid_volume(const std::array<Vec3, 5>& p) {
 namespace {
 
 double squared_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return (b - a).squaredNorm() + (c - a).squaredNorm() + (d - a).squaredNorm() + (c - b).squaredNorm() + (d - b).squaredNorm() +
-           (d - c).squaredNorm();
+    return (b - a).squaredNorm() + (c - a).squaredNorm() + (d - a).squaredNorm() + (c - b).squaredNorm() +
+           (d - b).squaredNorm() + (d - c).squaredNorm();
 }
 
 }  // namespace
@@ -239,22 +263,28 @@ double mean_ratio(const Mesh& mesh, CellType type, Index cell) {
     double worst = 1;
     if (t.dimension == 2) {
         const double regular = mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
-        for (int k = 0; k < 4; ++k) worst = std::min(worst, mean_ratio(at(k), at((k + 1) % 4), at((k + 3) % 4)) / regular);
+        for (int k = 0; k < 4; ++k)
+            worst = std::min(worst, mean_ratio(at(k), at((k + 1) % 4), at((k + 3) % 4)) / regular);
         return worst;
     }
     if (t.corners == 8) {
-        static const int corner[8][4] = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
+        static const int corner[8][4] = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
+                                         {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
         const double regular = mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
-        for (const auto& c : corner) worst = std::min(worst, mean_ratio(at(c[0]), at(c[1]), at(c[2]), at(c[3])) / regular);
+        for (const auto& c : corner)
+            worst = std::min(worst, mean_ratio(at(c[0]), at(c[1]), at(c[2]), at(c[3])) / regular);
     } else if (t.corners == 6) {
-        static const int corner[6][4] = {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}};
+        static const int corner[6][4] = {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5},
+                                         {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}};
         const double h = std::sqrt(3.0) / 2;
         const double regular = mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, h, 0), Vec3(0, 0, 1));
-        for (const auto& c : corner) worst = std::min(worst, mean_ratio(at(c[0]), at(c[1]), at(c[2]), at(c[3])) / regular);
+        for (const auto& c : corner)
+            worst = std::min(worst, mean_ratio(at(c[0]), at(c[1]), at(c[2]), at(c[3])) / regular);
     } else {
         static const int corner[4][4] = {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}};
         const double regular = mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, std::sqrt(0.5)));
-        for (const auto& c : corner) worst = std::min(worst, mean_ratio(at(c[0]), at(c[1]), at(c[2]), at(c[3])) / regular);
+        for (const auto& c : corner)
+            worst = std::min(worst, mean_ratio(at(c[0]), at(c[1]), at(c[2]), at(c[3])) / regular);
     }
     return worst;
 }
@@ -272,22 +302,31 @@ namespace {
 double measure_of(CellType type, auto at) {
     const CellTraits& t = traits(type);
     switch (type) {
-        case CellType::vertex: return 0;
-        case CellType::line: return (at(1) - at(0)).norm();
-        case CellType::triangle: return (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
-        case CellType::tetra: return signed_volume(at(0), at(1), at(2), at(3));
+        case CellType::vertex:
+            return 0;
+        case CellType::line:
+            return (at(1) - at(0)).norm();
+        case CellType::triangle:
+            return (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+        case CellType::tetra:
+            return signed_volume(at(0), at(1), at(2), at(3));
         case CellType::pyramid:
-        case CellType::pyramid13: return pyramid_volume({at(0), at(1), at(2), at(3), at(4)});
-        default: break;
+        case CellType::pyramid13:
+            return pyramid_volume({at(0), at(1), at(2), at(3), at(4)});
+        default:
+            break;
     }
     const Integrator& rule = integrator(type);
     double measure = 0;
     for (std::size_t g = 0; g < rule.weights.size(); ++g) {
         Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();  // column a: derivative along reference axis a
         for (int k = 0; k < rule.gradients[g].cols(); ++k) jacobian += at(k) * rule.gradients[g].col(k).transpose();
-        if (t.dimension == 3) measure += rule.weights[g] * jacobian.determinant();
-        else if (t.dimension == 2) measure += rule.weights[g] * jacobian.col(0).cross(jacobian.col(1)).norm();
-        else measure += rule.weights[g] * jacobian.col(0).norm();
+        if (t.dimension == 3)
+            measure += rule.weights[g] * jacobian.determinant();
+        else if (t.dimension == 2)
+            measure += rule.weights[g] * jacobian.col(0).cross(jacobian.col(1)).norm();
+        else
+            measure += rule.weights[g] * jacobian.col(0).norm();
     }
     return measure;
 }
@@ -307,7 +346,8 @@ double smallest_jacobian(const std::array<Vec3, 10>& nodes) {
     static const std::array<Eigen::Matrix<double, 3, 10>, 4> gradients = [] {
         const ShapeGradients shape(CellType::tetra10);
         const double a = (5 - std::sqrt(5.0)) / 20, b = (5 + 3 * std::sqrt(5.0)) / 20;
-        return std::array<Eigen::Matrix<double, 3, 10>, 4>{shape.at({a, a, a}), shape.at({b, a, a}), shape.at({a, b, a}), shape.at({a, a, b})};
+        return std::array<Eigen::Matrix<double, 3, 10>, 4>{shape.at({a, a, a}), shape.at({b, a, a}),
+                                                           shape.at({a, b, a}), shape.at({a, a, b})};
     }();
     double smallest = std::numeric_limits<double>::infinity();
     for (const Eigen::Matrix<double, 3, 10>& g : gradients) {

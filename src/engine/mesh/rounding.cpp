@@ -14,16 +14,16 @@ namespace {
 /// Coordinates that are looked at, at most.
 constexpr std::size_t sample = 6000;
 
-/// A coordinate with fewer digits below the size of the mesh is simple, however far from the origin: it says nothing about how the others
-/// were rounded.
+/// A coordinate with fewer digits below the size of the mesh is simple, however far from the origin: it says nothing
+/// about how the others were rounded.
 constexpr int fewest_digits = 5;
 /// One with more was not rounded to decimals.
 constexpr int most_digits = 11;
 /// A number of single precision that has as few decimal digits may as well be just that.
 constexpr int digits_of_single = 8;
 
-/// Parts of the coordinates that are not simple: from so many on they were rounded so; a last digit that so many of these have is the
-/// file's (one in ten ends in a zero).
+/// Parts of the coordinates that are not simple: from so many on they were rounded so; a last digit that so many of
+/// these have is the file's (one in ten ends in a zero).
 constexpr double noticed = 0.05, typical = 0.15;
 
 /// The files meant have six digits or more; in sizes of the mesh.
@@ -58,7 +58,8 @@ double coordinate_rounding(std::span<const Vec3> points) {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
-    const double largest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()), size = (high - low).maxCoeff();
+    const double largest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()),
+                 size = (high - low).maxCoeff();
     if (!(size > 0)) return 0;
     const int first_digit = static_cast<int>(std::floor(std::log10(size)));
     const std::size_t stride = std::max<std::size_t>(1, points.size() * 3 / sample);

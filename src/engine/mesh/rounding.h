@@ -7,11 +7,11 @@
 
 namespace femscalpel {
 
-/// How far coordinates may be off what they were before a file rounded them, in the mesh's unit: half a unit of their last digit
-/// where many of them end after some 5 to 11 significant digits (text files), or half a unit in the last place of single precision where they
-/// are numbers of that; 0 for coordinates that show neither (double precision), and for those that are simple, such as a grid's.
-/// At most 1e-5 of the size of the mesh. New nodes in double precision among old rounded ones, as a second operation meets them, do not
-/// hide these. Looks at some thousand coordinates.
+/// How far coordinates may be off what they were before a file rounded them, in the mesh's unit: half a unit of their
+/// last digit where many of them end after some 5 to 11 significant digits (text files), or half a unit in the last
+/// place of single precision where they are numbers of that; 0 for coordinates that show neither (double precision),
+/// and for those that are simple, such as a grid's. At most 1e-5 of the size of the mesh. New nodes in double precision
+/// among old rounded ones, as a second operation meets them, do not hide these. Looks at some thousand coordinates.
 double coordinate_rounding(std::span<const Vec3> points);
 
 }  // namespace femscalpel

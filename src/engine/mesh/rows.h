@@ -57,7 +57,9 @@ private:
         int count = 0;
         int room = 0;
     };
-    std::span<int> values(int row) { return {pool_.data() + rows_[row].start, static_cast<std::size_t>(rows_[row].count)}; }
+    std::span<int> values(int row) {
+        return {pool_.data() + rows_[row].start, static_cast<std::size_t>(rows_[row].count)};
+    }
 
     std::vector<Row> rows_;
     std::vector<int> pool_;

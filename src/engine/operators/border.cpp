@@ -33,7 +33,8 @@ public:
         for (int v = 0; v < band_.size(); ++v) measure(v);
         split_dipping_edges(false);
         snap_nodes();
-        // A node put on one side of a corner may have closed it, or left an edge across it; the other side has to be found again.
+        // A node put on one side of a corner may have closed it, or left an edge across it; the other side has to be
+        // found again.
         if (!patch_.corners.empty()) split_dipping_edges(true);
         for (const auto& [a, b] : edges([&](int a, int b) { return value_[a] * value_[b] < 0; })) {
             const Vec3 at = crossing(a, b);
@@ -101,11 +102,13 @@ private:
         });
     }
 
-    /// Where along a-b (0 to 1) it is deepest beyond the border though both ends are on one side; negative where it stays there.
-    /// Shallow dips count only if `exact`, or opposite a corner: there the border has to come out, however narrow the corner is.
+    /// Where along a-b (0 to 1) it is deepest beyond the border though both ends are on one side; negative where it
+    /// stays there. Shallow dips count only if `exact`, or opposite a corner: there the border has to come out, however
+    /// narrow the corner is.
     double dip_at(int a, int b, bool exact) const {
         const double ends = value_[a] != 0 ? value_[a] : value_[b];
-        if (ends == 0 || value_[a] * value_[b] < 0 || std::min(std::abs(value_[a]), std::abs(value_[b])) > length(a, b)) return -1;
+        if (ends == 0 || value_[a] * value_[b] < 0 || std::min(std::abs(value_[a]), std::abs(value_[b])) > length(a, b))
+            return -1;
         const auto depth = [&](double t) {
             return patch_.distance((1 - t) * band_.nodes[a].at + t * band_.nodes[b].at) * (ends > 0 ? -1 : 1);
         };
@@ -163,7 +166,9 @@ private:
             const double mean = band_.mean_edge_length(v), ratio = std::abs(value_[v]) / mean;
             if (ratio < snap_reach) candidates.push_back({ratio, v, mean});
         }
-        std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) { return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node); });
+        std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) {
+            return std::pair(x.ratio, x.node) < std::pair(y.ratio, y.node);
+        });
         for (const Candidate& c : candidates) {
             check_cancelled();
             if (!crosses(c.node)) continue;
@@ -171,7 +176,8 @@ private:
             if (snap(c.node, c.length, tools)) continue;
             const double reach = reach_beyond(c.node);
             if (!is_beside(value_[c.node], reach, f_.part_to_hold(c.node))) {
-                if (is_beside(value_[c.node], reach, along_beside)) f_.passed[c.node] = std::abs(value_[c.node]) / reach;
+                if (is_beside(value_[c.node], reach, along_beside))
+                    f_.passed[c.node] = std::abs(value_[c.node]) / reach;
                 continue;
             }
             d_.hold_beside(c.node, tools);
@@ -202,7 +208,8 @@ private:
     Vec3 crossing(int a, int b) const {
         const Vec3 &pa = band_.nodes[a].at, &pb = band_.nodes[b].at;
         const auto at = [&](double t) { return Vec3(pa + t * (pb - pa)); };
-        return at(root_between(value_[a], value_[b], 1e-3 * f_.tolerance, [&](double t) { return patch_.distance(at(t)); }));
+        return at(
+            root_between(value_[a], value_[b], 1e-3 * f_.tolerance, [&](double t) { return patch_.distance(at(t)); }));
     }
 
     /// Makes a corner of the patch a node of the interface, if the interface gets there.
@@ -230,12 +237,14 @@ private:
         }
         // Outside the mesh; but a faceted surface may pass a corner by.
         if (face < 0 || (least > 1e-6 && !std::isfinite(f_.tool->feature_size()))) return;
-        Contact tools = Contact(f_.tool).with(patch_.sides[corner.sides[0]].get()).with(patch_.sides[corner.sides[1]].get());
+        Contact tools =
+            Contact(f_.tool).with(patch_.sides[corner.sides[0]].get()).with(patch_.sides[corner.sides[1]].get());
         const auto seat = [&](int v, double enough) {
             Vec3 target = corner.at;
             // A node born in the corner itself is on its sides already; one of another corner is not for this one.
             if (!tools.includes(d_.contact[v]) || d_.contact[v].full() || !d_.contact[v].has(f_.tool)) return false;
-            if (!d_.constraints.project(v, tools, target) || (target - corner.at).norm() > 10 * f_.tolerance) return false;
+            if (!d_.constraints.project(v, tools, target) || (target - corner.at).norm() > 10 * f_.tolerance)
+                return false;
             return move(v, target, tools, std::numeric_limits<double>::infinity(), enough);
         };
         std::array<int, 3> nodes = band_.cut_faces[face];
@@ -243,7 +252,8 @@ private:
         const double edge = length(nodes[0], nodes[1]);
         if ((band_.nodes[nodes[0]].at - corner.at).norm() < snap_reach * edge && seat(nodes[0], 0.1)) return;
         // A new node on the nearest edge, moved from there.
-        const std::array<std::pair<int, int>, 3> sides{std::pair(nodes[0], nodes[1]), std::pair(nodes[0], nodes[2]), std::pair(nodes[1], nodes[2])};
+        const std::array<std::pair<int, int>, 3> sides{std::pair(nodes[0], nodes[1]), std::pair(nodes[0], nodes[2]),
+                                                       std::pair(nodes[1], nodes[2])};
         std::vector<std::pair<double, std::pair<int, int>>> order;
         for (const auto& [a, b] : sides) {
             const Vec3 &p = band_.nodes[a].at, &q = band_.nodes[b].at;
@@ -262,7 +272,8 @@ private:
         for (const int v : nodes)
             if (seat(v, 0.01)) return;
         std::ostringstream message;
-        message << "the corner of the crack front at (" << corner.at.transpose() << ") cannot be made a node: the mesh is too coarse there, or the corner too "
+        message << "the corner of the crack front at (" << corner.at.transpose()
+                << ") cannot be made a node: the mesh is too coarse there, or the corner too "
                 << "close to a surface or border. Refine the mesh near it, or move the corner";
         throw QualityError(message.str());
     }
@@ -298,7 +309,8 @@ bool meets_material(const BandMesh& band, const Patch& patch) {
         const auto& v = band.cut_faces[s];
         for (int i = 0; i <= n; ++i)
             for (int j = 0; i + j <= n; ++j)
-                if (patch.distance(at(v[0]) + (at(v[1]) - at(v[0])) * i / n + (at(v[2]) - at(v[0])) * j / n) < 0) return true;
+                if (patch.distance(at(v[0]) + (at(v[1]) - at(v[0])) * i / n + (at(v[2]) - at(v[0])) * j / n) < 0)
+                    return true;
     }
     for (int s = 0; s < band.cut_edges.size(); ++s) {
         if (!band.cut_edges.alive(s)) continue;
@@ -309,15 +321,17 @@ bool meets_material(const BandMesh& band, const Patch& patch) {
     return false;
 }
 
-/// Nodes that were moved onto the tool where it is not wanted after all go back to where they were, if elements allow it; the others are
-/// relaxed with the crack's.
+/// Nodes that were moved onto the tool where it is not wanted after all go back to where they were, if elements allow
+/// it; the others are relaxed with the crack's.
 void send_home(Interface& f, std::vector<int> nodes) {
     for (bool any = true; any;) {
         any = false;
         for (int& v : nodes) {
             if (v < 0 || f.d.band.is_new(v)) continue;
             BandNode& node = f.d.band.nodes[v];
-            if (node.at != node.start && quality_around(f.d, v, node.start) < std::min(0.3, quality_around(f.d, v, node.at))) continue;
+            if (node.at != node.start &&
+                quality_around(f.d, v, node.start) < std::min(0.3, quality_around(f.d, v, node.at)))
+                continue;
             node.at = node.start;
             v = -1;
             any = true;
@@ -332,7 +346,9 @@ void send_home(Interface& f, std::vector<int> nodes) {
 bool part_closed_faces(Interface& f, const Patch& patch) {
     const int before = f.d.band.size();
     BandMesh& band = f.d.band;
-    const auto on_front = [&](int v) { return std::ranges::any_of(f.d.contact[v].tools(), [&](const Tool* t) { return patch.has(t); }); };
+    const auto on_front = [&](int v) {
+        return std::ranges::any_of(f.d.contact[v].tools(), [&](const Tool* t) { return patch.has(t); });
+    };
     const auto split = [&](int a, int b) {
         const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
         f.d.split_edge(a, b, f.d.fitted_split(a, b, f.tool->project(middle), f.tool).at, f.tool);
@@ -355,7 +371,8 @@ bool part_closed_faces(Interface& f, const Patch& patch) {
     for (int s = 0; s < band.cut_faces.size(); ++s)
         for (int k = 0; k < 3 && band.cut_faces.alive(s); ++k) {
             const int a = band.cut_faces[s][k], b = band.cut_faces[s][(k + 1) % 3];
-            if (!on_front(a) || !on_front(b) || !band.is_cut_border(a, b) || !f.d.constraints.is_skin_edge(band, a, b)) continue;
+            if (!on_front(a) || !on_front(b) || !band.is_cut_border(a, b) || !f.d.constraints.is_skin_edge(band, a, b))
+                continue;
             if (patch.distance((band.nodes[a].at + band.nodes[b].at) / 2) < -10 * f.tolerance) split(a, b);
         }
     // An edge inside the crack from one node of the front to another would join the lips along it.
@@ -365,7 +382,8 @@ bool part_closed_faces(Interface& f, const Patch& patch) {
             if (on_front(a) && on_front(b) && !band.is_cut_border(a, b)) split(a, b);
         }
     for (int s = 0; s < band.cut_edges.size(); ++s)
-        if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front)) split(band.cut_edges[s][0], band.cut_edges[s][1]);
+        if (band.cut_edges.alive(s) && std::ranges::all_of(band.cut_edges[s], on_front))
+            split(band.cut_edges[s][0], band.cut_edges[s][1]);
     return f.d.band.size() > before;
 }
 
@@ -378,7 +396,8 @@ void cut_border(Interface& f, const Patch& patch) {
 void keep_patch(Interface& f, const Patch& patch) {
     BandMesh& band = f.d.band;
     const auto too_coarse = [&](const std::string& why) {
-        throw ToolError("the mesh is too coarse for the crack: " + why + ". Refine the mesh near the crack front first, or make the crack larger");
+        throw ToolError("the mesh is too coarse for the crack: " + why +
+                        ". Refine the mesh near the crack front first, or make the crack larger");
     };
     const auto any_inside = [&](const auto& list) {
         for (int s = 0; s < list.size(); ++s)
@@ -387,7 +406,9 @@ void keep_patch(Interface& f, const Patch& patch) {
     };
     if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges)) {
         if (meets_material(band, patch)) too_coarse("no element face fits in it");
-        throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}}, "the crack lies outside the part, or is far smaller than the elements there: no material was found within its front. Move it, or make it larger"));
+        throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}},
+                                          "the crack lies outside the part, or is far smaller than the elements there: "
+                                          "no material was found within its front. Move it, or make it larger"));
     }
     const auto drop = [&](auto& list) {
         for (int s = 0; s < list.size(); ++s)
@@ -396,7 +417,9 @@ void keep_patch(Interface& f, const Patch& patch) {
     drop(band.cut_faces);
     drop(band.cut_edges);
     const auto on_corner = [&](int v) {
-        return std::ranges::any_of(patch.corners, [&](const Patch::Corner& c) { return (c.at - band.nodes[v].at).norm() <= 100 * f.tolerance; });
+        return std::ranges::any_of(patch.corners, [&](const Patch::Corner& c) {
+            return (c.at - band.nodes[v].at).norm() <= 100 * f.tolerance;
+        });
     };
     double radius = std::numeric_limits<double>::infinity();
     for (const auto& side : patch.sides) radius = std::min(radius, side->feature_size());
@@ -409,14 +432,17 @@ void keep_patch(Interface& f, const Patch& patch) {
             if (both.count() < 2) continue;
             const double off = std::abs(patch.distance((band.nodes[a].at + band.nodes[b].at) / 2));
             int faces = 0;
-            for (const int t : band.cut_faces.around(a)) faces += std::ranges::find(band.cut_faces[t], b) != band.cut_faces[t].end();
-            if (faces == 1 && off > deepest_sag * radius) too_coarse("its front would be cut short by up to " + std::to_string(off));
+            for (const int t : band.cut_faces.around(a))
+                faces += std::ranges::find(band.cut_faces[t], b) != band.cut_faces[t].end();
+            if (faces == 1 && off > deepest_sag * radius)
+                too_coarse("its front would be cut short by up to " + std::to_string(off));
         }
     }
     for (int v = 0; v < band.size(); ++v)
         if (f.d.contact[v].count() == 3 && band.cut_faces.around(v).empty() && on_corner(v)) {
             std::ostringstream message;
-            message << "the crack front cannot be led around its corner at (" << band.nodes[v].at.transpose() << "): the mesh is too coarse there. Refine it near the corner first";
+            message << "the crack front cannot be led around its corner at (" << band.nodes[v].at.transpose()
+                    << "): the mesh is too coarse there. Refine it near the corner first";
             throw QualityError(message.str());
         }
     part_closed_faces(f, patch);

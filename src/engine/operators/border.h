@@ -6,9 +6,9 @@
 
 namespace femscalpel {
 
-/// Makes edges of the interface (BandMesh::cut_faces and cut_edges) lie along the border of a patch of the tool: the crack
-/// front. As cut_along() does in the volume: corners of the patch become nodes, nodes near the border are moved onto it
-/// within the interface, edges of the interface that still cross are bisected on it.
+/// Makes edges of the interface (BandMesh::cut_faces and cut_edges) lie along the border of a patch of the tool: the
+/// crack front. As cut_along() does in the volume: corners of the patch become nodes, nodes near the border are moved
+/// onto it within the interface, edges of the interface that still cross are bisected on it.
 ///
 /// Throws QualityError when a corner cannot be made a node.
 void cut_border(Interface& interface, const Patch& patch);
@@ -17,9 +17,10 @@ void cut_border(Interface& interface, const Patch& patch);
 /// from nodes on none that is left. Throws ToolError when the patch is finer than the mesh.
 void keep_patch(Interface& interface, const Patch& patch);
 
-/// A face of the crack all of whose nodes are on the front would stay closed: its longest edge inside the crack, or on the
-/// skin, gets a node in between. So does an edge of the skin that joins two nodes of the front across the crack's mouth, and an edge
-/// of a shell's crack between two tips, and an edge inside the crack from front to front, along which the lips would hang together. True if there was any.
+/// A face of the crack all of whose nodes are on the front would stay closed: its longest edge inside the crack, or on
+/// the skin, gets a node in between. So does an edge of the skin that joins two nodes of the front across the crack's
+/// mouth, and an edge of a shell's crack between two tips, and an edge inside the crack from front to front, along
+/// which the lips would hang together. True if there was any.
 bool part_closed_faces(Interface& interface, const Patch& patch);
 
 }  // namespace femscalpel

@@ -67,16 +67,20 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
                 double longest = 0;
                 for (const int v : list[s]) {
                     middle += band.nodes[v].at / static_cast<double>(list[s].size());
-                    for (const int w : list[s]) longest = std::max(longest, (band.nodes[v].at - band.nodes[w].at).squaredNorm());
+                    for (const int w : list[s])
+                        longest = std::max(longest, (band.nodes[v].at - band.nodes[w].at).squaredNorm());
                 }
                 // No deeper than the chords of the wall are, either: what is deeper was to be removed.
                 if (body.depth(middle) >= -std::min(deepest_bulge * radius, longest / (8 * radius))) continue;
                 std::ostringstream message;
                 const double edge = std::sqrt(longest);
-                message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius " << radius << " near (" << middle.transpose()
-                        << "): an element with edges of " << edge << " would reach deep into it. Refine the mesh there first, to edges of at most "
+                message << "the mesh is too coarse for the " << body.walls.front().tool->kind() << " of radius "
+                        << radius << " near (" << middle.transpose() << "): an element with edges of " << edge
+                        << " would reach deep into it. Refine the mesh there first, to edges of at most "
                         << std::min(radius, edge / 2);
-                if (edge <= radius) message << ", or move the tool: it may nearly touch a border or the skin there, and leave only a thin layer of material";
+                if (edge <= radius)
+                    message << ", or move the tool: it may nearly touch a border or the skin there, and leave only a "
+                               "thin layer of material";
                 throw ToolError(message.str());
             }
         };
@@ -91,7 +95,8 @@ void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* c
         const Tool& tool = *tool_of_tag[tag];
         if (!dynamic_cast<const Cylinder*>(&tool)) continue;
         const double radius = tool.feature_size();
-        double measure = 0, left = 0;  // of the wall; what is between it and the cylinder, where distances grow as squares
+        double measure = 0,
+               left = 0;  // of the wall; what is between it and the cylinder, where distances grow as squares
         const auto add = [&](double size, double mean_distance) {
             measure += size;
             left -= size * mean_distance;
@@ -100,13 +105,16 @@ void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* c
         const auto middle = [&](int v, int w) { return tool.distance((at(v) + at(w)) / 2); };
         for (const auto& [n, group, element, second_order] : walls.faces)
             if (group == static_cast<int>(tag) && !second_order)
-                add((at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2, (middle(n[0], n[1]) + middle(n[1], n[2]) + middle(n[2], n[0])) / 3);
+                add((at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2,
+                    (middle(n[0], n[1]) + middle(n[1], n[2]) + middle(n[2], n[0])) / 3);
         for (const auto& [n, group, element, second_order] : walls.edges)
-            if (group == static_cast<int>(tag) && !second_order) add((at(n[1]) - at(n[0])).norm(), middle(n[0], n[1]) * 2 / 3);
+            if (group == static_cast<int>(tag) && !second_order)
+                add((at(n[1]) - at(n[0])).norm(), middle(n[0], n[1]) * 2 / 3);
         const double part = measure > 0 ? 2 * left / (radius * measure) : 0;
         if (part <= flat_walls) continue;
         std::ostringstream message;
-        message << "the mesh is coarse for the " << tool.kind() << " of radius " << radius << ": the flat faces of the wall leave about " << std::lround(100 * part)
+        message << "the mesh is coarse for the " << tool.kind() << " of radius " << radius
+                << ": the flat faces of the wall leave about " << std::lround(100 * part)
                 << " % of the hole standing. Refine the mesh there first, to edges of at most " << radius / 2;
         f.warnings.push_back(message.str());
     }
@@ -119,19 +127,24 @@ Index solid_count(const Mesh& mesh) {
     return count;
 }
 
-/// The bodies without walls that the whole mesh lies behind, such as the bottom of a hole that is deeper than the part: these bound
-/// nothing. Throws ToolError when a body has no other walls.
-std::vector<Body> without_idle_walls(const Mesh& mesh, std::span<const Body> bodies, std::vector<std::string>& warnings) {
+/// The bodies without walls that the whole mesh lies behind, such as the bottom of a hole that is deeper than the part:
+/// these bound nothing. Throws ToolError when a body has no other walls.
+std::vector<Body> without_idle_walls(const Mesh& mesh, std::span<const Body> bodies,
+                                     std::vector<std::string>& warnings) {
     std::vector<Body> out(bodies.begin(), bodies.end());
     for (Body& body : out) {
         const Body all = body;
         check_cancelled();
-        std::erase_if(body.walls, [&](const Body::Wall& w) { return std::ranges::all_of(mesh.points, [&](const Vec3& x) { return w.tool->distance(x) <= 0; }); });
+        std::erase_if(body.walls, [&](const Body::Wall& w) {
+            return std::ranges::all_of(mesh.points, [&](const Vec3& x) { return w.tool->distance(x) <= 0; });
+        });
         if (body.walls.empty())
-            throw ToolError("the " + all.walls.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
+            throw ToolError("the " + all.walls.front().tool->kind() +
+                            " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
         for (const Body::Wall& w : all.walls)
             if (std::ranges::none_of(body.walls, [&](const Body::Wall& left) { return left.tool == w.tool; }))
-                warnings.push_back("the wall " + w.suffixes.front().substr(1) + " (" + w.tool->kind() + ") lies beyond the part: what is removed reaches right through there");
+                warnings.push_back("the wall " + w.suffixes.front().substr(1) + " (" + w.tool->kind() +
+                                   ") lies beyond the part: what is removed reaches right through there");
     }
     return out;
 }
@@ -144,8 +157,8 @@ double Body::depth(const Vec3& x) const {
     return depth;
 }
 
-Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options, const std::array<const char*, 4>& sets,
-             const Prepared& prepared) {
+Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options,
+             const std::array<const char*, 4>& sets, const Prepared& prepared) {
     const Stopwatch::Time started = Stopwatch::now();
     if (auto refined = refine_first(input, zones_of(bodies, options.refine), options, prepared)) {
         refined->seconds = Stopwatch::since(started);
@@ -174,9 +187,13 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     }
     if (blades.empty()) throw ToolError("there is no tool: give at least one");
     if (options.method == Method::deform && blades.size() > 1)
-        throw ToolError("method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and several holes");
+        throw ToolError(
+            "method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and "
+            "several holes");
     Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()}, started);
-    Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) { return deep_inside(whole, level, depths); });
+    Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) {
+        return deep_inside(whole, level, depths);
+    });
     f.warnings.insert(f.warnings.end(), warnings.begin(), warnings.end());
     const Mesh& mesh = operation.mesh();
     const auto carve_once = [&](Interface& g) {
@@ -187,16 +204,22 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             const int first_tag = static_cast<int>(blade);
             for (const Body::Wall& wall : body.walls) {
                 tools.push_back(wall.tool);
-                if (options.method == Method::deform) deform_to_tool(g, *wall.tool, mesh);
-                else cut_along(g, blades[blade]);
+                if (options.method == Method::deform)
+                    deform_to_tool(g, *wall.tool, mesh);
+                else
+                    cut_along(g, blades[blade]);
                 ++blade;
             }
             removed += remove_inside(g, tools, first_tag);
         }
         if (removed == 0)
             throw ToolError("the " + blades.front().tool->kind() + " removes nothing: " +
-                            (operation.location().crossed == 0 ? "it touches the mesh from outside, and no element lies inside. Move the " + blades.front().tool->kind() + " into the material"
-                             : "what it would take off is thinner than the elements there. Refine the mesh there, or move the " + blades.front().tool->kind() + " into the material"));
+                            (operation.location().crossed == 0
+                                 ? "it touches the mesh from outside, and no element lies inside. Move the " +
+                                       blades.front().tool->kind() + " into the material"
+                                 : "what it would take off is thinner than the elements there. Refine the mesh there, "
+                                   "or move the " +
+                                       blades.front().tool->kind() + " into the material"));
         const bool left = [&] {
             for (int t = 0; t < g.d.band.tetras.size(); ++t)
                 if (g.d.band.tetras.alive(t)) return true;
@@ -205,13 +228,16 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             return false;
         }();
         if (!left && removed >= solid_count(operation.whole()))
-            throw ToolError("the " + blades.front().tool->kind() + " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
+            throw ToolError("the " + blades.front().tool->kind() +
+                            " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
         release_all_but_walls(g, tool_of_tag);
         note_slivers(g, tool_of_tag, 1);
         if (options.method == Method::snap) relax_band(g);
     };
-    if (options.method == Method::snap) cut_soundly(f, carve_once, operation.whole().cell_count(), carve_attempts);
-    else carve_once(f);
+    if (options.method == Method::snap)
+        cut_soundly(f, carve_once, operation.whole().cell_count(), carve_attempts);
+    else
+        carve_once(f);
     operation.take_laps(f.seconds);
     check_resolution(f, bodies);
     check_shape(f, mesh);

@@ -22,8 +22,8 @@ struct Body {
     double depth(const Vec3& x) const;
 };
 
-/// What drill() and cut() have in common (paper, 3.2 and 3.3): makes element faces lie on the bodies' surfaces, takes out
-/// the elements inside, with everything only they carried, and brings what is left into shape. Faces that become
+/// What drill() and cut() have in common (paper, 3.2 and 3.3): makes element faces lie on the bodies' surfaces, takes
+/// out the elements inside, with everything only they carried, and brings what is left into shape. Faces that become
 /// surface go to groups. `sets`: as in Naming.
 ///
 /// Throws ToolError when nothing or everything would be removed, and what crack() throws.

@@ -19,7 +19,8 @@
 namespace femscalpel {
 namespace {
 
-/// A face whose border lies this far inside the skin, in edge lengths, still counts as reaching it: the skin is faceted.
+/// A face whose border lies this far inside the skin, in edge lengths, still counts as reaching it: the skin is
+/// faceted.
 constexpr double outside = 0.05;
 
 /// Mean edge length at a node of the crack, in radii of curvature of the tool, from which the mesh counts as coarse.
@@ -35,7 +36,8 @@ void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
     keep_patch(f, patch);
     f.patched = true;
     f.d.barrier = &tool;
-    for (int v = 0; v < f.d.band.size(); ++v) f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
+    for (int v = 0; v < f.d.band.size(); ++v)
+        f.d.side[v] = static_cast<signed char>((f.distance[v] > 0) - (f.distance[v] < 0));
     relax_band(f);
     if (part_closed_faces(f, patch)) {  // which improving elements may close again
         find_node_sets(f);
@@ -67,24 +69,28 @@ std::vector<int> inner_border(const Interface& f, const Lips& lips) {
 void check_lips(const Interface& f, const Lips& lips, const Patch* patch) {
     for (const int v : lips.interface_nodes) {
         const Vec3& x = f.d.band.nodes[v].at;
-        const double held = f.d.held_off[v], off = std::abs(f.tool->distance(x)) - held, beyond = patch ? patch->distance(x) - held : 0;
+        const double held = f.d.held_off[v], off = std::abs(f.tool->distance(x)) - held,
+                     beyond = patch ? patch->distance(x) - held : 0;
         if (off <= 10 * f.tolerance && beyond <= 100 * f.tolerance) continue;
         std::ostringstream message;
         message << "a node of the crack near (" << x.transpose() << ") cannot be brought ";
-        if (off > 10 * f.tolerance) message << "onto the " << f.tool->kind() << ": it stays off by " << off;
-        else message << "to the front: it stays " << beyond << " beyond it";
+        if (off > 10 * f.tolerance)
+            message << "onto the " << f.tool->kind() << ": it stays off by " << off;
+        else
+            message << "to the front: it stays " << beyond << " beyond it";
         message << ". The mesh is too coarse there: refine it near the crack first";
         throw QualityError(message.str());
     }
 }
 
-/// Exactly the faces of a bounded crack must have come apart, each lip must have them all, and the front must be their whole border
-/// inside the material and lie on the patch's.
+/// Exactly the faces of a bounded crack must have come apart, each lip must have them all, and the front must be their
+/// whole border inside the material and lie on the patch's.
 void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
     const BandMesh& band = f.d.band;
     const auto fail = [&](int v) {
         std::ostringstream message;
-        message << "the crack cannot be opened cleanly near (" << band.nodes[v].at.transpose() << "): the mesh is too coarse for its front there. Refine it near the front, "
+        message << "the crack cannot be opened cleanly near (" << band.nodes[v].at.transpose()
+                << "): the mesh is too coarse for its front there. Refine it near the front, "
                 << "or move the crack a little";
         throw QualityError(message.str());
     };
@@ -99,7 +105,8 @@ void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
     std::map<Key, std::vector<Key>> faces;  // as they are now, by what they were
     for (const int t : near)
         for (const auto& c : corners) {
-            const auto &was = band.tetras[t], &is = static_cast<std::size_t>(t) < lips.tetras.size() ? lips.tetras[t] : was;
+            const auto &was = band.tetras[t],
+                       &is = static_cast<std::size_t>(t) < lips.tetras.size() ? lips.tetras[t] : was;
             faces[sorted({was[c[0]], was[c[1]], was[c[2]]})].push_back(sorted({is[c[0]], is[c[1]], is[c[2]]}));
         }
     std::multiset<Key> opened, listed;
@@ -139,8 +146,10 @@ void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
     for (const int v : lips.interface_nodes) longest = std::max(longest, f.d.band.mean_edge_length(v));
     if (longest <= coarse * radius) return;
     std::ostringstream message;
-    message << "the mesh is coarse for the " << f.tool->kind() << ": edges of " << longest << " against a radius of curvature of " << radius
-            << "; the crack is flatter and smaller than the tool. Refine the mesh there first, to edges of at most " << radius / 2;
+    message << "the mesh is coarse for the " << f.tool->kind() << ": edges of " << longest
+            << " against a radius of curvature of " << radius
+            << "; the crack is flatter and smaller than the tool. Refine the mesh there first, to edges of at most "
+            << radius / 2;
     f.warnings.push_back(message.str());
 }
 
@@ -150,8 +159,13 @@ std::string why_no_lips(const Interface& f, const Lips& lips, const Blade& blade
     if (!lips.faces.empty() || !lips.edges.empty())
         return "the crack along " + tool + " cannot open: all its nodes are on its front. Refine the mesh there first";
     if (!crossed)
-        return why_nothing_parts(f, blade, tool + " only touches the mesh, along edges or in single nodes: it passes through no element and along no face. Move " + tool + " into the material");
-    return tool + " only grazes the mesh: what it would cut off is thinner than the elements there. Move " + tool + " into the material";
+        return why_nothing_parts(f, blade,
+                                 tool +
+                                     " only touches the mesh, along edges or in single nodes: it passes through no "
+                                     "element and along no face. Move " +
+                                     tool + " into the material");
+    return tool + " only grazes the mesh: what it would cut off is thinner than the elements there. Move " + tool +
+           " into the material";
 }
 
 }  // namespace
@@ -163,16 +177,19 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (options.method == Method::snap && std::isfinite(tool.feature_size())) blade.tag = whole_tool;
     if (tool.bounded()) blade.bound = [&tool](const Vec3& x) { return tool.beyond(x); };
     if (tool.bounded() && options.method == Method::deform)
-        throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " + tool.kind());
+        throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " +
+                        tool.kind());
     std::optional<Patch> patch;
     if (options.within) {
-        if (options.method == Method::deform) throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
+        if (options.method == Method::deform)
+            throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
         patch = options.within->on(tool);
         blade.bound = patch->distance;
         blade.tag = whole_tool;
     }
     const auto on_refined = [&]() -> std::optional<Result> {
-        const auto zone = patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine);
+        const auto zone =
+            patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine);
         if (!zone) return {};
         auto refined = refine_first(input, {&*zone, 1}, options, prepared);
         if (!refined) return {};
@@ -182,16 +199,20 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (auto result = on_refined()) return std::move(*result);
     Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"}, started);
     Interface f = operation.begin({&blade, 1});
-    // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut along.
+    // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut
+    // along.
     const std::optional<Interface> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
     if (patch) {
-        cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
+        cut_soundly(
+            f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
     } else if (operation.location().crossed > 0) {
         if (tool.bounded()) {
             cut_along(f, blade);
             relax_band(f);
-        } else if (options.method == Method::snap) snap_to_tool(f, blade, operation.whole().cell_count());
-        else deform_to_tool(f, tool, operation.mesh());
+        } else if (options.method == Method::snap)
+            snap_to_tool(f, blade, operation.whole().cell_count());
+        else
+            deform_to_tool(f, tool, operation.mesh());
     }
     check_cancelled();
     std::optional<Lips> lips;
@@ -203,7 +224,8 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
             blade.bound = patch->distance;
             blade.tag = whole_tool;
             f = *start;
-            cut_soundly(f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
+            cut_soundly(
+                f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
             lips.reset();
         }
     }
@@ -216,7 +238,9 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     check_lips(f, *lips, patch ? &*patch : nullptr);
     if (patch && !lips->faces.empty()) check_opening(f, *lips, *patch);
     warn_of_coarse_mesh(f, *lips);
-    return operation.finish(f, *lips, {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
+    return operation.finish(
+        f, *lips,
+        {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 
 }  // namespace femscalpel

@@ -24,19 +24,21 @@ struct CrackOptions : OperatorOptions {
 /// that part. There, in a solid, NAME_FRONT is an element group: new segments along the front, in order (each chain
 /// from end to end, a closed one once around). Front nodes are single and lie on the border curve.
 ///
-/// A Face whose border lies inside the material, or a part of its border does, is a crack within that border: the front lies on it.
+/// A Face whose border lies inside the material, or a part of its border does, is a crack within that border: the front
+/// lies on it.
 ///
-/// Cracks that the mesh has already stay as they are: their lips are skin, kept flat and whole, the nodes of their bent fronts stay
-/// in place. Where the new crack crosses one, the material comes apart into as many parts as meet there, each with nodes of its own;
-/// the two lips of the old crack need not match node for node there any more, which makes a warning.
+/// Cracks that the mesh has already stay as they are: their lips are skin, kept flat and whole, the nodes of their bent
+/// fronts stay in place. Where the new crack crosses one, the material comes apart into as many parts as meet there,
+/// each with nodes of its own; the two lips of the old crack need not match node for node there any more, which makes a
+/// warning.
 ///
-/// Shells that lie in the tool's surface are parted from those that stand on them: a sheet of them stays with the negative side, or,
-/// where others are joined to it on the negative side only, with the positive.
+/// Shells that lie in the tool's surface are parted from those that stand on them: a sheet of them stays with the
+/// negative side, or, where others are joined to it on the negative side only, with the positive.
 ///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
-/// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band reaches
-/// elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
+/// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band
+/// reaches elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).
 Result crack(const Mesh& mesh, const Tool& tool, const CrackOptions& options = {}, const Prepared& prepared = {});
 
 }  // namespace femscalpel

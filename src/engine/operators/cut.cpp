@@ -6,7 +6,8 @@
 
 namespace femscalpel {
 
-Result cut(const Mesh& mesh, const Tool& positive, const Tool& negative, const CutOptions& options, const Prepared& prepared) {
+Result cut(const Mesh& mesh, const Tool& positive, const Tool& negative, const CutOptions& options,
+           const Prepared& prepared) {
     Body body;
     body.walls.push_back({&positive, {"_P"}});
     body.walls.push_back({&negative, {"_N"}});
@@ -16,7 +17,8 @@ Result cut(const Mesh& mesh, const Tool& positive, const Tool& negative, const C
 
 Result cut(const Mesh& mesh, const Plane& plane, double width, const CutOptions& options, const Prepared& prepared) {
     const Vec3 half = checked_length(width, "width") / 2 * plane.unit_normal();
-    return cut(mesh, Plane(plane.origin() + half, plane.unit_normal()), Plane(plane.origin() - half, -plane.unit_normal()), options, prepared);
+    return cut(mesh, Plane(plane.origin() + half, plane.unit_normal()),
+               Plane(plane.origin() - half, -plane.unit_normal()), options, prepared);
 }
 
 }  // namespace femscalpel

@@ -9,8 +9,8 @@ namespace femscalpel {
 struct CutOptions : OperatorOptions {
     CutOptions() { name = "CUT"; }  // new groups: NAME_P, NAME_N, NAME_BOTTOM
 
-    /// Where the cut ends: it stays on the negative side of this tool, whose surface becomes its bottom (a plane, or the
-    /// cylinder of a circular saw). The cut goes through the whole part when null.
+    /// Where the cut ends: it stays on the negative side of this tool, whose surface becomes its bottom (a plane, or
+    /// the cylinder of a circular saw). The cut goes through the whole part when null.
     const Tool* bottom = nullptr;
 };
 
@@ -18,11 +18,13 @@ struct CutOptions : OperatorOptions {
 /// so that their normals point into the material that stays, with everything only the removed elements carried.
 /// Two planes that are not parallel make a notch. The input is not changed.
 ///
-/// New groups: NAME_P and NAME_N, the walls on `positive` and `negative` (triangles of a volume mesh, normals out of the
-/// material; segments of a shell mesh), NAME_BOTTOM. Throws as drill() does.
-Result cut(const Mesh& mesh, const Tool& positive, const Tool& negative, const CutOptions& options = {}, const Prepared& prepared = {});
+/// New groups: NAME_P and NAME_N, the walls on `positive` and `negative` (triangles of a volume mesh, normals out of
+/// the material; segments of a shell mesh), NAME_BOTTOM. Throws as drill() does.
+Result cut(const Mesh& mesh, const Tool& positive, const Tool& negative, const CutOptions& options = {},
+           const Prepared& prepared = {});
 
 /// A slot of `width` between two planes parallel to `plane`, which runs in the middle; NAME_P is on its positive side.
-Result cut(const Mesh& mesh, const Plane& plane, double width, const CutOptions& options = {}, const Prepared& prepared = {});
+Result cut(const Mesh& mesh, const Plane& plane, double width, const CutOptions& options = {},
+           const Prepared& prepared = {});
 
 }  // namespace femscalpel

@@ -8,8 +8,8 @@
 
 #include "cancel.h"
 #include "deformation/bar_network.h"
-#include "operators/interface.h"
 #include "operators/folded_input.h"
+#include "operators/interface.h"
 #include "operators/mend_curved.h"
 #include "operators/stopwatch.h"
 
@@ -39,7 +39,8 @@ public:
     using Weight = std::int64_t;
     static constexpr Weight endless = std::numeric_limits<Weight>::max() / 1000;
 
-    explicit VertexCut(int nodes) : first_(2 * static_cast<std::size_t>(nodes) + 2, -1), source_(2 * nodes), sink_(2 * nodes + 1) {}
+    explicit VertexCut(int nodes)
+        : first_(2 * static_cast<std::size_t>(nodes) + 2, -1), source_(2 * nodes), sink_(2 * nodes + 1) {}
 
     void set_weight(int v, Weight weight) { add(2 * v, 2 * v + 1, weight); }
     void join(int v, int w) {
@@ -157,7 +158,7 @@ public:
 
 private:
     struct Term {
-        Vec3 gradient;    // of the measure (volume or area) by the node's position
+        Vec3 gradient;  // of the measure (volume or area) by the node's position
         double offset;
         Vec3 corner_sum;
         double constant;  // squared edges = edges |x|^2 - 2 x.corner_sum + constant
@@ -171,7 +172,8 @@ private:
     double regular_measure(const std::array<int, N>& v) const {
         double squares = 0;
         for (std::size_t i = 0; i < N; ++i)
-            for (std::size_t j = 0; j < i; ++j) squares += (band_.nodes[v[i]].start - band_.nodes[v[j]].start).squaredNorm();
+            for (std::size_t j = 0; j < i; ++j)
+                squares += (band_.nodes[v[i]].start - band_.nodes[v[j]].start).squaredNorm();
         const double square = squares / (N * (N - 1) / 2.0);
         return N == 4 ? square * std::sqrt(square) / (6 * std::sqrt(2.0)) : square * std::sqrt(3.0) / 4;
     }
@@ -208,8 +210,8 @@ private:
                        c = band_.nodes[v[opposite[k][2]]].at - origin;
             const Vec3 gradient = (b - a).cross(c - a) / 6;
             terms_.push_back({gradient, -gradient.dot(a), a + b + c,
-                              a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() + (c - a).squaredNorm() +
-                                  (c - b).squaredNorm(),
+                              a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() +
+                                  (c - a).squaredNorm() + (c - b).squaredNorm(),
                               3, 2.0 / 3, delta * tetra_volume_[t], 1 / (12 * std::cbrt(9.0))});
         }
         for (const int t : band_.triangles.around(node)) {
@@ -218,8 +220,9 @@ private:
             const int k = static_cast<int>(std::ranges::find(v, node) - v.begin());
             const Vec3 a = band_.nodes[v[(k + 1) % 3]].at - origin, b = band_.nodes[v[(k + 2) % 3]].at - origin;
             const Vec3 gradient = d_.shell_normals[band_.triangles.origin(t)].cross(b - a) / 2;
-            terms_.push_back({gradient, -gradient.dot(a), a + b, a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm(), 2, 1,
-                              delta * shell_area_[t], 1 / (4 * std::sqrt(3.0))});
+            terms_.push_back({gradient, -gradient.dot(a), a + b,
+                              a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm(), 2, 1, delta * shell_area_[t],
+                              1 / (4 * std::sqrt(3.0))});
         }
     }
 
@@ -279,7 +282,9 @@ private:
             bool accepted = false;
             for (int halving = 0; halving < 6 && !accepted; ++halving, step /= 2) {
                 Vec3 x = node.at + step;
-                if (!d_.constraints.project(v, d_.contact[v], x) || d_.is_barred(v, x) || !(value(x - origin, nullptr, nullptr) < now)) continue;
+                if (!d_.constraints.project(v, d_.contact[v], x) || d_.is_barred(v, x) ||
+                    !(value(x - origin, nullptr, nullptr) < now))
+                    continue;
                 node.at = x;
                 accepted = true;
             }
@@ -389,8 +394,9 @@ public:
         };
         look(band_.tetras, band_.tetra_cells);
         look(band_.triangles, band_.triangle_cells);
-        throw QualityError("method \"deform\" finds no row of nodes that could be moved onto the " + std::string(tool_.kind()) +
-                           ": nodes on both sides of it cannot be moved there (elements " + list(elements) + "); use method \"snap\"");
+        throw QualityError("method \"deform\" finds no row of nodes that could be moved onto the " +
+                           std::string(tool_.kind()) + ": nodes on both sides of it cannot be moved there (elements " +
+                           list(elements) + "); use method \"snap\"");
     }
 
 private:
@@ -409,7 +415,8 @@ private:
     /// Nodes beyond the tool: there the interface does not separate what the tool does.
     void find_misplaced() {
         for (int v = 0; v < band_.size(); ++v)
-            if (side_[v] * tool_.distance(band_.nodes[v].at) < -f_.tolerance && !(band_.tetras.around(v).empty() && band_.triangles.around(v).empty()))
+            if (side_[v] * tool_.distance(band_.nodes[v].at) < -f_.tolerance &&
+                !(band_.tetras.around(v).empty() && band_.triangles.around(v).empty()))
                 misplaced_.push_back(v);
     }
 
@@ -425,11 +432,15 @@ private:
     void for_bad(auto visit) const {
         check_cancelled();
         const double limit = misplaced_.empty() ? std::max(good_enough, worst_) : acceptable;
-        const auto is_folded = [&](bool triangle, int slot) { return std::ranges::find(folded_, BandElement{triangle, slot}) != folded_.end(); };
+        const auto is_folded = [&](bool triangle, int slot) {
+            return std::ranges::find(folded_, BandElement{triangle, slot}) != folded_.end();
+        };
         for (int t = 0; t < band_.tetras.size(); ++t)
-            if (tetra_quality(d_, t) <= limit || is_folded(false, t)) visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
+            if (tetra_quality(d_, t) <= limit || is_folded(false, t))
+                visit(band_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)]);
         for (int t = 0; t < band_.triangles.size(); ++t)
-            if (is_shell(t) && (shell_quality(d_, t) <= limit || is_folded(true, t))) visit(band_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)]);
+            if (is_shell(t) && (shell_quality(d_, t) <= limit || is_folded(true, t)))
+                visit(band_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)]);
     }
 
     /// Where each node would go, and how far that is.
@@ -460,7 +471,8 @@ private:
         for (int v = 0; v < band_.size(); ++v) {
             check();
             const double r = slide_[v];
-            cut.set_weight(v, r > reach ? VertexCut::endless : weight(lessons_.penalty[v] * (0.1 + r * r + 2 * r * r * r * r)));
+            cut.set_weight(
+                v, r > reach ? VertexCut::endless : weight(lessons_.penalty[v] * (0.1 + r * r + 2 * r * r * r * r)));
             const double off = std::abs(f_.distance[v]) / length_[v];
             const bool held = band_.nodes[v].level != 0 || off > 1 || r > reach || lessons_.held[v] != 0;
             const auto wrong = held ? VertexCut::endless : weight(0.5 * off * off);
@@ -602,7 +614,9 @@ private:
         raise(*std::ranges::max_element(nodes, {}, [&](int v) { return std::pair(slide_[v], v); }), factor);
     }
 
-    void raise(int v, double factor) const { lessons_.penalty[v] = std::min(lessons_.penalty[v] * factor, largest_penalty); }
+    void raise(int v, double factor) const {
+        lessons_.penalty[v] = std::min(lessons_.penalty[v] * factor, largest_penalty);
+    }
 
     Interface& f_;
     Deformable& d_;
@@ -610,12 +624,12 @@ private:
     const Tool& tool_;
     const Mesh& mesh_;
     Lessons& lessons_;
-    std::vector<int> side_;       ///< +1, -1, 0: in the interface
-    std::vector<Vec3> target_;    ///< on the tool
-    std::vector<double> slide_;   ///< distance to it in mean edge lengths
-    std::vector<double> length_;  ///< mean edge lengths
+    std::vector<int> side_;            ///< +1, -1, 0: in the interface
+    std::vector<Vec3> target_;         ///< on the tool
+    std::vector<double> slide_;        ///< distance to it in mean edge lengths
+    std::vector<double> length_;       ///< mean edge lengths
     std::vector<BandElement> folded_;  ///< second-order elements
-    std::vector<int> misplaced_;  ///< nodes that ended on the wrong side of the tool
+    std::vector<int> misplaced_;       ///< nodes that ended on the wrong side of the tool
     double worst_ = 1;
 };
 

@@ -10,7 +10,8 @@
 
 namespace femscalpel {
 
-Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOptions& options, const Prepared& prepared) {
+Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOptions& options,
+             const Prepared& prepared) {
     if (options.depth && !(std::isfinite(*options.depth) && *options.depth > 0)) {
         std::ostringstream message;
         message << "depth is " << *options.depth << "; it must be positive";
@@ -24,8 +25,10 @@ Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOp
         if (tools.size() > 1) body.walls.back().suffixes.push_back("_WALL" + std::to_string(k + 1));
         if (options.depth) {
             const auto* cylinder = dynamic_cast<const Cylinder*>(tools[k]);
-            if (!cylinder) throw ToolError("depth is for cylinders; a " + tools[k]->kind() + " has no direction to measure it in");
-            bottoms.push_back(std::make_unique<Plane>(cylinder->origin() + *options.depth * cylinder->unit_axis(), cylinder->unit_axis()));
+            if (!cylinder)
+                throw ToolError("depth is for cylinders; a " + tools[k]->kind() + " has no direction to measure it in");
+            bottoms.push_back(std::make_unique<Plane>(cylinder->origin() + *options.depth * cylinder->unit_axis(),
+                                                      cylinder->unit_axis()));
             body.walls.push_back({bottoms.back().get(), {"_BOTTOM"}});
         }
         bodies.push_back(std::move(body));

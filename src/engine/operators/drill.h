@@ -21,13 +21,14 @@ struct DrillOptions : OperatorOptions {
 /// inside), with everything only the removed elements carried, and makes the walls lie on the tools. Several tools make
 /// several holes; they may overlap. The input is not changed.
 ///
-/// New groups: NAME_WALL, the faces on the tools (triangles of a volume mesh, normals out of the material; segments of a
-/// shell mesh); with several tools also one per hole, NAME_WALL1, ... in their order; NAME_BOTTOM, the bottoms of blind
-/// holes. Node sets of the report: IHN and EHN (hole, inside and on the outside), ITN and ETN. Groups that lose all
-/// their members stay, empty.
+/// New groups: NAME_WALL, the faces on the tools (triangles of a volume mesh, normals out of the material; segments of
+/// a shell mesh); with several tools also one per hole, NAME_WALL1, ... in their order; NAME_BOTTOM, the bottoms of
+/// blind holes. Node sets of the report: IHN and EHN (hole, inside and on the outside), ITN and ETN. Groups that lose
+/// all their members stay, empty.
 ///
-/// Throws ToolError (bad name or depth, a tool that misses the mesh or would remove all of it), UnsupportedElementError,
-/// QualityError as crack() does.
-Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOptions& options = {}, const Prepared& prepared = {});
+/// Throws ToolError (bad name or depth, a tool that misses the mesh or would remove all of it),
+/// UnsupportedElementError, QualityError as crack() does.
+Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOptions& options = {},
+             const Prepared& prepared = {});
 
 }  // namespace femscalpel

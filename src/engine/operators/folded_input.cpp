@@ -48,7 +48,8 @@ class Unfolder {
 public:
     explicit Unfolder(Deformable& d) : d_(d), band_(d.band) {}
 
-    /// Straightens an element, and those around it that get worse by that; false, and all is as it was, if that does not help.
+    /// Straightens an element, and those around it that get worse by that; false, and all is as it was, if that does
+    /// not help.
     bool straighten(BandElement folded) {
         std::vector<BandElement> chosen{folded};
         std::vector<std::pair<std::array<int, 2>, State>> moved;
@@ -60,7 +61,9 @@ public:
             for (const auto& ends : edges_of(band_, chosen[k]))
                 if (may_move(ends) && !d_.mids.bulge(ends[0], ends[1]).isZero(0)) edges.push_back(ends);
             for (const auto& [a, b] : edges)
-                for_second_order_at_edge(d_, a, b, [&](BandElement e) { wanted.try_emplace({e.triangle, e.slot}, std::min(curved_shape(d_, e), goal)); });
+                for_second_order_at_edge(d_, a, b, [&](BandElement e) {
+                    wanted.try_emplace({e.triangle, e.slot}, std::min(curved_shape(d_, e), goal));
+                });
             for (const auto& ends : edges) {
                 moved.push_back({ends, state(ends)});
                 if (!move(ends, 1)) moved.pop_back();
@@ -82,7 +85,9 @@ public:
     bool move_one(const std::array<int, 2>& ends) {
         if (!may_move(ends)) return false;
         std::vector<std::pair<BandElement, double>> around;
-        for_second_order_at_edge(d_, ends[0], ends[1], [&](BandElement e) { around.push_back({e, std::min(curved_shape(d_, e), goal)}); });
+        for_second_order_at_edge(d_, ends[0], ends[1], [&](BandElement e) {
+            around.push_back({e, std::min(curved_shape(d_, e), goal)});
+        });
         const State was = state(ends);
         double best = 0, best_gain = least_gain;
         for (const double part : {1.0, 0.5, 0.25, 0.125}) {
@@ -110,17 +115,23 @@ private:
 
     /// Whether all elements at the edge are here, and nothing holds its mid-side node.
     bool may_move(const std::array<int, 2>& ends) const {
-        return (band_.nodes[ends[0]].movable() || band_.nodes[ends[1]].movable()) && !d_.constraints.has_fixed_middle(ends[0], ends[1]);
+        return (band_.nodes[ends[0]].movable() || band_.nodes[ends[1]].movable()) &&
+               !d_.constraints.has_fixed_middle(ends[0], ends[1]);
     }
 
-    State state(const std::array<int, 2>& ends) const { return {d_.mids.bulge(ends[0], ends[1]), d_.mids.is_mended(ends[0], ends[1])}; }
+    State state(const std::array<int, 2>& ends) const {
+        return {d_.mids.bulge(ends[0], ends[1]), d_.mids.is_mended(ends[0], ends[1])};
+    }
 
     void restore(const std::array<int, 2>& ends, const State& was) {
-        if (was.mended) d_.mids.mend(ends[0], ends[1], was.bulge);
-        else d_.mids.put_back(ends[0], ends[1]);
+        if (was.mended)
+            d_.mids.mend(ends[0], ends[1], was.bulge);
+        else
+            d_.mids.put_back(ends[0], ends[1]);
     }
 
-    /// By a part of the way to the middle of the edge, on the surface or curve it is on; false if there is no such place.
+    /// By a part of the way to the middle of the edge, on the surface or curve it is on; false if there is no such
+    /// place.
     bool move(const std::array<int, 2>& ends, double part) {
         const Vec3 chord = (band_.nodes[ends[0]].at + band_.nodes[ends[1]].at) / 2;
         const NodeConstraint on = d_.constraints.on_edge(band_, ends[0], ends[1]);
@@ -137,8 +148,10 @@ private:
 /// Whether an element is not what it was, its mid-side nodes apart.
 bool is_touched(const Deformable& d, BandElement e) {
     const BandMesh& band = d.band;
-    return std::ranges::any_of(e.nodes(band), [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; }) ||
-           std::ranges::any_of(edges_of(band, e), [&](const auto& ends) { return static_cast<bool>(d.edge_contact(ends[0], ends[1])); });
+    return std::ranges::any_of(e.nodes(band),
+                               [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; }) ||
+           std::ranges::any_of(edges_of(band, e),
+                               [&](const auto& ends) { return static_cast<bool>(d.edge_contact(ends[0], ends[1])); });
 }
 
 /// Which mid-side nodes that were moved have to stay so.
@@ -184,7 +197,9 @@ private:
         bool any = false;
         const auto nodes = e.nodes(d_.band);
         for (const Moved& m : moved_) {
-            if (std::ranges::any_of(m.ends, [&](int v) { return std::ranges::find(nodes, v) == nodes.end(); }) || d_.mids.is_mended(m.ends[0], m.ends[1])) continue;
+            if (std::ranges::any_of(m.ends, [&](int v) { return std::ranges::find(nodes, v) == nodes.end(); }) ||
+                d_.mids.is_mended(m.ends[0], m.ends[1]))
+                continue;
             d_.mids.mend(m.ends[0], m.ends[1], m.bulge);
             any = true;
         }
@@ -213,12 +228,16 @@ void find_folded_input(Interface& f, const Mesh& mesh) {
             const double ratio = curved_ratio(points);
             if (ratio >= goal) continue;
             const Index id = mesh.block(c.type).ids[c.cell];
-            if (!(integration_ratio(points) > 0)) at_integration_points.push_back(id);
-            else f.folded_input[{triangle, s}] = {id, ratio, false};
+            if (!(integration_ratio(points) > 0))
+                at_integration_points.push_back(id);
+            else
+                f.folded_input[{triangle, s}] = {id, ratio, false};
         }
     if (at_integration_points.empty()) return;
-    throw QualityError("the mesh already has " + std::to_string(at_integration_points.size()) + " second-order element(s) near the tool that are folded (" +
-                       listed(at_integration_points, "element") + ") where solvers integrate: move their mid-side nodes nearer to the middle of their edges first");
+    throw QualityError(
+        "the mesh already has " + std::to_string(at_integration_points.size()) +
+        " second-order element(s) near the tool that are folded (" + listed(at_integration_points, "element") +
+        ") where solvers integrate: move their mid-side nodes nearer to the middle of their edges first");
 }
 
 void mend_folded_input(Interface& f) {
@@ -234,7 +253,8 @@ void mend_folded_input(Interface& f) {
                 if (is_bad(key)) any = unfolder.move_one(ends) || any;
         }
     }
-    for (auto& [key, folded] : f.folded_input) folded.mended = curved_shape(f.d, {key.first, key.second}) >= least_curved;
+    for (auto& [key, folded] : f.folded_input)
+        folded.mended = curved_shape(f.d, {key.first, key.second}) >= least_curved;
 }
 
 void put_back_middles(Interface& f, const Mesh& mesh) {
@@ -242,20 +262,29 @@ void put_back_middles(Interface& f, const Mesh& mesh) {
     MiddleChooser(f.d).run();
     std::vector<Index> moved;
     for (const auto& [key, bulge] : f.d.mids.mended())
-        if (const auto mid = f.d.band.mid_nodes.find(key); mid != f.d.band.mid_nodes.end()) moved.push_back(mesh.node_ids[mid->second]);
+        if (const auto mid = f.d.band.mid_nodes.find(key); mid != f.d.band.mid_nodes.end())
+            moved.push_back(mesh.node_ids[mid->second]);
     std::vector<Index> numbers;
     for (const auto& [key, folded] : f.folded_input)
         if (folded.ratio < least_curved) numbers.push_back(folded.id);
     std::ostringstream text;
-    const std::string moves = moved.empty() ? "" : std::to_string(moved.size()) + " mid-side node(s) were moved towards the middle of their edges (" + listed(moved, "node") + ")";
+    const std::string moves = moved.empty() ? ""
+                                            : std::to_string(moved.size()) +
+                                                  " mid-side node(s) were moved towards the middle of their edges (" +
+                                                  listed(moved, "node") + ")";
     if (!numbers.empty()) {
-        text << "the mesh already has " << numbers.size() << " second-order element(s) near the tool that are folded at a corner, or nearly, though not where solvers integrate ("
+        text << "the mesh already has " << numbers.size()
+             << " second-order element(s) near the tool that are folded at a corner, or nearly, though not where "
+                "solvers integrate ("
              << listed(numbers, "element") << "): ";
-        if (moved.empty()) text << "those that were not cut stay as they are";
-        else text << "where they changed, " << moves << "; the others stay as they are";
+        if (moved.empty())
+            text << "those that were not cut stay as they are";
+        else
+            text << "where they changed, " << moves << "; the others stay as they are";
     } else if (!moved.empty()) {
         text << moves << ", where strongly curved second-order elements changed";
-    } else return;
+    } else
+        return;
     f.warnings.push_back(text.str());
 }
 
@@ -264,7 +293,8 @@ std::vector<BandElement> newly_folded(const Interface& f, std::vector<BandElemen
     constexpr double rounding = 1e-9;
     std::erase_if(elements, [&](BandElement e) {
         const auto* folded = folded_origin(f, e);
-        return folded && curved_shape(f.d, e) >= folded->ratio - rounding && curved_shape(f.d, e, ShapeAt::integration_points) > 0;
+        return folded && curved_shape(f.d, e) >= folded->ratio - rounding &&
+               curved_shape(f.d, e, ShapeAt::integration_points) > 0;
     });
     return elements;
 }
@@ -274,9 +304,12 @@ void check_folded_input(const Interface& f, std::span<const BandElement> element
     for (const BandElement e : elements)
         if (const auto* folded = folded_origin(f, e); folded && !folded->mended) numbers.insert(folded->id);
     if (numbers.empty()) return;
-    throw QualityError("the mesh already has " + std::to_string(numbers.size()) + " second-order element(s) in the way of the tool that are folded at a corner (" +
+    throw QualityError("the mesh already has " + std::to_string(numbers.size()) +
+                       " second-order element(s) in the way of the tool that are folded at a corner (" +
                        listed({numbers.begin(), numbers.end()}, "element") +
-                       ") and cannot be changed as they are: move their mid-side nodes nearer to the middle of their edges first (meshers can: Gmsh calls it high-order optimisation), or take them out of the groups and cards that hold them, if any do");
+                       ") and cannot be changed as they are: move their mid-side nodes nearer to the middle of their "
+                       "edges first (meshers can: Gmsh calls it high-order optimisation), or take them out of the "
+                       "groups and cards that hold them, if any do");
 }
 
 }  // namespace femscalpel

@@ -9,7 +9,7 @@ namespace femscalpel {
 
 /// Nodes near the tool that borders of groups inside the material hold.
 struct HeldInside {
-    std::vector<int> nodes;  ///< band nodes inside the material that stay on a line or where they are
+    std::vector<int> nodes;      ///< band nodes inside the material that stay on a line or where they are
     std::size_t on_borders = 0;  ///< they, and those that stay on a border
     std::size_t inside = 0;      ///< all band nodes inside the material
 

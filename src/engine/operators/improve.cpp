@@ -52,7 +52,8 @@ public:
                 for (int j = 0; j < i; ++j) {
                     const double length = (band_.nodes[v[i]].at - band_.nodes[v[j]].at).squaredNorm();
                     if (length > longest && (band_.nodes[v[i]].movable() || band_.nodes[v[j]].movable()) &&
-                        !d_.constraints.has_fixed_middle(v[i], v[j]) && !d_.constraints.is_related_edge(band_, v[i], v[j])) {
+                        !d_.constraints.has_fixed_middle(v[i], v[j]) &&
+                        !d_.constraints.is_related_edge(band_, v[i], v[j])) {
                         longest = length;
                         a = v[i];
                         b = v[j];
@@ -100,7 +101,8 @@ private:
         check_cancelled();
         std::vector<Element> bad;
         for (int t = 0; t < band_.tetras.size(); ++t)
-            if (band_.tetras.alive(t) && tetra_is_below(goal, d_, t)) bad.push_back({tetra_quality(d_, t), band_.tetras[t]});
+            if (band_.tetras.alive(t) && tetra_is_below(goal, d_, t))
+                bad.push_back({tetra_quality(d_, t), band_.tetras[t]});
         for (int t = 0; t < band_.triangles.size(); ++t)
             if (band_.triangles.alive(t) && d_.constraints.is_shell(band_.triangles.origin(t)))
                 if (const double q = shell_quality(d_, t); q < goal) {
@@ -113,7 +115,8 @@ private:
 
     template <std::size_t N>
     static bool joined(const SimplexList<N>& list, int a, int b) {
-        return std::ranges::any_of(list.around(a), [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
+        return std::ranges::any_of(list.around(a),
+                                   [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
     }
 
     /// Whether moving p onto t keeps everything p stands for.
@@ -135,20 +138,24 @@ private:
         return !d_.membership.merge_links(band_, p, t);
     }
 
-    /// Whether, with p moved onto t, all nodes of a face or edge of a bounded crack would be on its front: it could not open.
+    /// Whether, with p moved onto t, all nodes of a face or edge of a bounded crack would be on its front: it could not
+    /// open.
     bool closes(int p, int t) const {
         const auto on_front = [&](int v) { return d_.contact[v].count() > 1; };
         if (!on_front(t)) return false;
         const auto any_closed = [&](const auto& list) {
             return std::ranges::any_of(list.around(p), [&](int s) {
                 const auto& nodes = list[s];
-                return std::ranges::find(nodes, t) == nodes.end() && std::ranges::all_of(nodes, [&](int v) { return v == p || on_front(v); });
+                return std::ranges::find(nodes, t) == nodes.end() &&
+                       std::ranges::all_of(nodes, [&](int v) { return v == p || on_front(v); });
             });
         };
         // So would the crack's mouth, were its only node between two of the front to go.
         for (const int s : band_.cut_faces.around(p))
             for (const int w : band_.cut_faces[s])
-                if (w != p && w != t && on_front(w) && band_.is_cut_border(p, w) && d_.constraints.is_skin_edge(band_, p, w)) return true;
+                if (w != p && w != t && on_front(w) && band_.is_cut_border(p, w) &&
+                    d_.constraints.is_skin_edge(band_, p, w))
+                    return true;
         return any_closed(band_.cut_faces) || any_closed(band_.cut_edges);
     }
 
@@ -161,15 +168,19 @@ private:
         for (const int w : common_) {
             const auto holds = [&](const auto& list) {
                 return std::ranges::any_of(list.around(p), [&](int s) {
-                    return std::ranges::find(list[s], t) != list[s].end() && std::ranges::find(list[s], w) != list[s].end();
+                    return std::ranges::find(list[s], t) != list[s].end() &&
+                           std::ranges::find(list[s], w) != list[s].end();
                 });
             };
             if (!holds(band_.tetras) && !holds(band_.triangles)) return false;
         }
         // The same on surfaces and creases, whose own links are smaller.
         for (const int w : common_) {
-            const auto on_surface = [&](int a, int b) { return joined(band_.skin, a, b) || joined(band_.cut_faces, a, b); };
-            if (on_surface(p, w) && on_surface(t, w) && on_surface(p, t) && band_.skin.find({p, t, w}) < 0 && band_.cut_faces.find({p, t, w}) < 0)
+            const auto on_surface = [&](int a, int b) {
+                return joined(band_.skin, a, b) || joined(band_.cut_faces, a, b);
+            };
+            if (on_surface(p, w) && on_surface(t, w) && on_surface(p, t) && band_.skin.find({p, t, w}) < 0 &&
+                band_.cut_faces.find({p, t, w}) < 0)
                 return false;
             if (joined(band_.creases, p, w) && joined(band_.creases, t, w)) return false;
             if (joined(band_.cut_edges, p, w) && joined(band_.cut_edges, t, w)) return false;
@@ -189,14 +200,16 @@ private:
         for (const int s : band_.triangles.around(p)) {
             const auto& v = band_.triangles[s];
             if (std::ranges::find(v, t) != v.end() || !d_.constraints.is_shell(band_.triangles.origin(s))) continue;
-            const double turned =
-                (point(v[1]) - point(v[0])).cross(point(v[2]) - point(v[0])).dot(d_.shell_normals[band_.triangles.origin(s)]);
+            const double turned = (point(v[1]) - point(v[0]))
+                                      .cross(point(v[2]) - point(v[0]))
+                                      .dot(d_.shell_normals[band_.triangles.origin(s)]);
             worst = std::min(worst, std::copysign(mean_ratio(point(v[0]), point(v[1]), point(v[2])), turned));
         }
         return worst;
     }
 
-    /// Merges p into the neighbour that makes the elements around it best; that neighbour, or -1 if none makes them better.
+    /// Merges p into the neighbour that makes the elements around it best; that neighbour, or -1 if none makes them
+    /// better.
     int try_merge(int p) {
         check_cancelled();
         if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return -1;
@@ -229,15 +242,16 @@ private:
 
 void improve(Interface& f, const Tool& tool, double goal) {
     Improver improver(f, tool);
-    // Where borders are everywhere, or the mesh is thin in one direction, most elements are too poor ever to be left alone: only what
-    // changed can gain.
+    // Where borders are everywhere, or the mesh is thin in one direction, most elements are too poor ever to be left
+    // alone: only what changed can gain.
     const bool locally = held_inside(f).nearly_all_on_borders() || improver.most_below(goal);
     const auto relax_again = [&] { relax_near(f, improver.changes(), locally); };
     const auto may_go_on = [&] { return f.d.visits < f.most_visits; };
     for (int round = 0; round < 4 && may_go_on() && improver.merge_nodes(goal); ++round) relax_again();
     // Splitting must pay: two rounds without gain end it.
     double best = improver.shortfall(split_below);
-    for (int round = 0, idle = 0; round < split_rounds && idle < 2 && may_go_on() && improver.split_long_edges(split_below); ++round) {
+    for (int round = 0, idle = 0;
+         round < split_rounds && idle < 2 && may_go_on() && improver.split_long_edges(split_below); ++round) {
         relax_again();
         if (improver.merge_nodes(goal)) relax_again();
         const double now = improver.shortfall(split_below);

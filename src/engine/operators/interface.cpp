@@ -79,13 +79,15 @@ void split_at_fixed_middles(Interface& f, const Blade& blade, const Mesh& mesh) 
         const Vec3 &a = band.nodes[e[0]].at, &b = band.nodes[e[1]].at;
         const double at_a = blade.tool->distance(a), at_b = blade.tool->distance(b);
         if (std::min(at_a, at_b) >= -f.tolerance || std::max(at_a, at_b) <= f.tolerance) continue;
-        if (!blade.bound || blade.bound(mesh.points[middle]) <= blade_margin * (a - b).norm()) crossed.push_back({e, middle});
+        if (!blade.bound || blade.bound(mesh.points[middle]) <= blade_margin * (a - b).norm())
+            crossed.push_back({e, middle});
     }
     std::ranges::sort(crossed);
     for (const auto& [e, middle] : crossed) {
         const double distance = f.tool->distance(mesh.points[middle]);
         const bool on_tool = std::abs(distance) <= f.tolerance;
-        f.d.split_edge(e[0], e[1], mesh.points[middle], on_tool && !blade.bound && blade.tool == f.tool ? f.tool : nullptr);
+        f.d.split_edge(e[0], e[1], mesh.points[middle],
+                       on_tool && !blade.bound && blade.tool == f.tool ? f.tool : nullptr);
         f.distance.push_back(on_tool ? 0 : distance);
     }
 }
@@ -104,10 +106,12 @@ std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) 
     const BandMesh& band = f.d.band;
     check_cancelled();
     for (int t = 0; t < band.tetras.size(); ++t)
-        if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t)) note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
+        if (band.tetras.alive(t) && tetra_is_below(limit, f.d, t))
+            note(band.tetra_cells[band.tetras.origin(t)], tetra_quality(f.d, t));
     for (int t = 0; t < band.triangles.size(); ++t) {
         if (!band.triangles.alive(t) || !f.d.constraints.is_shell(band.triangles.origin(t))) continue;
-        if (const double q = shell_quality(f.d, t); !(q >= limit)) note(band.triangle_cells[band.triangles.origin(t)], q);
+        if (const double q = shell_quality(f.d, t); !(q >= limit))
+            note(band.triangle_cells[band.triangles.origin(t)], q);
     }
     std::ranges::sort(bad, {}, [](const Bad& b) { return std::pair(b.id, b.quality); });
     return bad;
@@ -146,13 +150,13 @@ void check_input_shape(Interface& f, const Mesh& mesh) {
     std::vector<Bad> bad;
     std::ranges::copy_if(poor, std::back_inserter(bad), [](const Bad& b) { return !(b.quality >= flat); });
     if (!bad.empty())
-        throw QualityError("the mesh already has " + std::to_string(bad.size()) + " flat or inverted element(s) near the tool (" +
-                           name_them(bad) + "); repair them first");
+        throw QualityError("the mesh already has " + std::to_string(bad.size()) +
+                           " flat or inverted element(s) near the tool (" + name_them(bad) + "); repair them first");
     find_folded_input(f, mesh);
     mend_folded_input(f);
     if (!poor.empty())
-        f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) + " element(s) with mean ratio below 0.1 near the tool (" +
-                             name_them(poor) + ")");
+        f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) +
+                             " element(s) with mean ratio below 0.1 near the tool (" + name_them(poor) + ")");
 }
 
 void check_skin(Interface& f) {
@@ -160,9 +164,11 @@ void check_skin(Interface& f) {
     if (match.off == 0) return;
     if (match.off == match.faces)
         throw ToolError("skin: none of the " + std::to_string(match.faces) +
-                        " faces of the mesh's skin near the tool lies on the shape; it is not the shape the mesh was made from, or has another place or unit");
+                        " faces of the mesh's skin near the tool lies on the shape; it is not the shape the mesh was "
+                        "made from, or has another place or unit");
     f.warnings.push_back(std::to_string(match.off) + " of " + std::to_string(match.faces) +
-                         " faces of the mesh's skin near the tool lie on no face of the given shape; there the skin stays what its triangles are");
+                         " faces of the mesh's skin near the tool lie on no face of the given shape; there the skin "
+                         "stays what its triangles are");
 }
 
 void check_shape(const Interface& f, const Mesh& mesh) {
@@ -178,8 +184,9 @@ void check_shape(const Interface& f, const Mesh& mesh) {
         folded.push_back({mesh.block(c.type).ids[c.cell], 0});
     }
     if (!folded.empty())
-        throw QualityError(std::to_string(folded.size()) + " second-order element(s) would be folded (" + name_them(folded) +
-                           "): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh");
+        throw QualityError(
+            std::to_string(folded.size()) + " second-order element(s) would be folded (" + name_them(folded) +
+            "): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh");
 }
 
 }  // namespace femscalpel

@@ -8,7 +8,6 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "cancel.h"
@@ -24,7 +23,10 @@ constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}
 class Opener {
 public:
     explicit Opener(const Interface& f)
-        : f_(f), band_(f.d.band), is_interface_(static_cast<std::size_t>(band_.size()), 0), doubled_(is_interface_.size(), 0),
+        : f_(f),
+          band_(f.d.band),
+          is_interface_(static_cast<std::size_t>(band_.size()), 0),
+          doubled_(is_interface_.size(), 0),
           first_item_(3 * is_interface_.size()) {}
 
     Lips open() {
@@ -51,7 +53,8 @@ private:
 
     template <std::size_t N>
     int side(const std::array<int, N>& nodes) const {
-        // A node off the interface can still lie in its plane, beyond the front, or beside that by rounding: the farthest tells.
+        // A node off the interface can still lie in its plane, beyond the front, or beside that by rounding: the
+        // farthest tells.
         double farthest = 0;
         for (const int v : nodes)
             if (!on_tool(v) && std::abs(f_.distance[v]) > std::abs(farthest)) farthest = f_.distance[v];
@@ -109,8 +112,8 @@ private:
         }
     }
 
-    /// The shells that lie in the tool's surface belong to one side, a sheet of them at a time: the negative, or the positive if
-    /// others hang on it only on the negative, so that a crack parts a plate from what stands on it.
+    /// The shells that lie in the tool's surface belong to one side, a sheet of them at a time: the negative, or the
+    /// positive if others hang on it only on the negative, so that a crack parts a plate from what stands on it.
     void place_flat_shells() {
         flat_side_.assign(static_cast<std::size_t>(band_.triangles.size()), 0);
         hangs_between_.assign(flat_side_.size(), 0);
@@ -150,7 +153,8 @@ private:
         if (flat_side_[t] != 0) return false;
         Vec3 middle = Vec3::Zero();
         for (const int v : band_.triangles[t]) middle += band_.nodes[v].at / 3;
-        const Vec3 &a = band_.nodes[band_.triangles[t][0]].at, &b = band_.nodes[band_.triangles[t][1]].at, &c = band_.nodes[band_.triangles[t][2]].at;
+        const Vec3 &a = band_.nodes[band_.triangles[t][0]].at, &b = band_.nodes[band_.triangles[t][1]].at,
+                   &c = band_.nodes[band_.triangles[t][2]].at;
         return (b - a).cross(c - a).normalized().cross(f_.tool->normal(middle)).norm() >= along_tool;
     }
 
@@ -218,8 +222,10 @@ private:
                     }
                 }
             };
-            if (i < shells_from) visit(band_.tetras[items[i]], side(band_.tetras[items[i]]));
-            else visit(band_.triangles[items[i]], shell_side(items[i]));
+            if (i < shells_from)
+                visit(band_.tetras[items[i]], side(band_.tetras[items[i]]));
+            else
+                visit(band_.triangles[items[i]], shell_side(items[i]));
         }
         struct Part {
             int size = 0, side = 0;
@@ -237,7 +243,8 @@ private:
         const auto largest = [&](std::optional<bool> positive) {
             int best = -1;
             for (const auto& [root, p] : parts)
-                if (p.touches && (!positive || (p.side > 0) == *positive) && (best < 0 || p.size > parts[best].size)) best = root;
+                if (p.touches && (!positive || (p.side > 0) == *positive) && (best < 0 || p.size > parts[best].size))
+                    best = root;
             return best;
         };
         for (const auto& [root, p] : parts) {
@@ -263,8 +270,10 @@ private:
         for (int i = 0; i < count; ++i) {
             const auto it = copy.find(goes_to[find(i)]);
             if (it == copy.end()) continue;
-            if (i < shells_from) std::ranges::replace(out_.tetras[items[i]], v, it->second);
-            else std::ranges::replace(out_.triangles[items[i]], v, it->second);
+            if (i < shells_from)
+                std::ranges::replace(out_.tetras[items[i]], v, it->second);
+            else
+                std::ranges::replace(out_.triangles[items[i]], v, it->second);
         }
     }
 
@@ -345,20 +354,28 @@ private:
             points_positive += positive;
         }
         if (loose > 0)
-            out_.warnings.push_back(std::to_string(loose) + " segment element(s) (beam, spring) end on doubled nodes; each stays on the side it lies on");
+            out_.warnings.push_back(
+                std::to_string(loose) +
+                " segment element(s) (beam, spring) end on doubled nodes; each stays on the side it lies on");
         if (points > 0)
-            out_.warnings.push_back(std::to_string(points) + " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole on the side with more elements there: " +
-                                    std::to_string(points - points_positive) + " on the negative side, " + std::to_string(points_positive) + " on the positive");
+            out_.warnings.push_back(std::to_string(points) +
+                                    " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole "
+                                    "on the side with more elements there: " +
+                                    std::to_string(points - points_positive) + " on the negative side, " +
+                                    std::to_string(points_positive) + " on the positive");
         for (const int where : {-1, 1})
             if (const auto flat = std::ranges::count(flat_side_, where); flat > 0)
-                out_.warnings.push_back(std::to_string(flat) + " shell element(s) lie in the tool's surface; they stay on the " + (where < 0 ? "negative" : "positive") + " side");
+                out_.warnings.push_back(std::to_string(flat) +
+                                        " shell element(s) lie in the tool's surface; they stay on the " +
+                                        (where < 0 ? "negative" : "positive") + " side");
     }
 
     void make_lips() {
         // Elements that already lie on a lip join its group; the first one met per place.
         std::map<std::array<int, 3>, int> triangle_at;
         for (int t = 0; t < band_.triangles.size(); ++t)
-            if (band_.triangles.alive(t) && std::ranges::binary_search(face_keys_, sorted(band_.triangles[t]))) triangle_at.emplace(sorted(out_.triangles[t]), t);
+            if (band_.triangles.alive(t) && std::ranges::binary_search(face_keys_, sorted(band_.triangles[t])))
+                triangle_at.emplace(sorted(out_.triangles[t]), t);
         for (std::size_t k = 0; k < out_.triangle_twins.size(); ++k)
             triangle_at.emplace(sorted(out_.triangle_twins[k].nodes), -1 - static_cast<int>(k));
         SparseCheck check;
@@ -366,28 +383,36 @@ private:
             check();
             std::array<int, 3> image;
             for (int k = 0; k < 3; ++k)
-                image[k] = out_.tetras[tetra][std::ranges::find(band_.tetras[tetra], nodes[k]) - band_.tetras[tetra].begin()];
+                image[k] =
+                    out_.tetras[tetra][std::ranges::find(band_.tetras[tetra], nodes[k]) - band_.tetras[tetra].begin()];
             const auto at = triangle_at.find(sorted(image));
-            out_.faces.push_back({image, side(band_.tetras[tetra]) > 0, at == triangle_at.end() ? Lips::fresh : at->second,
+            out_.faces.push_back({image, side(band_.tetras[tetra]) > 0,
+                                  at == triangle_at.end() ? Lips::fresh : at->second,
                                   band_.tetra_cells[band_.tetras.origin(tetra)].type == CellType::tetra10});
         }
         const auto closed = std::ranges::count_if(open_faces_, [&](const auto& f) {
-            return side(band_.tetras[f.second]) > 0 && std::ranges::none_of(f.first, [&](int v) { return doubled_[v] != 0; });
+            return side(band_.tetras[f.second]) > 0 &&
+                   std::ranges::none_of(f.first, [&](int v) { return doubled_[v] != 0; });
         });
         if (closed > 0)
-            out_.warnings.push_back(std::to_string(closed) + " face(s) of the crack have all their nodes on its front and cannot open: refine the mesh there");
+            out_.warnings.push_back(
+                std::to_string(closed) +
+                " face(s) of the crack have all their nodes on its front and cannot open: refine the mesh there");
         std::map<std::array<int, 2>, int> line_at;
         for (int l = 0; l < band_.lines.size(); ++l)
             if (band_.lines.alive(l)) line_at.emplace(sorted(out_.lines[l]), l);
-        for (std::size_t k = 0; k < out_.line_twins.size(); ++k) line_at.emplace(sorted(out_.line_twins[k].nodes), -1 - static_cast<int>(k));
+        for (std::size_t k = 0; k < out_.line_twins.size(); ++k)
+            line_at.emplace(sorted(out_.line_twins[k].nodes), -1 - static_cast<int>(k));
         for (const auto& edge : shell_edges_) {
             std::set<std::array<int, 2>> seen;
             for (const int t : band_.triangles.around(edge[0])) {
-                if (!is_shell(t) || std::ranges::find(band_.triangles[t], edge[1]) == band_.triangles[t].end()) continue;
+                if (!is_shell(t) || std::ranges::find(band_.triangles[t], edge[1]) == band_.triangles[t].end())
+                    continue;
                 const int s = shell_side(t);
                 std::array<int, 2> image;
                 for (int k = 0; k < 2; ++k)
-                    image[k] = out_.triangles[t][std::ranges::find(band_.triangles[t], edge[k]) - band_.triangles[t].begin()];
+                    image[k] =
+                        out_.triangles[t][std::ranges::find(band_.triangles[t], edge[k]) - band_.triangles[t].begin()];
                 if (!seen.insert(image).second) continue;
                 const auto at = line_at.find(sorted(image));
                 out_.edges.push_back({image, s > 0, at == line_at.end() ? Lips::fresh : at->second,

@@ -43,11 +43,11 @@ struct Lips {
     std::vector<Face<2>> edges;
 
     std::vector<int> interface_nodes;  ///< nodes of open faces and edges, ascending
-    /// The front inside a solid as chains of nodes, each joined to the next by an edge; a closed one ends where it begins.
-    /// Only of a crack that is bounded by a patch.
+    /// The front inside a solid as chains of nodes, each joined to the next by an edge; a closed one ends where it
+    /// begins. Only of a crack that is bounded by a patch.
     std::vector<std::vector<int>> front_chains;
-    bool removes = false;              ///< elements were taken out, and their nodes may have to go
-    std::vector<int> front_nodes;      ///< of them, those that stay single
+    bool removes = false;          ///< elements were taken out, and their nodes may have to go
+    std::vector<int> front_nodes;  ///< of them, those that stay single
     std::vector<std::string> warnings;
 };
 
@@ -57,8 +57,8 @@ struct Lips {
 /// copy. Nodes with one part (a front) stay single.
 ///
 /// Discrete elements that end on a doubled node stay whole, on one side, and a warning says so: a beam or spring on
-/// the side its other end is on, a mass or spring to ground, and what has all its nodes on the tool, on the side with most
-/// elements there, the negative one if they are as many.
+/// the side its other end is on, a mass or spring to ground, and what has all its nodes on the tool, on the side with
+/// most elements there, the negative one if they are as many.
 Lips open_lips(const Interface& interface);
 
 /// The band as it is, nothing opened.

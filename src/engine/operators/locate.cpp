@@ -27,8 +27,10 @@ void for_each_element(const Mesh& mesh, Visit visit) {
             for (Index c = 0; c < count; ++c, n += t.nodes) visit(n, corners);
         };
         // A constant lets the compiler unroll what is inside, for the elements that matter.
-        if (t.corners == 4) pass(std::integral_constant<int, 4>());
-        else pass(t.corners);
+        if (t.corners == 4)
+            pass(std::integral_constant<int, 4>());
+        else
+            pass(t.corners);
     }
 }
 
@@ -87,7 +89,8 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
     for (const Blade& blade : blades) {
         std::vector<double> distance(mesh.points.size());
         SparseCheck check(256);  // distances to CAD faces take their time
-        for (std::size_t n = 0; n < mesh.points.size(); ++n, check()) distance[n] = blade.tool->distance(mesh.points[n]);
+        for (std::size_t n = 0; n < mesh.points.size(); ++n, check())
+            distance[n] = blade.tool->distance(mesh.points[n]);
         touch(mesh, blade, distance, out);
         if (&blade == blades.data()) out.distance = std::move(distance);
     }

@@ -13,11 +13,13 @@ namespace femscalpel {
 
 /// Where tools meet a mesh (DESIGN 3, step 1).
 struct Location {
-    std::vector<double> distance;    ///< signed, to the first tool, by node
-    std::vector<std::int8_t> level;  ///< 0: node of an element the tool touches; k: k edges away; -1: farther than `levels`
-    double tolerance = 0;            ///< what is nearer than this lies on the tool
-    double rounding = 0;             ///< coordinate_rounding() of the mesh, at least `tolerance`: nodes nearer than this are on the tool
-    Index crossed = 0;               ///< triangles and tetrahedra a tool passes through
+    std::vector<double> distance;  ///< signed, to the first tool, by node
+    std::vector<std::int8_t>
+        level;             ///< 0: node of an element the tool touches; k: k edges away; -1: farther than `levels`
+    double tolerance = 0;  ///< what is nearer than this lies on the tool
+    double rounding =
+        0;  ///< coordinate_rounding() of the mesh, at least `tolerance`: nodes nearer than this are on the tool
+    Index crossed = 0;  ///< triangles and tetrahedra a tool passes through
 };
 
 /// Measures all nodes and finds those within `levels` edges of the elements the blades touch. One pass

@@ -17,7 +17,8 @@ constexpr double far_bulge = 0.04;
 
 class Mender {
 public:
-    Mender(Interface& f, const Tool& tool, bool may_split) : f_(f), d_(f.d), band_(f.d.band), tool_(tool), may_split_(may_split) {}
+    Mender(Interface& f, const Tool& tool, bool may_split)
+        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), may_split_(may_split) {}
 
     void run() {
         for (int round = 0; round < rounds; ++round) {
@@ -41,7 +42,8 @@ private:
     }
 
     bool is_untouched(int a, int b) const {
-        return !band_.is_new(a) && !band_.is_new(b) && band_.nodes[a].at == band_.nodes[a].start && band_.nodes[b].at == band_.nodes[b].start;
+        return !band_.is_new(a) && !band_.is_new(b) && band_.nodes[a].at == band_.nodes[a].start &&
+               band_.nodes[b].at == band_.nodes[b].start;
     }
 
     /// Mid-side nodes to the middle of their edges.
@@ -98,7 +100,9 @@ private:
                 const Vec3 &x = band_.nodes[nodes[i]].at, &y = band_.nodes[nodes[j]].at;
                 const MidSide mid = mid_side(d_, nodes[i], nodes[j]);
                 const double bulge = (mid.at - (x + y) / 2).norm() / (x - y).norm();
-                if (!mid.fits || bulge <= farthest || !(band_.nodes[nodes[i]].movable() || band_.nodes[nodes[j]].movable())) continue;
+                if (!mid.fits || bulge <= farthest ||
+                    !(band_.nodes[nodes[i]].movable() || band_.nodes[nodes[j]].movable()))
+                    continue;
                 farthest = bulge;
                 a = nodes[i];
                 b = nodes[j];

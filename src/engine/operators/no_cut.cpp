@@ -19,11 +19,14 @@ class Named {
 public:
     void add(const CellTraits& t, Index id) {
         simplices_ = simplices_ && t.simplex;
-        if (count_++ < 5) text_ << (count_ > 1 ? ", " : "") << id << (t.simplex ? "" : " (" + std::string(t.name) + ")");
+        if (count_++ < 5)
+            text_ << (count_ > 1 ? ", " : "") << id << (t.simplex ? "" : " (" + std::string(t.name) + ")");
     }
     bool any() const { return count_ > 0; }
     bool simplices() const { return simplices_; }
-    std::string text() const { return (count_ == 1 ? "element " : "elements ") + text_.str() + (count_ > 5 ? ", ..." : ""); }
+    std::string text() const {
+        return (count_ == 1 ? "element " : "elements ") + text_.str() + (count_ > 5 ? ", ..." : "");
+    }
 
 private:
     int count_ = 0;
@@ -40,12 +43,14 @@ public:
         side_ = side;
         const auto at = [&](int k) -> const Vec3& { return mesh_.points[n[k]]; };
         if (t.dimension == 2)
-            return reaches(std::array{at(0), at(1), at(2)}) || (t.corners == 4 && reaches(std::array{at(0), at(2), at(3)}));
+            return reaches(std::array{at(0), at(1), at(2)}) ||
+                   (t.corners == 4 && reaches(std::array{at(0), at(2), at(3)}));
         if (t.simplex) return reaches(std::array{at(0), at(1), at(2), at(3)});
         Vec3 centre = Vec3::Zero();
         for (int k = 0; k < t.corners; ++k) centre += at(k) / t.corners;
         return std::ranges::any_of(t.faces, [&](const auto& f) {
-            return reaches(std::array{at(f[0]), at(f[1]), at(f[2]), centre}) || (f[3] >= 0 && reaches(std::array{at(f[0]), at(f[2]), at(f[3]), centre}));
+            return reaches(std::array{at(f[0]), at(f[1]), at(f[2]), centre}) ||
+                   (f[3] >= 0 && reaches(std::array{at(f[0]), at(f[2]), at(f[3]), centre}));
         });
     }
 
@@ -88,7 +93,8 @@ double longest_edge(const Mesh& mesh, const CellTraits& t, const Index* n) {
 /// What a tool that parts no element's corners meets instead.
 struct Survey {
     Named inside, curved, segments;
-    double before = std::numeric_limits<double>::infinity(), behind = before;  // nearest nodes of elements on either side
+    double before = std::numeric_limits<double>::infinity(),
+           behind = before;  // nearest nodes of elements on either side
 };
 
 Survey survey(const Mesh& mesh, const Blade& blade, std::span<const double> distance, double tolerance) {
@@ -113,9 +119,11 @@ Survey survey(const Mesh& mesh, const Blade& blade, std::span<const double> dist
             if (t.dimension == 1 && crossed && wanted(t, n)) out.segments.add(t, b.ids[c]);
             if (t.dimension < 2 || crossed) continue;
             const double side = high > tolerance ? 1 : -1;
-            if (std::any_of(n + t.corners, n + t.nodes, [&](Index v) { return distance[v] * side < -tolerance; }) && wanted(t, n)) {
+            if (std::any_of(n + t.corners, n + t.nodes, [&](Index v) { return distance[v] * side < -tolerance; }) &&
+                wanted(t, n)) {
                 out.curved.add(t, b.ids[c]);
-            } else if (bent && std::min(std::abs(low), std::abs(high)) < longest_edge(mesh, t, n) && search.passes_inside(t, n, side)) {
+            } else if (bent && std::min(std::abs(low), std::abs(high)) < longest_edge(mesh, t, n) &&
+                       search.passes_inside(t, n, side)) {
                 out.inside.add(t, b.ids[c]);
             }
         }
@@ -127,7 +135,8 @@ bool coincide(std::vector<Vec3>& a, std::vector<Vec3>& b, double tolerance) {
     const auto key = [](const Vec3& x) { return x[0]; };
     std::ranges::sort(b, {}, key);
     return std::ranges::any_of(a, [&](const Vec3& x) {
-        for (auto at = std::ranges::lower_bound(b, x[0] - tolerance, {}, key); at != b.end() && (*at)[0] <= x[0] + tolerance; ++at)
+        for (auto at = std::ranges::lower_bound(b, x[0] - tolerance, {}, key);
+             at != b.end() && (*at)[0] <= x[0] + tolerance; ++at)
             if ((*at - x).norm() <= tolerance) return true;
         return false;
     });
@@ -135,28 +144,33 @@ bool coincide(std::vector<Vec3>& a, std::vector<Vec3>& b, double tolerance) {
 
 }  // namespace
 
-std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const double> distance, double tolerance, bool beyond) {
+std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const double> distance, double tolerance,
+                       bool beyond) {
     const Survey found = survey(mesh, blade, distance, tolerance);
     const std::string tool = "the " + blade.tool->kind();
     if (found.inside.any()) {
-        const std::string place = tool + " lies inside " + found.inside.text() + ", between their nodes, and parts none of them: ";
+        const std::string place =
+            tool + " lies inside " + found.inside.text() + ", between their nodes, and parts none of them: ";
         return place + (found.inside.simplices() ? "it is smaller than the elements there. Refine the mesh there first"
-                                                 : "only triangles and tetrahedra can be cut. Split these elements into such first, finer than the " + blade.tool->kind());
+                                                 : "only triangles and tetrahedra can be cut. Split these elements "
+                                                   "into such first, finer than the " +
+                                                       blade.tool->kind());
     }
     if (found.curved.any())
-        return tool + " only grazes the mesh: it passes through the curved sides of " + found.curved.text() + ", but between none of their corners. Move the " +
-               blade.tool->kind() + " into the material";
-    if (beyond) return tool + " meets the mesh only outside the part of it that is to cut. Move that part into the material";
+        return tool + " only grazes the mesh: it passes through the curved sides of " + found.curved.text() +
+               ", but between none of their corners. Move the " + blade.tool->kind() + " into the material";
+    if (beyond)
+        return tool + " meets the mesh only outside the part of it that is to cut. Move that part into the material";
     std::ostringstream message;
     message << tool << " misses the mesh: ";
     if (found.segments.any())
         message << "it passes only through segments (" << found.segments.text() << "), which are not cut";
     else if (std::isfinite(found.before) && std::isfinite(found.behind))
-        message << "it passes between parts of the mesh, through no element; the nearest nodes are at distance " << found.behind << " on its negative side and "
-                << found.before << " on its positive side";
+        message << "it passes between parts of the mesh, through no element; the nearest nodes are at distance "
+                << found.behind << " on its negative side and " << found.before << " on its positive side";
     else if (std::isfinite(found.before) || std::isfinite(found.behind))
-        message << "the whole mesh lies on its " << (std::isfinite(found.before) ? "positive" : "negative") << " side, the nearest node at distance "
-                << std::min(found.before, found.behind);
+        message << "the whole mesh lies on its " << (std::isfinite(found.before) ? "positive" : "negative")
+                << " side, the nearest node at distance " << std::min(found.before, found.behind);
     else
         message << "it has no elements";
     message << ". Move the " << blade.tool->kind() << " or turn it";
@@ -171,8 +185,10 @@ std::string why_nothing_parts(const Interface& f, const Blade& blade, const std:
         std::vector<int> on;
         double side = 0;
         for (const int v : nodes_of) {
-            if (f.distance[v] == 0 && !(blade.bound && blade.bound(band.nodes[v].at) > f.tolerance)) on.push_back(v);
-            else side = f.distance[v];
+            if (f.distance[v] == 0 && !(blade.bound && blade.bound(band.nodes[v].at) > f.tolerance))
+                on.push_back(v);
+            else
+                side = f.distance[v];
         }
         if (on.size() == nodes_of.size()) shells += shell;
         if (on.size() + 1 != nodes_of.size() || side == 0) return;
@@ -181,17 +197,23 @@ std::string why_nothing_parts(const Interface& f, const Blade& blade, const std:
     for (int t = 0; t < band.tetras.size(); ++t)
         if (band.tetras.alive(t)) look(band.tetras[t], false);
     for (int t = 0; t < band.triangles.size(); ++t)
-        if (band.triangles.alive(t) && f.d.constraints.is_shell(band.triangles.origin(t))) look(band.triangles[t], true);
+        if (band.triangles.alive(t) && f.d.constraints.is_shell(band.triangles.origin(t)))
+            look(band.triangles[t], true);
     const std::string tool = "the " + blade.tool->kind();
     const std::string advice = ". Move the " + blade.tool->kind() + " into the material";
     if (!behind.empty() && !before.empty() && coincide(behind, before, 10 * f.tolerance))
-        return tool + " lies on faces that are open already: the elements on its two sides have nodes of their own there (a contact, or an earlier crack), and there is "
-                      "nothing to part" + advice;
+        return tool +
+               " lies on faces that are open already: the elements on its two sides have nodes of their own there (a "
+               "contact, or an earlier crack), and there is "
+               "nothing to part" +
+               advice;
     if (shells > 0)
-        return std::to_string(shells) + " shell element(s) lie in the " + blade.tool->kind() + ", and nothing stands on them that it could part from them" + advice;
+        return std::to_string(shells) + " shell element(s) lie in the " + blade.tool->kind() +
+               ", and nothing stands on them that it could part from them" + advice;
     if (!behind.empty() || !before.empty()) {
-        const std::string side = before.empty() ? "all elements there are on its negative side" : behind.empty() ? "all elements there are on its positive side"
-                                                                                                                 : "wherever it does, the elements are on one side of it only";
+        const std::string side = before.empty()   ? "all elements there are on its negative side"
+                                 : behind.empty() ? "all elements there are on its positive side"
+                                                  : "wherever it does, the elements are on one side of it only";
         return tool + " only touches the mesh, on its outside: " + side + ", and there is nothing to part" + advice;
     }
     return otherwise;

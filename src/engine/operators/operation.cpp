@@ -28,14 +28,20 @@ constexpr double size_noticed = 0.005;
 
 void check_name(const Mesh& mesh, const std::string& name, const std::vector<std::string>& suffixes) {
     if (name.empty()) throw ToolError("name is empty; the new groups need one");
-    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
-        throw ToolError("name '" + name + "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
+    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
+        std::string::npos)
+        throw ToolError(
+            "name '" + name +
+            "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
     for (const std::string& suffix : suffixes) {
         const std::string group = name + suffix;
         if (group.size() > longest_name)
-            throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " + std::to_string(group.size()) +
-                            " characters, at most " + std::to_string(longest_name) + " are allowed");
-        if (mesh.find_group(group)) throw ToolError("name '" + name + "' is taken: the mesh already has a group '" + group + "'; choose another");
+            throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " +
+                            std::to_string(group.size()) + " characters, at most " + std::to_string(longest_name) +
+                            " are allowed");
+        if (mesh.find_group(group))
+            throw ToolError("name '" + name + "' is taken: the mesh already has a group '" + group +
+                            "'; choose another");
     }
 }
 
@@ -79,7 +85,9 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
         std::vector<char> counted(cells.size(), 0);
         check_cancelled();
         for (int s = 0; s < list.size(); ++s) {
-            if (!list.alive(s) || !counts(list.origin(s)) || std::ranges::none_of(list[s], [&](int v) { return in[v] != 0; })) continue;
+            if (!list.alive(s) || !counts(list.origin(s)) ||
+                std::ranges::none_of(list[s], [&](int v) { return in[v] != 0; }))
+                continue;
             const CellRef& cell = cells[list.origin(s)];
             const Index id = mesh.block(cell.type).ids[cell.cell];
             out.after.push_back({id, quality_now(s)});
@@ -88,8 +96,11 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
             out.before.push_back({id, mean_ratio(mesh, cell.type, cell.cell)});
         }
     };
-    look(band.tetras, band.tetra_cells, [](int) { return true; }, [&](int s) { return tetra_quality(f.d, s); });
-    look(band.triangles, band.triangle_cells, [&](int s) { return f.d.constraints.is_shell(s); }, [&](int s) { return shell_quality(f.d, s); });
+    look(
+        band.tetras, band.tetra_cells, [](int) { return true; }, [&](int s) { return tetra_quality(f.d, s); });
+    look(
+        band.triangles, band.triangle_cells, [&](int s) { return f.d.constraints.is_shell(s); },
+        [&](int s) { return shell_quality(f.d, s); });
     return out;
 }
 
@@ -99,23 +110,32 @@ constexpr double clearly_worse = 0.75;
 /// Whether an element at a node is clearly worse than in the input.
 bool became_worse(const Interface& f, const Mesh& mesh, int v) {
     const BandMesh& band = f.d.band;
-    const auto fell = [&](double now, const CellRef& cell) { return now < clearly_worse * mean_ratio(mesh, cell.type, cell.cell); };
-    return std::ranges::any_of(band.tetras.around(v), [&](int t) { return fell(tetra_quality(f.d, t), band.tetra_cells[band.tetras.origin(t)]); }) ||
+    const auto fell = [&](double now, const CellRef& cell) {
+        return now < clearly_worse * mean_ratio(mesh, cell.type, cell.cell);
+    };
+    return std::ranges::any_of(
+               band.tetras.around(v),
+               [&](int t) { return fell(tetra_quality(f.d, t), band.tetra_cells[band.tetras.origin(t)]); }) ||
            std::ranges::any_of(band.triangles.around(v), [&](int t) {
-               return f.d.constraints.is_shell(band.triangles.origin(t)) && fell(shell_quality(f.d, t), band.triangle_cells[band.triangles.origin(t)]);
+               return f.d.constraints.is_shell(band.triangles.origin(t)) &&
+                      fell(shell_quality(f.d, t), band.triangle_cells[band.triangles.origin(t)]);
            });
 }
 
-/// Whether all of the surface or curve that a node keeps to lies on the tool around it: then there is no wedge between them.
+/// Whether all of the surface or curve that a node keeps to lies on the tool around it: then there is no wedge between
+/// them.
 bool lies_on(const Interface& f, const Tool& tool, int v) {
     const BandMesh& band = f.d.band;
     const NodeConstraint& c = f.d.constraints[v];
     const auto on_tool = [&](const auto& list) {
         return std::ranges::all_of(list.around(v), [&](int s) {
-            return list.tag(s) != c.shape || std::ranges::all_of(list[s], [&](int w) { return std::abs(tool.distance(band.nodes[w].at)) <= 10 * f.tolerance; });
+            return list.tag(s) != c.shape || std::ranges::all_of(list[s], [&](int w) {
+                       return std::abs(tool.distance(band.nodes[w].at)) <= 10 * f.tolerance;
+                   });
         });
     };
-    return c.freedom == NodeFreedom::curve ? on_tool(band.creases) : c.freedom == NodeFreedom::surface && on_tool(band.skin);
+    return c.freedom == NodeFreedom::curve ? on_tool(band.creases)
+                                           : c.freedom == NodeFreedom::surface && on_tool(band.skin);
 }
 
 std::string degrees(double angle) {
@@ -126,7 +146,8 @@ std::string degrees(double angle) {
     return text.str();
 }
 
-/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool. Only where elements have become worse.
+/// Angles and gaps at which geometry alone, not the method, limits the quality near the tool. Only where elements have
+/// become worse.
 void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
     const BandMesh& band = f.d.band;
     const auto angle = [](double sine) { return std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi; };
@@ -156,8 +177,8 @@ void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
             if (here < flattest && counts(v)) flattest = here;
         }
     if (flattest < narrow)
-        f.warnings.push_back("the " + tool.kind() + " runs along a feature line or border line at " + degrees(flattest) +
-                             ": elements between them cannot be better than that wedge");
+        f.warnings.push_back("the " + tool.kind() + " runs along a feature line or border line at " +
+                             degrees(flattest) + ": elements between them cannot be better than that wedge");
     // Nodes that stay on a surface nearly parallel to the tool, closer than 0.15 edge lengths.
     int near = 0;
     for (const int v : f.transition) {
@@ -166,12 +187,13 @@ void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
         if (std::abs(tool.distance(band.nodes[v].at)) <= 0.15 * band.mean_edge_length(v) && counts(v)) ++near;
     }
     if (near > 0)
-        f.warnings.push_back("the " + tool.kind() + " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
+        f.warnings.push_back("the " + tool.kind() +
+                             " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
                              std::to_string(near) + " node(s): the layer between them is that thin");
 }
 
-/// Surfaces that lie on each other, such as the lips of a crack that the mesh had already, are worked on each for itself: their nodes
-/// may part.
+/// Surfaces that lie on each other, such as the lips of a crack that the mesh had already, are worked on each for
+/// itself: their nodes may part.
 void warn_of_parted_lips(Interface& f) {
     const BandMesh& band = f.d.band;
     const auto key = [](const Vec3& x) { return std::array{x[0], x[1], x[2]}; };
@@ -198,8 +220,10 @@ void warn_of_parted_lips(Interface& f) {
         alone += !near(k - 1) && !near(k + 1);
     }
     if (alone > 0)
-        f.warnings.push_back("near the tool, surfaces of the mesh that lie on each other (a contact, the lips of an earlier crack) keep their shape, but no longer match node for node (" +
-                             std::to_string(alone) + " nodes): what joins coincident nodes there has to be made anew");
+        f.warnings.push_back(
+            "near the tool, surfaces of the mesh that lie on each other (a contact, the lips of an earlier crack) keep "
+            "their shape, but no longer match node for node (" +
+            std::to_string(alone) + " nodes): what joins coincident nodes there has to be made anew");
 }
 
 /// A mid-side node of the input that moved with its edge a-b.
@@ -224,15 +248,18 @@ std::vector<MovedMiddle> moved_middles(const BandMesh& band, const Mesh& before,
 }
 
 /// Adds them to the set of their edge: interface if it lies on a tool, else transition; and to the constraints.
-void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before, const Rebuilt& rebuilt, const std::array<const char*, 4>& sets,
-                 Report& report) {
+void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before,
+                 const Rebuilt& rebuilt, const std::array<const char*, 4>& sets, Report& report) {
     const NodeConstraints& constraints = f.d.constraints;
     for (const MovedMiddle& m : middles) {
         Contact tools = f.d.edge_contact(m.a, m.b);
         // An edge of a curved skin may have but its ends on the tool.
-        if (Deformable::off_tools(tools, rebuilt.mesh.points[rebuilt.kept_node(m.node)], f.d.held_between(m.a, m.b)) > 10 * f.tolerance) tools = {};
+        if (Deformable::off_tools(tools, rebuilt.mesh.points[rebuilt.kept_node(m.node)], f.d.held_between(m.a, m.b)) >
+            10 * f.tolerance)
+            tools = {};
         const NodeFreedom freedom = constraints.on_edge(f.d.band, m.a, m.b).freedom;
-        report.node_sets[sets[(tools ? 0 : 2) + constraints.is_exterior_edge(f.d.band, m.a, m.b)]].push_back(before.node_ids[m.node]);
+        report.node_sets[sets[(tools ? 0 : 2) + constraints.is_exterior_edge(f.d.band, m.a, m.b)]].push_back(
+            before.node_ids[m.node]);
         std::set<std::string> kinds;
         for (const Tool* t : tools.tools()) kinds.insert(t->kind());
         for (const std::string& kind : kinds) ++report.constraints[kind];
@@ -271,11 +298,12 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
         if (!before.groups[g].hidden) visit(g, report.groups[record++]);
 }
 
-/// Beyond what tools take, and drifting borders hand over, only the corners between the facets of a curved skin can get lost, when their
-/// nodes move: warns where that is much of the mesh or of a group. (With the shape of the skin given, what changes is the error of the
-/// facets: this is not for that.) `whole` is the mesh before, of which `totals` are; `before` may be its band alone.
-void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after, const Interface& f,
-                          const std::vector<bool>& unjudged, Report& report) {
+/// Beyond what tools take, and drifting borders hand over, only the corners between the facets of a curved skin can get
+/// lost, when their nodes move: warns where that is much of the mesh or of a group. (With the shape of the skin given,
+/// what changes is the error of the facets: this is not for that.) `whole` is the mesh before, of which `totals` are;
+/// `before` may be its band alone.
+void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after,
+                          const Interface& f, const std::vector<bool>& unjudged, Report& report) {
     const int dimension = whole.dimension();
     const auto all = [&](const FamilyTotals& t) {
         double sum = 0;
@@ -294,7 +322,8 @@ void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTot
     std::ostringstream message;
     message.precision(2);
     const auto look = [&](const std::string& name, double was, double change) {
-        if (was > 0 && std::abs(change) > size_noticed * was) message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * change / was << " %";
+        if (was > 0 && std::abs(change) > size_noticed * was)
+            message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * change / was << " %";
     };
     const double change = all(after) - all(totals) + taken_in_all;
     double was = all(totals);
@@ -311,8 +340,10 @@ void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTot
         look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before + taken_of_group);
     });
     if (message.tellp() > 0)
-        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " + message.str() + (taken_in_all > 0 ? ", beyond what was removed" : "") +
-                                  ": give its shape (skin), a smaller feature_angle, which keeps the edges between its facets, or refine the mesh there first");
+        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " +
+                                  message.str() + (taken_in_all > 0 ? ", beyond what was removed" : "") +
+                                  ": give its shape (skin), a smaller feature_angle, which keeps the edges between its "
+                                  "facets, or refine the mesh there first");
 }
 
 void count_group_constraints(const Interface& f, const Mesh& before, Report& report) {
@@ -326,7 +357,8 @@ void count_group_constraints(const Interface& f, const Mesh& before, Report& rep
     });
 }
 
-/// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements came out poor.
+/// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements
+/// came out poor.
 void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) {
     constexpr double poor = 0.2, fallen = 0.6;  // mean ratio; part of what it was before
     constexpr std::size_t named = 5;
@@ -337,22 +369,26 @@ void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) 
     const auto counts = f.d.constraints.count_by_group(f.d.band, held.nodes, before.groups.size());
     std::vector<std::pair<Index, GroupIndex>> most;
     for (std::size_t g = 0; g < before.groups.size(); ++g)
-        if (const Index n = counts[g].line + counts[g].fixed; n > 0 && !before.groups[g].hidden) most.push_back({-n, static_cast<GroupIndex>(g)});
+        if (const Index n = counts[g].line + counts[g].fixed; n > 0 && !before.groups[g].hidden)
+            most.push_back({-n, static_cast<GroupIndex>(g)});
     if (most.empty()) return;
     std::ranges::sort(most);
     std::ostringstream message;
     message.precision(2);
-    message << "borders of groups inside the material hold " << held.nodes.size() << " of " << held.inside << " nodes near the tool, where the lowest mean ratio fell from " << was
-            << " to " << is << ": most are on those of ";
+    message << "borders of groups inside the material hold " << held.nodes.size() << " of " << held.inside
+            << " nodes near the tool, where the lowest mean ratio fell from " << was << " to " << is
+            << ": most are on those of ";
     for (std::size_t k = 0; k < most.size() && k < named; ++k)
         message << (k > 0 ? ", " : "") << "'" << before.groups[most[k].second].name << "' (" << -most[k].first << ")";
     if (most.size() > named) message << " and of " << most.size() - named << " more groups";
-    message << ". Give `preserve` without those whose borders need not keep their shape; they keep their elements all the same";
+    message << ". Give `preserve` without those whose borders need not keep their shape; they keep their elements all "
+               "the same";
     report.warnings.push_back(message.str());
 }
 
 /// Of groups whose boundary was not kept: how far it went.
-void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& before, const std::vector<bool>& drifting, Report& report) {
+void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& before, const std::vector<bool>& drifting,
+                    Report& report) {
     const std::vector<double> drift = gauge.drift(f.d.band, before);
     for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
         if (!drifting[g]) return;
@@ -369,9 +405,10 @@ void describe_shortcuts(const DriftGauge& gauge, const Interface& f, const Mesh&
     });
 }
 
-/// Moved nodes, boundary drift and losses of each group, by group index. Nodes from the number `first_new` on are not the input's
-/// and do not count.
-void describe_motion(const Interface& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes, Report& report) {
+/// Moved nodes, boundary drift and losses of each group, by group index. Nodes from the number `first_new` on are not
+/// the input's and do not count.
+void describe_motion(const Interface& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes,
+                     Report& report) {
     const BandMesh& band = f.d.band;
     struct Motion {
         Index moved = 0;
@@ -388,7 +425,8 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
             for (const GroupIndex g : before.families.groups(before.node_families[n])) ++motion[g].nodes_gone;
         if (now < 0 || rebuilt.mesh.points[now] == before.points[n]) continue;
         ++report.nodes_moved;
-        report.max_displacement = std::max(report.max_displacement, (rebuilt.mesh.points[now] - before.points[n]).norm());
+        report.max_displacement =
+            std::max(report.max_displacement, (rebuilt.mesh.points[now] - before.points[n]).norm());
     }
     for (int v = 0; v < band.original_nodes(); ++v) {
         const BandNode& n = band.nodes[v];
@@ -405,7 +443,8 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
         };
         meet(before.node_families[n.global]);
         const auto around = [&](const auto& list, const auto& cells) {
-            for (const int s : list.around(v)) meet(before.block(cells[list.origin(s)].type).families[cells[list.origin(s)].cell]);
+            for (const int s : list.around(v))
+                meet(before.block(cells[list.origin(s)].type).families[cells[list.origin(s)].cell]);
         };
         around(band.tetras, band.tetra_cells);
         around(band.triangles, band.triangle_cells);
@@ -432,10 +471,13 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
         if (g >= before.groups.size()) continue;
         r.nodes_moved = motion[g].moved;
         r.boundary_drift = motion[g].drift;
-        const bool smaller = r.measure_after < r.measure_before || (r.measure_before == 0 && r.count_after < r.count_before);
-        if (removes && (motion[g].nodes_gone > 0 || (r.kind != GroupKind::node && smaller && (r.status == "changed" || r.measure_before == 0))))
+        const bool smaller =
+            r.measure_after < r.measure_before || (r.measure_before == 0 && r.count_after < r.count_before);
+        if (removes && (motion[g].nodes_gone > 0 ||
+                        (r.kind != GroupKind::node && smaller && (r.status == "changed" || r.measure_before == 0))))
             r.status = r.count_after == 0 ? "became empty" : "reduced";
-        if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after) r.status = "untouched";
+        if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after)
+            r.status = "untouched";
     }
 }
 
@@ -452,7 +494,8 @@ void add_moved_nodes(Interface& f) {
         if (changed[v] && band.in_use(v) && band.nodes[v].movable() && !f.d.contact[v]) f.transition.push_back(v);
 }
 
-std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Index>& index, const Mesh& mesh, auto keep) {
+std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Index>& index, const Mesh& mesh,
+                           auto keep) {
     std::vector<Index> out;
     for (const int v : nodes)
         if (keep(v) && index[v] >= 0) out.push_back(mesh.node_ids[index[v]]);
@@ -493,16 +536,19 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     if (input.solver_input) watch_.lap("mark deck");
 }
 
-/// Makes the counts of the report those of refinement and operation together: what both made and removed does not count.
+/// Makes the counts of the report those of refinement and operation together: what both made and removed does not
+/// count.
 void Operation::join_refinement(const Rebuilt& rebuilt) {
     const Refined& refined = *prepared_.refined;
     report_.refinement = refined.summary;
     Index nodes = 0, elements = 0;
-    for (Index n = 0; n < mesh().node_count(); ++n) nodes += mesh().node_ids[n] >= refined.numbering.node && rebuilt.kept_node(n) < 0;
+    for (Index n = 0; n < mesh().node_count(); ++n)
+        nodes += mesh().node_ids[n] >= refined.numbering.node && rebuilt.kept_node(n) < 0;
     std::set<Index> left;
     for (const CellRef& c : rebuilt.after) left.insert(rebuilt.mesh.block(c.type).ids[c.cell]);
     for (const CellRef& c : rebuilt.before)
-        if (const Index id = mesh().block(c.type).ids[c.cell]; id >= refined.numbering.cell) elements += !left.contains(id);
+        if (const Index id = mesh().block(c.type).ids[c.cell]; id >= refined.numbering.cell)
+            elements += !left.contains(id);
     report_.nodes_split += refined.report.nodes_split - nodes;
     report_.nodes_added += refined.report.nodes_added - nodes;
     report_.nodes_removed -= nodes;
@@ -548,7 +594,8 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
     const bool copies = !options_.band_only, measures = prepared_.totals == nullptr;
     copy_ = async_obeying(copies || measures ? std::launch::async : std::launch::deferred, [this, copies, measures] {
-        return std::pair(copies ? std::make_unique<Mesh>(whole()) : nullptr, measures ? family_totals(whole()) : FamilyTotals());
+        return std::pair(copies ? std::make_unique<Mesh>(whole()) : nullptr,
+                         measures ? family_totals(whole()) : FamilyTotals());
     });
     int width = options_.transition.value_or(2);
     location_ = locate(mesh(), blades, width, prepared_.adjacency);
@@ -572,7 +619,10 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     constraint_options.tolerance = location_.tolerance;
     constraint_options.rounding = location_.rounding > location_.tolerance ? location_.rounding : 0;
     const Tool& first = *blades.front().tool;
-    Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options), .tool = &first, .tolerance = location_.tolerance, .bandwidth = width};
+    Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options),
+                .tool = &first,
+                .tolerance = location_.tolerance,
+                .bandwidth = width};
     f.deep_inside = std::move(removed);
     f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
     check_cancelled();
@@ -585,7 +635,8 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     check_input_shape(f, mesh());
     check_skin(f);
     if (options_.preserve) gauge_.emplace(f.d.band, mesh(), drifting_);
-    if (f.d.constraints.has_shortcuts()) shortcuts_.emplace(DriftGauge::of_shortcuts(f.d.band, mesh(), drifting_, constraint_options.on_shortcuts));
+    if (f.d.constraints.has_shortcuts())
+        shortcuts_.emplace(DriftGauge::of_shortcuts(f.d.band, mesh(), drifting_, constraint_options.on_shortcuts));
     for (const Blade& b : blades) split_at_fixed_middles(f, b, mesh());
     watch_.lap("constraints");
     return f;
@@ -615,7 +666,8 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     check_cancelled();
     Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
     if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
-    if (!marks_->surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
+    if (!marks_->surface_sets.empty())
+        renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
     if (input_.solver_input && !part_) {
@@ -650,26 +702,34 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     report_.groups = compare_groups(mesh(), totals, rebuilt.mesh, after);
     // Sets that follow surfaces change with these; no size of theirs can get lost.
     std::vector<bool> unjudged = drifting_;
-    if (unjudged.empty()) unjudged = meaningless_;
-    else for (std::size_t g = 0; g < meaningless_.size(); ++g) unjudged[g] = unjudged[g] || meaningless_[g];
+    if (unjudged.empty())
+        unjudged = meaningless_;
+    else
+        for (std::size_t g = 0; g < meaningless_.size(); ++g) unjudged[g] = unjudged[g] || meaningless_[g];
     if (!options_.skin) warn_of_changed_size(whole(), mesh(), totals, after, f, unjudged, report_);
     const auto follows_surfaces = [&](const GroupRecord& g) {
-        return std::ranges::any_of(marks_->surface_sets, [&](const SurfaceSet& s) { return mesh().groups[s.group].name == g.name && g.kind == GroupKind::element; });
+        return std::ranges::any_of(marks_->surface_sets, [&](const SurfaceSet& s) {
+            return mesh().groups[s.group].name == g.name && g.kind == GroupKind::element;
+        });
     };
     for (const GroupRecord& g : report_.groups)
         if (g.status == "became empty" && !follows_surfaces(g))
-            report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) + " member(s); it stays, empty");
-    for (const std::vector<std::string>* warnings : std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &deck_warnings})
+            report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) +
+                                       " member(s); it stays, empty");
+    for (const std::vector<std::string>* warnings :
+         std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &deck_warnings})
         for (const std::string& w : *warnings)
             if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
     const bool refined = prepared_.refined && !prepared_.refined->tried_in_vain;
     if (refined) join_refinement(rebuilt);
-    describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes, report_);
+    describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes,
+                    report_);
     count_group_constraints(f, mesh(), report_);
     warn_of_held_nodes(f, mesh(), report_);
     if (gauge_) describe_drift(*gauge_, f, mesh(), drifting_, report_);
     if (!meaningless_.empty())
-        for_each_record(mesh(), report_, [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
+        for_each_record(mesh(), report_,
+                        [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless_[g]; });
     if (shortcuts_) describe_shortcuts(*shortcuts_, f, mesh(), report_);
     remove_marks(rebuilt.mesh);
     watch_.lap("report");

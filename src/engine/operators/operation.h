@@ -28,9 +28,10 @@ struct Refined;
 /// Whether elements near the tool are bisected before the operation (refine_first.h).
 struct RefineFirst {
     enum class When {
-        automatic,  ///< where the tool is finer than the mesh: edges are longer than half its radius; not for method `deform`
+        automatic,  ///< where the tool is finer than the mesh: edges are longer than half its radius; not for method
+                    ///< `deform`
         never,
-        to_size,    ///< where edges are longer than `size`
+        to_size,  ///< where edges are longer than `size`
     };
     When when = When::automatic;
     double size = 0;
@@ -38,32 +39,33 @@ struct RefineFirst {
 
 /// What every operator lets the user choose.
 struct OperatorOptions {
-    std::string name;               ///< prefix of the new groups
+    std::string name;  ///< prefix of the new groups
     Method method = Method::snap;
-    /// The i-th neighbourhood of the interface that may move (the paper's bandwidth i, 3.1.2), 1 to 20. When absent: for `deform` as in the
-    /// paper, the largest distance of an interface node from the tool over the mean edge length, at least 2; for `snap`, which moves
-    /// nodes by less than an edge and splits the rest, 2, as more rings do not make better elements (resources/docs/paper.md).
+    /// The i-th neighbourhood of the interface that may move (the paper's bandwidth i, 3.1.2), 1 to 20. When absent:
+    /// for `deform` as in the paper, the largest distance of an interface node from the tool over the mean edge length,
+    /// at least 2; for `snap`, which moves nodes by less than an edge and splits the rest, 2, as more rings do not make
+    /// better elements (resources/docs/paper.md).
     std::optional<int> transition;
-    double feature_angle = 30;      ///< degrees; a skin edge sharper than this is a feature line
+    double feature_angle = 30;  ///< degrees; a skin edge sharper than this is a feature line
     /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
     std::optional<std::vector<std::string>> preserve;
     /// The shape the mesh was made from: nodes of the skin that move or are born are put on its faces and edges.
     const CadShape* skin = nullptr;
-    bool strict = false;            ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+    bool strict = false;  ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
     /// The result's mesh is only the elements near the tool, as the whole operation would make them: same numbers,
-    /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over has
-    /// to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
+    /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over
+    /// has to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
     bool band_only = false;
     RefineFirst refine;
 };
 
-/// What is known of a mesh: what a session keeps, all of which can be made anew at a cost linear in the mesh; and that it was
-/// refined for the operation.
+/// What is known of a mesh: what a session keeps, all of which can be made anew at a cost linear in the mesh; and that
+/// it was refined for the operation.
 struct Prepared {
     const Adjacency* adjacency = nullptr;
-    const FamilyTotals* totals = nullptr;   ///< of the marked mesh, if `marks` have one
+    const FamilyTotals* totals = nullptr;  ///< of the marked mesh, if `marks` have one
     const DeckMarks* marks = nullptr;
-    const Refined* refined = nullptr;       ///< then the report is of refinement and operation together
+    const Refined* refined = nullptr;  ///< then the report is of refinement and operation together
 };
 
 /// How an operator calls what it made.
@@ -78,11 +80,13 @@ struct Naming {
 /// putting the band back, carrying the solver's input over, and the report.
 class Operation {
 public:
-    /// Checks the options; `suffixes` are those of the groups the operator makes, `started` is when it was called. Throws ToolError.
+    /// Checks the options; `suffixes` are those of the groups the operator makes, `started` is when it was called.
+    /// Throws ToolError.
     Operation(const char* kind, const Mesh& input, const OperatorOptions& options, const Prepared& prepared,
               const std::vector<std::string>& suffixes, Stopwatch::Time started);
 
-    /// What is worked on: the input, with the solver's input marked; of it, if asked for and after begin(), the band alone.
+    /// What is worked on: the input, with the solver's input marked; of it, if asked for and after begin(), the band
+    /// alone.
     const Mesh& mesh() const { return part_ ? part_->mesh : whole(); }
 
     /// The same, but never the band alone.
@@ -98,7 +102,8 @@ public:
     /// Where the blades meet the mesh; known after begin().
     const Location& location() const { return location_; }
 
-    /// The steps that an operator has timed itself since begin(); what they leave of the time is that of checks and further attempts.
+    /// The steps that an operator has timed itself since begin(); what they leave of the time is that of checks and
+    /// further attempts.
     void take_laps(const Laps& laps) { watch_.lap("check", laps); }
 
     Result finish(Interface& f, const Lips& lips, const Naming& naming);
@@ -120,9 +125,9 @@ private:
     std::optional<Crop> part_;
     std::vector<Blade> blades_;
     Location location_;
-    std::vector<bool> meaningless_;    // groups of DeckMarks::surface_sets, by index; empty if none
-    std::vector<bool> drifting_;       // groups, by index; empty if none
-    std::optional<DriftGauge> gauge_;  // of them
+    std::vector<bool> meaningless_;        // groups of DeckMarks::surface_sets, by index; empty if none
+    std::vector<bool> drifting_;           // groups, by index; empty if none
+    std::optional<DriftGauge> gauge_;      // of them
     std::optional<DriftGauge> shortcuts_;  // of the others, if they have any
     std::future<std::pair<std::unique_ptr<Mesh>, FamilyTotals>> copy_;
 };

@@ -37,11 +37,14 @@ void add_holders(const Interface& f, const Mesh& mesh, int node, Holders& out) {
     if (freedom == NodeFreedom::free) return;
     const std::size_t before = out.groups.size() + out.features.size();
     for (const GroupIndex g : constraints.groups_at(f.d.band, node)) {
-        if (mesh.groups[g].hidden) out.features.insert("a card of the solver's input");
-        else out.groups.insert(mesh.groups[g].name);
+        if (mesh.groups[g].hidden)
+            out.features.insert("a card of the solver's input");
+        else
+            out.groups.insert(mesh.groups[g].name);
     }
     const std::size_t lines = f.d.band.creases.around(node).size();
-    if (constraints.is_on_skin(f.d.band, node)) out.features.insert(lines == 0 ? "the skin" : lines == 2 ? "a feature line" : "a corner");
+    if (constraints.is_on_skin(f.d.band, node))
+        out.features.insert(lines == 0 ? "the skin" : lines == 2 ? "a feature line" : "a corner");
     if (out.groups.size() + out.features.size() == before) out.features.insert("the elements around them");
 }
 
@@ -106,7 +109,8 @@ HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
     out.features = listed(holders.features);
     if (out.largest <= std::max(f.tolerance, f.d.rounding) || !seen) return out;
     std::ostringstream text;
-    text << "the " << f.tool->kind() << " passes " << out.count << " node(s), held by " << describe(holders) << ", at up to " << out.largest
+    text << "the " << f.tool->kind() << " passes " << out.count << " node(s), held by " << describe(holders)
+         << ", at up to " << out.largest
          << ": it goes through them where they are, or ends there, as elements in between would be too flat";
     f.warnings.push_back(text.str());
     return out;
@@ -131,8 +135,9 @@ std::vector<PoorPlace> find_poor_places(Interface& f, const Mesh& mesh, double w
         middle /= count;
         if (!holders.any()) {
             std::ostringstream text;
-            text << "an element near (" << middle.transpose() << "), part of element " << e.id << ", would have a mean ratio of " << e.quality
-                 << " though nothing there holds its nodes. Move the " << f.tool->kind() << " a little, or refine the mesh there";
+            text << "an element near (" << middle.transpose() << "), part of element " << e.id
+                 << ", would have a mean ratio of " << e.quality << " though nothing there holds its nodes. Move the "
+                 << f.tool->kind() << " a little, or refine the mesh there";
             throw QualityError(text.str());
         }
         PoorPlace& place = places[holders];
@@ -153,10 +158,13 @@ std::vector<PoorPlace> find_poor_places(Interface& f, const Mesh& mesh, double w
     for (auto& [place, holders] : found) {
         std::ostringstream text;
         text.precision(3);
-        text << "poor elements, with a mean ratio down to " << place.mean_ratio << ", near (" << place.place.transpose() << "), between the " << f.tool->kind() << " and "
-             << describe(holders) << ", which leave no room for better ones. ";
-        if (!place.groups.empty()) text << "Leave " << join(place.groups) << " out of preserve, or move";
-        else text << "Move";
+        text << "poor elements, with a mean ratio down to " << place.mean_ratio << ", near (" << place.place.transpose()
+             << "), between the " << f.tool->kind() << " and " << describe(holders)
+             << ", which leave no room for better ones. ";
+        if (!place.groups.empty())
+            text << "Leave " << join(place.groups) << " out of preserve, or move";
+        else
+            text << "Move";
         text << " the " << f.tool->kind() << " there by " << place.gap << " towards it";
         if (place.gap < place.room) text << " or by " << place.room - place.gap << " away from it";
         f.warnings.push_back(text.str());

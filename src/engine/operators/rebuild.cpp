@@ -40,7 +40,9 @@ public:
     }
 
 private:
-    bool moved(int v) const { return band_.nodes[v].global >= 0 && band_.nodes[v].at != input_.points[band_.nodes[v].global]; }
+    bool moved(int v) const {
+        return band_.nodes[v].global >= 0 && band_.nodes[v].at != input_.points[band_.nodes[v].global];
+    }
 
     /// Whether a mid-side node of the element was moved for its own sake.
     bool is_mended(const auto& corners) const {
@@ -69,7 +71,8 @@ private:
         for (std::size_t k = 0; k < lips_.copy_of.size(); ++k) {
             const Index source = out_.node[lips_.copy_of[k]];
             out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
-            out_.node[band_.size() + static_cast<int>(k)] = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
+            out_.node[band_.size() + static_cast<int>(k)] =
+                mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
             ++out_.nodes_doubled;
         }
     }
@@ -119,17 +122,23 @@ private:
             const CellTraits& t = traits(type);
             if (!t.quadratic) return;
             for (const auto& e : t.edges) {
-                const std::uint64_t base = edge_key(corners[e[0]], corners[e[1]]), image = edge_key(images[e[0]], images[e[1]]);
-                if (image == base) owner_[base] = base;
-                else owner_.emplace(base, image);
+                const std::uint64_t base = edge_key(corners[e[0]], corners[e[1]]),
+                                    image = edge_key(images[e[0]], images[e[1]]);
+                if (image == base)
+                    owner_[base] = base;
+                else
+                    owner_.emplace(base, image);
             }
         };
         for (int t = 0; t < band_.tetras.size(); ++t)
-            if (band_.tetras.alive(t)) look(band_.tetras[t], lips_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)].type);
+            if (band_.tetras.alive(t))
+                look(band_.tetras[t], lips_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)].type);
         for (int t = 0; t < band_.triangles.size(); ++t)
-            if (band_.triangles.alive(t)) look(band_.triangles[t], lips_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)].type);
+            if (band_.triangles.alive(t))
+                look(band_.triangles[t], lips_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)].type);
         for (int l = 0; l < band_.lines.size(); ++l)
-            if (band_.lines.alive(l)) look(band_.lines[l], lips_.lines[l], band_.line_cells[band_.lines.origin(l)].type);
+            if (band_.lines.alive(l))
+                look(band_.lines[l], lips_.lines[l], band_.line_cells[band_.lines.origin(l)].type);
     }
 
     Index make_mid_node(int a, int b) {
@@ -143,7 +152,8 @@ private:
         if (moved(a) || moved(b) || f_.d.edge_contact(a, b) || f_.d.mids.is_mended(a, b)) {
             const Vec3 at = half_way(a, b);
             // Straight to within the digits of a text file stays as it is.
-            if (moved(a) || moved(b) || (at - mesh.points[original->second]).norm() > 1e-8 * (band_.nodes[a].at - band_.nodes[b].at).norm())
+            if (moved(a) || moved(b) ||
+                (at - mesh.points[original->second]).norm() > 1e-8 * (band_.nodes[a].at - band_.nodes[b].at).norm())
                 mesh.points[original->second] = at;
         }
         return original->second;
@@ -171,18 +181,20 @@ private:
 
     /// Full connectivity of an element from its corners.
     template <std::size_t N>
-    std::vector<Index> connectivity(CellType type, const std::array<int, N>& corners, const std::array<int, N>& images) {
+    std::vector<Index> connectivity(CellType type, const std::array<int, N>& corners,
+                                    const std::array<int, N>& images) {
         const CellTraits& t = traits(type);
         std::vector<Index> nodes;
         for (int image : images) nodes.push_back(out_.node[image]);
         if (t.quadratic)
-            for (const auto& e : t.edges) nodes.push_back(mid_node(corners[e[0]], corners[e[1]], images[e[0]], images[e[1]]));
+            for (const auto& e : t.edges)
+                nodes.push_back(mid_node(corners[e[0]], corners[e[1]], images[e[0]], images[e[1]]));
         return nodes;
     }
 
     template <std::size_t N>
-    void write_cells(const SimplexList<N>& list, const std::vector<std::array<int, N>>& images, const std::vector<CellRef>& cells,
-                     std::vector<Index>& written) {
+    void write_cells(const SimplexList<N>& list, const std::vector<std::array<int, N>>& images,
+                     const std::vector<CellRef>& cells, std::vector<Index>& written) {
         Mesh& mesh = out_.mesh;
         written.assign(static_cast<std::size_t>(list.size()), -1);
         std::vector<char> seated(cells.size(), 0);
@@ -220,13 +232,14 @@ private:
     }
 
     template <std::size_t N>
-    void write_twins(const std::vector<Lips::Twin<N>>& twins, const SimplexList<N>& list, const std::vector<CellRef>& cells,
-                     std::vector<CellRef>& written) {
+    void write_twins(const std::vector<Lips::Twin<N>>& twins, const SimplexList<N>& list,
+                     const std::vector<CellRef>& cells, std::vector<CellRef>& written) {
         for (const auto& twin : twins) {
             const CellRef& cell = cells[list.origin(twin.slot)];
             const std::vector<Index> nodes = connectivity(cell.type, list[twin.slot], twin.nodes);
             out_.changes.parts.push_back({next_cell_, out_.mesh.block(cell.type).ids[cell.cell]});
-            const Index made = out_.mesh.add_cell(cell.type, nodes, next_cell_++, out_.mesh.block(cell.type).families[cell.cell]);
+            const Index made =
+                out_.mesh.add_cell(cell.type, nodes, next_cell_++, out_.mesh.block(cell.type).families[cell.cell]);
             written.push_back({cell.type, made});
             out_.after.push_back(written.back());
         }
@@ -241,7 +254,8 @@ private:
             for (const std::string& name : names) {
                 GroupIndex g = first;
                 while (g < static_cast<GroupIndex>(mesh.groups.size()) && mesh.groups[g].name != name) ++g;
-                members.back().push_back(g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, GroupKind::element));
+                members.back().push_back(
+                    g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, GroupKind::element));
             }
         }
         const auto with_groups = [&](FamilyIndex family, int face_group) {
@@ -259,14 +273,16 @@ private:
             FamilyIndex& family = mesh.block(type).families[cell];
             family = with_groups(family, face_group);
         };
-        const auto write = [&](const auto& lips, const auto& cells, const auto& written, const auto& twins, CellType linear, CellType quadratic) {
+        const auto write = [&](const auto& lips, const auto& cells, const auto& written, const auto& twins,
+                               CellType linear, CellType quadratic) {
             for (const auto& lip : lips) {
                 if (lip.element == Lips::fresh) {
                     auto corners = lip.nodes;
                     for (int& v : corners)
                         if (v >= band_.size()) v = lips_.copy_of[v - band_.size()];
                     const CellType type = lip.second_order ? quadratic : linear;
-                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++, with_groups(0, lip.group));
+                    const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++,
+                                                     with_groups(0, lip.group));
                     out_.after.push_back({type, made});
                 } else if (lip.element >= 0) {
                     list_as_changed({cells(lip.element).type, written[lip.element]});
@@ -277,9 +293,12 @@ private:
                 }
             }
         };
-        write(lips_.faces, [&](int s) { return band_.triangle_cells[band_.triangles.origin(s)]; }, triangle_cell_, triangle_twin_,
-              CellType::triangle, CellType::triangle6);
-        write(lips_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_, CellType::line, CellType::line3);
+        write(
+            lips_.faces, [&](int s) { return band_.triangle_cells[band_.triangles.origin(s)]; }, triangle_cell_,
+            triangle_twin_, CellType::triangle, CellType::triangle6);
+        write(
+            lips_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_,
+            CellType::line, CellType::line3);
     }
 
     /// Segments along the front. One that is already there is taken; order then follows the numbers.
@@ -296,7 +315,8 @@ private:
                     continue;
                 }
                 const CellType type = owner_.contains(edge_key(ends[0], ends[1])) ? CellType::line3 : CellType::line;
-                const Index made = mesh.add_cell(type, connectivity(type, ends, ends), next_cell_++, mesh.families.with(0, group));
+                const Index made =
+                    mesh.add_cell(type, connectivity(type, ends, ends), next_cell_++, mesh.families.with(0, group));
                 out_.after.push_back({type, made});
             }
     }
@@ -316,8 +336,10 @@ private:
                     const auto& n = band_.tetras[t];
                     const std::array<int, 3> outwards{n[faces[k][0]], n[faces[k][2]], n[faces[k][1]]};
                     for (int turn = 0; turn < 3; ++turn)
-                        if (v[0] == outwards[turn] && v[1] == outwards[(turn + 1) % 3] && v[2] == outwards[(turn + 2) % 3])
-                            fresh.push_back({band_.tetra_cells[band_.tetras.origin(t)].type, static_cast<std::int8_t>(k + 1),
+                        if (v[0] == outwards[turn] && v[1] == outwards[(turn + 1) % 3] &&
+                            v[2] == outwards[(turn + 2) % 3])
+                            fresh.push_back({band_.tetra_cells[band_.tetras.origin(t)].type,
+                                             static_cast<std::int8_t>(k + 1),
                                              mesh.facets[band_.facet_faces.tag(s)].family, tetra_cell_[t]});
                 }
         }
@@ -366,7 +388,8 @@ private:
             for (std::size_t c = 0; c < gone.size(); ++c) {
                 shift[c] = kept;
                 if (gone[c]) continue;
-                std::copy_n(block.connectivity.begin() + static_cast<std::ptrdiff_t>(c) * n, n, block.connectivity.begin() + kept * n);
+                std::copy_n(block.connectivity.begin() + static_cast<std::ptrdiff_t>(c) * n, n,
+                            block.connectivity.begin() + kept * n);
                 block.ids[kept] = block.ids[c];
                 block.families[kept] = block.families[c];
                 ++kept;
@@ -443,7 +466,8 @@ Numbering next_numbers(const Mesh& mesh) {
 }
 
 Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
-                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering, const std::string& front) {
+                const std::vector<std::vector<std::string>>& groups, const Numbering& numbering,
+                const std::string& front) {
     return Rebuilder(input, std::move(copy), interface, lips, numbering).run(groups, front);
 }
 

@@ -34,10 +34,12 @@ void require(bool holds, const std::string& what, double value, const char* rule
 
 void check(const RefineOptions& o) {
     require(std::isfinite(o.size) && o.size > 0, "size", o.size, "a positive length");
-    require(std::isfinite(o.gradation) && o.gradation >= 0, "gradation", o.gradation, "0 (one size everywhere) or more");
+    require(std::isfinite(o.gradation) && o.gradation >= 0, "gradation", o.gradation,
+            "0 (one size everywhere) or more");
     require(std::isfinite(o.reach) && o.reach >= 0, "reach", o.reach, "0 or a positive length");
     require(o.max_elements > 0, "max_elements", static_cast<double>(o.max_elements), "positive");
-    require(o.feature_angle > 0 && o.feature_angle < 180, "feature_angle", o.feature_angle, "between 0 and 180 degrees");
+    require(o.feature_angle > 0 && o.feature_angle < 180, "feature_angle", o.feature_angle,
+            "between 0 and 180 degrees");
 }
 
 /// How long edges may be.
@@ -61,7 +63,9 @@ public:
     }
 
 private:
-    double longest(double distance) const { return options_.size + options_.gradation * std::max(0.0, distance - options_.reach); }
+    double longest(double distance) const {
+        return options_.size + options_.gradation * std::max(0.0, distance - options_.reach);
+    }
 
     const DistanceField& distance_;
     const RefineOptions& options_;
@@ -79,7 +83,8 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const Target& target,
         for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
             check();
             const bool is_long = std::ranges::any_of(t.edges, [&](const auto& e) {
-                return target.exceeded(mesh.points[n[e[0]]], mesh.points[n[e[1]]], distance[n[e[0]]], distance[n[e[1]]]);
+                return target.exceeded(mesh.points[n[e[0]]], mesh.points[n[e[1]]], distance[n[e[0]]],
+                                       distance[n[e[1]]]);
             });
             if (!is_long) continue;
             if (!t.simplex) unsupported.push_back(b.ids[c]);
@@ -87,11 +92,13 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const Target& target,
         }
         if (unsupported.empty()) continue;
         std::string numbers;
-        for (std::size_t k = 0; k < unsupported.size() && k < 5; ++k) numbers += (k ? ", " : "") + std::to_string(unsupported[k]);
+        for (std::size_t k = 0; k < unsupported.size() && k < 5; ++k)
+            numbers += (k ? ", " : "") + std::to_string(unsupported[k]);
         if (unsupported.size() > 5) numbers += ", ...";
-        throw UnsupportedElementError("the refinement reaches " + std::to_string(unsupported.size()) + " " + std::string(t.name) + " elements (" +
-                                      numbers + "); only triangles and tetrahedra can be bisected. Choose a larger size or gradation, " +
-                                      "or split these elements into tetrahedra first");
+        throw UnsupportedElementError(
+            "the refinement reaches " + std::to_string(unsupported.size()) + " " + std::string(t.name) + " elements (" +
+            numbers + "); only triangles and tetrahedra can be bisected. Choose a larger size or gradation, " +
+            "or split these elements into tetrahedra first");
     }
     return level;
 }
@@ -107,7 +114,8 @@ std::unordered_set<std::uint64_t> blocked_edges(const Mesh& mesh, const BandMesh
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
             for (const auto& e : t.edges)
-                if (local[n[e[0]]] >= 0 && local[n[e[1]]] >= 0) blocked.insert(edge_key(local[n[e[0]]], local[n[e[1]]]));
+                if (local[n[e[0]]] >= 0 && local[n[e[1]]] >= 0)
+                    blocked.insert(edge_key(local[n[e[0]]], local[n[e[1]]]));
         }
     }
     return blocked;
@@ -148,7 +156,8 @@ public:
         const auto any = [&](const auto& list, const std::vector<char>& curved) {
             return std::ranges::any_of(list.around(node), [&](int s) { return curved[list.origin(s)] != 0; });
         };
-        return any(band_.tetras, curved_tetras_) || any(band_.triangles, curved_triangles_) || any(band_.lines, curved_lines_);
+        return any(band_.tetras, curved_tetras_) || any(band_.triangles, curved_triangles_) ||
+               any(band_.lines, curved_lines_);
     }
 
 private:
@@ -210,9 +219,17 @@ private:
 
 class Bisector {
 public:
-    Bisector(Deformable& d, const Mesh& mesh, const Target& target, const RefineOptions& options, std::vector<double> distance, bool may_grow)
-        : d_(d), band_(d.band), mesh_(mesh), target_(target), options_(options), distance_(std::move(distance)), may_grow_(may_grow),
-          blocked_(blocked_edges(mesh, d.band)), geometry_(d.band, d.mids, mesh) {}
+    Bisector(Deformable& d, const Mesh& mesh, const Target& target, const RefineOptions& options,
+             std::vector<double> distance, bool may_grow)
+        : d_(d),
+          band_(d.band),
+          mesh_(mesh),
+          target_(target),
+          options_(options),
+          distance_(std::move(distance)),
+          may_grow_(may_grow),
+          blocked_(blocked_edges(mesh, d.band)),
+          geometry_(d.band, d.mids, mesh) {}
 
     /// False when an edge had to be bisected some of whose elements are outside the band.
     bool run() {
@@ -241,22 +258,30 @@ public:
         Vec3 x = middle(a, b);
         if (!options_.skin || (!band_.is_new(a) && !band_.is_new(b))) return x;
         const NodeConstraint on = d_.constraints.on_edge(band_, a, b);
-        if (Vec3 put = x; d_.constraints.is_on_shape(on) && d_.constraints.project(on, {}, put) && (put - x).norm() < 0.2 * (band_.nodes[a].at - band_.nodes[b].at).norm()) x = put;
+        if (Vec3 put = x; d_.constraints.is_on_shape(on) && d_.constraints.project(on, {}, put) &&
+                          (put - x).norm() < 0.2 * (band_.nodes[a].at - band_.nodes[b].at).norm())
+            x = put;
         return x;
     }
 
 private:
-    /// Edges in the order they are bisected in. Lengths are rounded, so that rounding does not decide between equal ones.
+    /// Edges in the order they are bisected in. Lengths are rounded, so that rounding does not decide between equal
+    /// ones.
     struct Edge {
         float length;
         int a, b;
-        bool operator<(const Edge& other) const { return std::tie(length, a, b) < std::tie(other.length, other.a, other.b); }
+        bool operator<(const Edge& other) const {
+            return std::tie(length, a, b) < std::tie(other.length, other.a, other.b);
+        }
     };
 
     Edge edge(int a, int b) const {
-        return {static_cast<float>((band_.nodes[a].at - band_.nodes[b].at).squaredNorm()), std::min(a, b), std::max(a, b)};
+        return {static_cast<float>((band_.nodes[a].at - band_.nodes[b].at).squaredNorm()), std::min(a, b),
+                std::max(a, b)};
     }
-    bool exceeded(int a, int b) const { return target_.exceeded(band_.nodes[a].at, band_.nodes[b].at, distance_[a], distance_[b]); }
+    bool exceeded(int a, int b) const {
+        return target_.exceeded(band_.nodes[a].at, band_.nodes[b].at, distance_[a], distance_[b]);
+    }
     bool is_inside(int a, int b) const { return band_.nodes[a].movable() || band_.nodes[b].movable(); }
 
     template <class Visit>
@@ -324,7 +349,8 @@ private:
         geometry_.add_node(a, b);
         // On the shape the mesh was made from, if that leaves sound elements.
         bool on_shape = false;
-        if (options_.skin && d_.constraints.is_on_shape(d_.constraints.on_edge(band_, a, b)) && !d_.constraints.has_fixed_middle(a, b)) {
+        if (options_.skin && d_.constraints.is_on_shape(d_.constraints.on_edge(band_, a, b)) &&
+            !d_.constraints.has_fixed_middle(a, b)) {
             const Deformable::SplitPoint point = d_.fitted_split(a, b, at, {});
             on_shape = point.fits && point.worst > 0.1;
             if (on_shape) at = point.at;
@@ -332,7 +358,9 @@ private:
         d_.split_edge(a, b, at, {});
         strayed_.push_back(on_shape || strayed_[a] || strayed_[b]);
         distance_.push_back(target_.distance(at));
-        if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_) return;
+        if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <=
+            options_.max_elements + count_at_start_)
+            return;
         std::ostringstream message;
         message << "size " << options_.size << " would make more than " << options_.max_elements
                 << " elements. Choose a larger size or gradation, or a larger max_elements";
@@ -347,8 +375,11 @@ private:
             off_shape_ = 0;
             for (int v = band_.original_nodes(); v < band_.size(); ++v) {
                 Vec3 x = band_.nodes[v].at;
-                if (!d_.constraints.is_on_shape(d_.constraints[v]) || d_.constraints.distance(d_.constraints[v], x) <= 1e-9 * band_.mean_edge_length(v)) continue;
-                if (!d_.constraints.project(v, {}, x) || quality_around(d_, v, x) < std::min(0.1, quality_around(d_, v, band_.nodes[v].at))) {
+                if (!d_.constraints.is_on_shape(d_.constraints[v]) ||
+                    d_.constraints.distance(d_.constraints[v], x) <= 1e-9 * band_.mean_edge_length(v))
+                    continue;
+                if (!d_.constraints.project(v, {}, x) ||
+                    quality_around(d_, v, x) < std::min(0.1, quality_around(d_, v, band_.nodes[v].at))) {
                     ++off_shape_;
                     continue;
                 }
@@ -367,7 +398,8 @@ private:
         for (int v = band_.original_nodes(); v < band_.size(); ++v, check()) {
             if (band_.nodes[v].global >= 0 || geometry_.is_curved_around(v)) continue;
             const NodeConstraint& c = d_.constraints[v];
-            if (c.freedom == NodeFreedom::fixed || (c.freedom == NodeFreedom::surface && !d_.constraints.is_flat(c.shape)) ||
+            if (c.freedom == NodeFreedom::fixed ||
+                (c.freedom == NodeFreedom::surface && !d_.constraints.is_flat(c.shape)) ||
                 (c.freedom == NodeFreedom::curve && !d_.constraints.is_straight(c.shape)))
                 continue;
             movable.push_back(v);
@@ -386,7 +418,7 @@ private:
     const RefineOptions& options_;
     std::vector<double> distance_;  // by band node
     int off_shape_ = 0;
-    const bool may_grow_;           // whether a larger band may be asked for; otherwise propagation ends at the rim
+    const bool may_grow_;  // whether a larger band may be asked for; otherwise propagation ends at the rim
     const Index count_at_start_ = band_.tetras.size() + band_.triangles.size();
     const std::unordered_set<std::uint64_t> blocked_;
     InputGeometry geometry_;
@@ -399,9 +431,13 @@ struct NearestPoint {
     struct Cloud {
         std::vector<Vec3> points;
         std::size_t kdtree_get_point_count() const { return points.size(); }
-        double kdtree_get_pt(std::size_t k, std::size_t axis) const { return points[k][static_cast<Eigen::Index>(axis)]; }
+        double kdtree_get_pt(std::size_t k, std::size_t axis) const {
+            return points[k][static_cast<Eigen::Index>(axis)];
+        }
         template <class Box>
-        bool kdtree_get_bbox(Box&) const { return false; }
+        bool kdtree_get_bbox(Box&) const {
+            return false;
+        }
     };
     using Distance = nanoflann::L2_Simple_Adaptor<double, Cloud>;
 
@@ -415,7 +451,8 @@ struct NearestPoint {
 void describe_quality(const Mesh& mesh, const Interface& f, const Rebuilt& rebuilt, Report& report) {
     std::set<Index> attached;  // triangles on tetrahedra: their shape is that of the tetrahedra
     for (std::size_t t = 0; t < f.d.band.triangle_cells.size(); ++t)
-        if (const CellRef& c = f.d.band.triangle_cells[t]; !f.d.constraints.is_shell(static_cast<int>(t))) attached.insert(mesh.block(c.type).ids[c.cell]);
+        if (const CellRef& c = f.d.band.triangle_cells[t]; !f.d.constraints.is_shell(static_cast<int>(t)))
+            attached.insert(mesh.block(c.type).ids[c.cell]);
     for (const Changes::Part& part : rebuilt.changes.parts)
         if (attached.contains(part.parent)) attached.insert(part.element);
     const auto collect = [&](const Mesh& m, const std::vector<CellRef>& cells) {
@@ -447,7 +484,8 @@ DistanceField distance_to(std::vector<const Tool*> tools) {
 DistanceField distance_to(std::vector<Vec3> points) {
     if (points.empty()) throw ToolError("near is empty: give a tool or points to refine around");
     for (std::size_t k = 0; k < points.size(); ++k)
-        if (!points[k].allFinite()) throw ToolError("near: point " + std::to_string(k) + " has a value that is not a finite number");
+        if (!points[k].allFinite())
+            throw ToolError("near: point " + std::to_string(k) + " has a value that is not a finite number");
     return [search = std::make_shared<const NearestPoint>(std::move(points))](const Vec3& x) {
         std::size_t nearest = 0;
         double squared = 0;
@@ -460,7 +498,8 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     Laps seconds;
     Stopwatch watch(seconds);
     std::vector<Index> on_shortcuts;
-    if (std::optional<Result> result = refine_where_needed(input, distance, options, on_shortcuts)) return std::move(*result);
+    if (std::optional<Result> result = refine_where_needed(input, distance, options, on_shortcuts))
+        return std::move(*result);
     watch.lap("locate");
     Result untouched;
     const FamilyTotals totals = family_totals(input);
@@ -475,7 +514,8 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     return untouched;
 }
 
-std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance, const RefineOptions& options, std::vector<Index>& on_shortcuts) {
+std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,
+                                          const RefineOptions& options, std::vector<Index>& on_shortcuts) {
     check(options);
     Result result;
     Report& report = result.report;
@@ -493,7 +533,8 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     const DeckMarks marks = mark_deck(input);
     const Mesh& mesh = marks.mesh ? *marks.mesh : input;
     if (input.solver_input) watch.lap("mark deck");
-    auto copy = async_obeying(std::launch::async, [&mesh] { return std::pair(std::make_unique<Mesh>(mesh), family_totals(mesh)); });
+    auto copy = async_obeying(std::launch::async,
+                              [&mesh] { return std::pair(std::make_unique<Mesh>(mesh), family_totals(mesh)); });
 
     ConstraintOptions constraint_options;
     constraint_options.feature_angle = options.feature_angle;
@@ -511,7 +552,10 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
         spread_levels(mesh, level, levels);
         bisector.reset();
         f.reset();
-        f.emplace(Interface{.d = Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options), .tool = nullptr, .tolerance = 0, .bandwidth = 0});
+        f.emplace(Interface{.d = Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options),
+                            .tool = nullptr,
+                            .tolerance = 0,
+                            .bandwidth = 0});
         check_input_shape(*f, mesh);
         check_skin(*f);
         std::vector<double> known(static_cast<std::size_t>(f->d.band.size()));
@@ -526,15 +570,20 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
     auto [output, totals] = await(copy);
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
-    if (!marks.surface_sets.empty()) renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
+    if (!marks.surface_sets.empty())
+        renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
     watch.lap("rebuild");
     for (int v = f->d.band.original_nodes(); v < f->d.band.size(); ++v)
-        if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free && !rebuilt.mesh.families.groups(rebuilt.mesh.node_families[n]).empty())
+        if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free &&
+                                             !rebuilt.mesh.families.groups(rebuilt.mesh.node_families[n]).empty())
             on_shortcuts.push_back(rebuilt.mesh.node_ids[n]);
     report.warnings = f->warnings;
-    for (std::string& warning : warnings_of_opened_areas(f->d.band, mesh)) report.warnings.push_back(std::move(warning));
+    for (std::string& warning : warnings_of_opened_areas(f->d.band, mesh))
+        report.warnings.push_back(std::move(warning));
     if (bisector->off_shape() > 0)
-        report.warnings.push_back(std::to_string(bisector->off_shape()) + " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
+        report.warnings.push_back(
+            std::to_string(bisector->off_shape()) +
+            " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
     if (input.solver_input) {
         carry_deck(mesh, rebuilt.mesh, rebuilt.changes, options.strict, report.warnings);
         watch.lap("carry deck");

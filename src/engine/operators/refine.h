@@ -23,14 +23,14 @@ DistanceField distance_to(std::vector<const Tool*> tools);
 DistanceField distance_to(std::vector<Vec3> points);
 
 struct RefineOptions {
-    double size = 0;               ///< longest edge wanted near the tool, in the mesh's unit
-    double gradation = 0.5;        ///< how much longer edges may be per unit of distance from the tool
-    double reach = 0;              ///< `size` holds up to this distance, and grows from there
-    bool relax = true;             ///< move new nodes for better shape, where that changes no surface or border
+    double size = 0;                 ///< longest edge wanted near the tool, in the mesh's unit
+    double gradation = 0.5;          ///< how much longer edges may be per unit of distance from the tool
+    double reach = 0;                ///< `size` holds up to this distance, and grows from there
+    bool relax = true;               ///< move new nodes for better shape, where that changes no surface or border
     Index max_elements = 5'000'000;  ///< ToolError instead of a larger mesh
-    double feature_angle = 30;     ///< degrees; a skin edge sharper than this is a feature line
+    double feature_angle = 30;       ///< degrees; a skin edge sharper than this is a feature line
     const CadShape* skin = nullptr;  ///< the shape the mesh was made from: new nodes of the skin are put on it
-    bool strict = false;           ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+    bool strict = false;  ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
 };
 
 /// Bisects edges until none is longer than size + gradation * max(0, d - reach), d the smallest distance of
@@ -50,9 +50,11 @@ struct RefineOptions {
 /// bisected is one of a quadrangle, prism, pyramid or hexahedron), QualityError (inverted elements near the tool).
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
 
-/// The same, but nothing when no edge is longer than wanted. `on_shortcuts` gets the numbers, ascending, of new nodes inside the
-/// material that are in node groups: those of edges from member to member that are on no boundary of the group. (Who goes on with the
-/// result alone does not know them: to an operation on it they are members like any other, whose place is kept.)
-std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options, std::vector<Index>& on_shortcuts);
+/// The same, but nothing when no edge is longer than wanted. `on_shortcuts` gets the numbers, ascending, of new nodes
+/// inside the material that are in node groups: those of edges from member to member that are on no boundary of the
+/// group. (Who goes on with the result alone does not know them: to an operation on it they are members like any other,
+/// whose place is kept.)
+std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options,
+                                          std::vector<Index>& on_shortcuts);
 
 }  // namespace femscalpel

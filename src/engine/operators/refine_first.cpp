@@ -8,10 +8,12 @@
 namespace femscalpel {
 namespace {
 
-/// Longest edge near a tool, in its smallest radius of curvature: chords are off the tool by at most 3 % of the radius then.
+/// Longest edge near a tool, in its smallest radius of curvature: chords are off the tool by at most 3 % of the radius
+/// then.
 constexpr double edge_per_radius = 0.5;
 
-/// How much longer edges may be per unit of distance from the tool. Bisection keeps shapes sound at any; beyond this, little is saved.
+/// How much longer edges may be per unit of distance from the tool. Bisection keeps shapes sound at any; beyond this,
+/// little is saved.
 constexpr double steepest_gradation = 1;
 
 /// What refining on its own account may make of a mesh.
@@ -20,12 +22,15 @@ constexpr Index most_elements = 2'000'000;
 /// A refinement of its own account that makes more elements than a mesh had, and so many more, is worth a word.
 constexpr Index many_elements = 2000;
 
-bool is_much(const Refinement& r) { return r.elements_after > 2 * r.elements_before && r.elements_after - r.elements_before > many_elements; }
+bool is_much(const Refinement& r) {
+    return r.elements_after > 2 * r.elements_before && r.elements_after - r.elements_before > many_elements;
+}
 
 std::string describe(const Refinement& r) {
     std::ostringstream text;
-    text << "the tool is finer than the mesh, which was refined first, to edges of " << r.size << " near the tool: from " << r.elements_before << " to "
-         << r.elements_after << " elements. refine=" << 2 * r.size << " makes fewer, refine=False none, but then a coarser wall or front";
+    text << "the tool is finer than the mesh, which was refined first, to edges of " << r.size
+         << " near the tool: from " << r.elements_before << " to " << r.elements_after
+         << " elements. refine=" << 2 * r.size << " makes fewer, refine=False none, but then a coarser wall or front";
     return text.str();
 }
 
@@ -36,8 +41,8 @@ double checked(double size) {
     throw ToolError(message.str());
 }
 
-/// One field for all zones, with the smallest of their sizes: a zone of a larger size counts as that much farther away as edges
-/// take to grow so long.
+/// One field for all zones, with the smallest of their sizes: a zone of a larger size counts as that much farther away
+/// as edges take to grow so long.
 DistanceField joined(std::span<const RefineZone> zones, double size, double gradation) {
     return [zones = std::vector<RefineZone>(zones.begin(), zones.end()), size, gradation](const Vec3& x) {
         double nearest = std::numeric_limits<double>::infinity();
@@ -58,9 +63,11 @@ Prepared Refined::prepared(const Prepared& of_input) const {
     return out;
 }
 
-std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond, const RefineFirst& refine) {
+std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond,
+                                      const RefineFirst& refine) {
     if (refine.when == RefineFirst::When::never) return {};
-    const double size = refine.when == RefineFirst::When::to_size ? checked(refine.size) : edge_per_radius * tool.feature_size();
+    const double size =
+        refine.when == RefineFirst::When::to_size ? checked(refine.size) : edge_per_radius * tool.feature_size();
     if (!std::isfinite(size)) return {};
     return RefineZone{[&tool, beyond = std::move(beyond)](const Vec3& x) {
                           const double off = tool.distance(x), past = beyond ? beyond(x) : 0;
@@ -71,13 +78,16 @@ std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(con
 
 std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, const RefineFirst& refine) {
     if (refine.when == RefineFirst::When::to_size)
-        return RefineZone{[&tool, front = patch.distance](const Vec3& x) { return std::hypot(tool.distance(x), front(x)); }, checked(refine.size)};
+        return RefineZone{
+            [&tool, front = patch.distance](const Vec3& x) { return std::hypot(tool.distance(x), front(x)); },
+            checked(refine.size)};
     const double size = edge_per_radius * std::min(patch.feature_size, tool.feature_size());
     if (refine.when == RefineFirst::When::never || !std::isfinite(size)) return {};
     return zone_around(tool, patch.distance, {RefineFirst::When::to_size, size});
 }
 
-std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options, const Prepared& prepared) {
+std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options,
+                                    const Prepared& prepared) {
     if (zones.empty() || prepared.refined) return {};
     const bool asked = options.refine.when == RefineFirst::When::to_size;
     if (!asked && options.method == Method::deform) return {};  // which is there not to add nodes
@@ -92,7 +102,8 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     }
     Refined out;
     try {
-        std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.on_shortcuts);
+        std::optional<Result> result =
+            refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.on_shortcuts);
         if (!result) return {};
         out.mesh = std::move(result->mesh);
         out.report = std::move(result->report);
@@ -100,7 +111,8 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
         if (asked && dynamic_cast<const ToolError*>(&e)) throw ToolError(std::string("refine: ") + e.what());
         if (asked || !(dynamic_cast<const ToolError*>(&e) || dynamic_cast<const UnsupportedElementError*>(&e))) throw;
         out.tried_in_vain = true;
-        out.report.warnings.push_back(std::string("the mesh is coarser than the tool, but was not refined first: ") + e.what());
+        out.report.warnings.push_back(std::string("the mesh is coarser than the tool, but was not refined first: ") +
+                                      e.what());
         return out;
     }
     out.summary = {o.size, mesh.cell_count(), out.mesh.cell_count()};

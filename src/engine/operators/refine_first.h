@@ -20,30 +20,33 @@ struct RefineZone {
 /// A mesh refined for an operation, and what that changed.
 struct Refined {
     Mesh mesh;
-    Report report;             ///< of the refinement
+    Report report;  ///< of the refinement
     Refinement summary;
-    Numbering numbering;       ///< nodes and elements from these numbers on are not the input's
+    Numbering numbering;              ///< nodes and elements from these numbers on are not the input's
     std::vector<Index> on_shortcuts;  ///< see refine_where_needed()
-    double seconds = 0;        ///< of the call so far
-    bool tried_in_vain = false;  ///< `report` has but a warning that says why, and `mesh` is empty
+    double seconds = 0;               ///< of the call so far
+    bool tried_in_vain = false;       ///< `report` has but a warning that says why, and `mesh` is empty
 
     /// What the operation works on, and what is known of it.
     const Mesh& mesh_of(const Mesh& input) const { return tried_in_vain ? input : mesh; }
     Prepared prepared(const Prepared& of_input) const;
 };
 
-/// The zone around a tool's surface where it cuts, that is where `beyond` (if any) is not positive: as the options say, or by
-/// default half the tool's smallest radius of curvature. None around planes and other tools without a size, unless one is given.
-std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond, const RefineFirst& refine);
+/// The zone around a tool's surface where it cuts, that is where `beyond` (if any) is not positive: as the options say,
+/// or by default half the tool's smallest radius of curvature. None around planes and other tools without a size,
+/// unless one is given.
+std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond,
+                                      const RefineFirst& refine);
 
-/// The zone for a crack within a part of a tool: by default the whole part, so that it is at least four edges across; around the
-/// front when a size is given.
+/// The zone for a crack within a part of a tool: by default the whole part, so that it is at least four edges across;
+/// around the front when a size is given.
 std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, const RefineFirst& refine);
 
-/// Refines a mesh (refine()) where an operation's tools are finer than it (the paper's conclusion: "a mesh pre-refinement step is
-/// necessary"). Nothing, when they are not. By default an operation goes on with the mesh as it is where elements that
-/// cannot be bisected are in the way or the number of elements would pass all reason, with a warning; with a size given these
-/// are errors.
-std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options, const Prepared& prepared);
+/// Refines a mesh (refine()) where an operation's tools are finer than it (the paper's conclusion: "a mesh
+/// pre-refinement step is necessary"). Nothing, when they are not. By default an operation goes on with the mesh as it
+/// is where elements that cannot be bisected are in the way or the number of elements would pass all reason, with a
+/// warning; with a size given these are errors.
+std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options,
+                                    const Prepared& prepared);
 
 }  // namespace femscalpel

@@ -32,7 +32,8 @@ double measure_now(const Deformable& d, const auto& corners, CellType type) {
 
 class Remover {
 public:
-    Remover(Interface& f, std::span<const Tool* const> tools, int first_tag) : f_(f), band_(f.d.band), tools_(tools), first_tag_(first_tag) {
+    Remover(Interface& f, std::span<const Tool* const> tools, int first_tag)
+        : f_(f), band_(f.d.band), tools_(tools), first_tag_(first_tag) {
         value_.resize(tools.size());
         for (std::size_t k = 0; k < tools.size(); ++k)
             for (int v = 0; v < band_.size(); ++v) value_[k].push_back(f.value(v, *tools[k]));
@@ -88,7 +89,8 @@ private:
         }
         if (best < 0) {
             std::ostringstream message;
-            message << "the elements around (" << middle(nodes).transpose() << ") cannot be parted from what is to be removed: the mesh is too coarse for the "
+            message << "the elements around (" << middle(nodes).transpose()
+                    << ") cannot be parted from what is to be removed: the mesh is too coarse for the "
                     << tools_[0]->kind() << " there. Refine it near the tool first";
             throw QualityError(message.str());
         }
@@ -98,7 +100,9 @@ private:
     /// Faces collected on the way: of them only the walls count.
     void drop_tags(auto& list) {
         for (int s = 0; s < list.size(); ++s)
-            if (list.alive(s) && list.tag(s) >= first_tag_ && list.tag(s) < first_tag_ + static_cast<int>(tools_.size())) list.remove(s);
+            if (list.alive(s) && list.tag(s) >= first_tag_ &&
+                list.tag(s) < first_tag_ + static_cast<int>(tools_.size()))
+                list.remove(s);
     }
 
     void make_walls(const std::vector<int>& tetras, const std::vector<int>& shells) {
@@ -166,7 +170,8 @@ private:
             if (has_host(band_.lines[s], false)) return false;
             if (!f_.d.constraints.is_loose(band_.lines.origin(s))) return true;
             // A beam or spring goes if what carries one of its ends does.
-            const bool goes = std::ranges::any_of(band_.lines[s], [&](int v) { return touched_.contains(v) && bare(v) && is_inside(std::array{v}); });
+            const bool goes = std::ranges::any_of(
+                band_.lines[s], [&](int v) { return touched_.contains(v) && bare(v) && is_inside(std::array{v}); });
             loose += goes;
             return goes;
         });
@@ -183,8 +188,12 @@ private:
             f_.d.contact[v] = {};
         }
         if (loose > 0)
-            f_.warnings.push_back(std::to_string(loose) + " segment element(s) (beam, spring) of their own end inside what is removed, and are removed with it");
-        if (points > 0) f_.warnings.push_back(std::to_string(points) + " point element(s) sit inside what is removed, and are removed with it");
+            f_.warnings.push_back(
+                std::to_string(loose) +
+                " segment element(s) (beam, spring) of their own end inside what is removed, and are removed with it");
+        if (points > 0)
+            f_.warnings.push_back(std::to_string(points) +
+                                  " point element(s) sit inside what is removed, and are removed with it");
     }
 
     bool bare(int v) const { return band_.tetras.around(v).empty() && band_.triangles.around(v).empty(); }
@@ -196,7 +205,8 @@ private:
                 const auto& n = band_.tetras[s];
                 const std::array<int, 3> face{n[f[0]], n[f[1]], n[f[2]]};
                 for (int turn = 0; turn < 3; ++turn)
-                    if (nodes[0] == face[turn] && nodes[1] == face[(turn + 1) % 3] && nodes[2] == face[(turn + 2) % 3]) return true;
+                    if (nodes[0] == face[turn] && nodes[1] == face[(turn + 1) % 3] && nodes[2] == face[(turn + 2) % 3])
+                        return true;
             }
             return false;
         });
@@ -220,30 +230,40 @@ std::array<int, N> sorted(std::array<int, N> nodes) {
 
 void note_slivers(Interface& f, std::span<const Tool* const> tool_of_tag, int sign) {
     const BandMesh& band = f.d.band;
-    const auto look = [&](const auto& walls, const auto& hosts, const std::vector<CellRef>& cells, auto size, double share) {
+    const auto look = [&](const auto& walls, const auto& hosts, const std::vector<CellRef>& cells, auto size,
+                          double share) {
         for (int s = 0; s < walls.size(); ++s) {
             if (!walls.alive(s)) continue;
             const Tool& tool = *tool_of_tag[walls.tag(s)];
             const auto& nodes = walls[s];
             const auto around = hosts.around(nodes[0]);
-            const auto host = std::ranges::find_if(around, [&](int t) { return std::ranges::all_of(nodes, [&](int v) { return holds(hosts[t], v); }); });
+            const auto host = std::ranges::find_if(
+                around, [&](int t) { return std::ranges::all_of(nodes, [&](int v) { return holds(hosts[t], v); }); });
             if (!std::isfinite(tool.feature_size()) || host == around.end()) continue;
             const CellRef& cell = cells[hosts.origin(*host)];
             if (traits(cell.type).quadratic) continue;  // its faces are as curved as the tool
-            // Distances grow as squares from the nodes, which are on the tool: their mean over a face is that at its edges' middles.
+            // Distances grow as squares from the nodes, which are on the tool: their mean over a face is that at its
+            // edges' middles.
             double depth = 0;
             int edges = 0;
             for (std::size_t i = 0; i < nodes.size(); ++i)
-                for (std::size_t j = 0; j < i; ++j, ++edges) depth -= tool.distance((band.nodes[nodes[i]].at + band.nodes[nodes[j]].at) / 2);
+                for (std::size_t j = 0; j < i; ++j, ++edges)
+                    depth -= tool.distance((band.nodes[nodes[i]].at + band.nodes[nodes[j]].at) / 2);
             f.taken.push_back({cell, sign * share * size(nodes) * depth / edges});
         }
     };
     const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
-    look(band.cut_faces, band.tetras, band.tetra_cells, [&](const auto& n) { return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2; }, 1);
-    look(band.cut_edges, band.triangles, band.triangle_cells, [&](const auto& n) { return (at(n[1]) - at(n[0])).norm(); }, 2.0 / 3);
+    look(
+        band.cut_faces, band.tetras, band.tetra_cells,
+        [&](const auto& n) { return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2; }, 1);
+    look(
+        band.cut_edges, band.triangles, band.triangle_cells,
+        [&](const auto& n) { return (at(n[1]) - at(n[0])).norm(); }, 2.0 / 3);
 }
 
-int remove_inside(Interface& f, std::span<const Tool* const> tools, int first_tag) { return Remover(f, tools, first_tag).run(); }
+int remove_inside(Interface& f, std::span<const Tool* const> tools, int first_tag) {
+    return Remover(f, tools, first_tag).run();
+}
 
 void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_tag) {
     const BandMesh& band = f.d.band;
@@ -275,7 +295,8 @@ Lips open_walls(const Interface& f) {
     std::map<std::array<int, 2>, int> line_at;
     for (int s = 0; s < band.cut_faces.size(); ++s)
         if (band.cut_faces.alive(s))
-            for (const int t : band.triangles.around(band.cut_faces[s][0])) triangle_at.emplace(sorted(band.triangles[t]), t);
+            for (const int t : band.triangles.around(band.cut_faces[s][0]))
+                triangle_at.emplace(sorted(band.triangles[t]), t);
     for (int s = 0; s < band.cut_edges.size(); ++s)
         if (band.cut_edges.alive(s))
             for (const int l : band.lines.around(band.cut_edges[s][0])) line_at.emplace(sorted(band.lines[l]), l);
@@ -285,7 +306,8 @@ Lips open_walls(const Interface& f) {
         if (!band.cut_faces.alive(s)) continue;
         auto face = band.cut_faces[s];
         const auto around = band.tetras.around(face[0]);
-        const auto host = std::ranges::find_if(around, [&](int t) { return holds(band.tetras[t], face[1]) && holds(band.tetras[t], face[2]); });
+        const auto host = std::ranges::find_if(
+            around, [&](int t) { return holds(band.tetras[t], face[1]) && holds(band.tetras[t], face[2]); });
         check();
         // Merging nodes may have turned it over.
         for (const auto& f : outward_faces) {

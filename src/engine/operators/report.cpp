@@ -17,7 +17,8 @@ QualitySummary summarise(std::vector<ElementQuality> qualities) {
     }
     if (s.count > 0) s.mean = sum / static_cast<double>(s.count);
     const auto worst = qualities.begin() + std::min<std::ptrdiff_t>(10, static_cast<std::ptrdiff_t>(qualities.size()));
-    std::ranges::partial_sort(qualities, worst, {}, [](const ElementQuality& q) { return std::pair(q.mean_ratio, q.id); });
+    std::ranges::partial_sort(qualities, worst, {},
+                              [](const ElementQuality& q) { return std::pair(q.mean_ratio, q.id); });
     s.worst.assign(qualities.begin(), worst);
     return s;
 }

@@ -49,15 +49,16 @@ struct HeldNodes {
     std::vector<std::string> features;  ///< what else does: "the skin", "a corner", ...
 };
 
-/// A place where elements came out poor (find_poor_places()), as what is kept there and the tool leave no room for better ones.
+/// A place where elements came out poor (find_poor_places()), as what is kept there and the tool leave no room for
+/// better ones.
 struct PoorPlace {
     std::vector<Index> elements;        ///< numbers of the input's elements that they are parts of, worst first
     double mean_ratio = 0;              ///< of the worst
     Vec3 place = Vec3::Zero();          ///< its middle
     std::vector<std::string> groups;    ///< whose boundary is kept there
     std::vector<std::string> features;  ///< what else is: "the skin", "a feature line", ...
-    double gap = 0;                     ///< between the tool and what is kept, at the worst: the tool moved by so much goes through it
-    double room = 0;                    ///< how large that would have to be for good elements
+    double gap = 0;   ///< between the tool and what is kept, at the worst: the tool moved by so much goes through it
+    double room = 0;  ///< how large that would have to be for good elements
 };
 
 /// What an operator did; the same for all operators.
@@ -66,8 +67,8 @@ struct Report {
     std::string name;       ///< prefix of the groups it made
     std::string method;     ///< "snap" or "deform"
     int transition = 0;     ///< i of the i-th neighbourhood that was allowed to move
-    /// Node numbers by the paper's names: ICN, ECN (interface), ITN, ETN (transition). Of mid-side nodes those that moved, in the
-    /// set of their edge: interface if it lies on the tool, else transition.
+    /// Node numbers by the paper's names: ICN, ECN (interface), ITN, ETN (transition). Of mid-side nodes those that
+    /// moved, in the set of their edge: interface if it lies on the tool, else transition.
     std::map<std::string, std::vector<Index>> node_sets;
     /// Number of nodes by constraint, in the paper's terms: the tool's kind ("plane"), "tangent plane" (on
     /// the skin or a shell), of these "line" (on a feature line or border line: two surfaces) and "fixed";
@@ -77,11 +78,11 @@ struct Report {
     QualitySummary quality_after;   ///< of the same elements and their children after
     std::vector<GroupRecord> groups;
     HeldNodes held;
-    std::vector<PoorPlace> poor;  ///< empty when all is well
+    std::vector<PoorPlace> poor;           ///< empty when all is well
     std::optional<Refinement> refinement;  ///< part of what the counts below say
-    Index nodes_added = 0;       ///< by splitting and by doubling
-    Index nodes_split = 0;       ///< of them, born on split edges
-    Index nodes_doubled = 0;     ///< of them, copies of interface nodes
+    Index nodes_added = 0;                 ///< by splitting and by doubling
+    Index nodes_split = 0;                 ///< of them, born on split edges
+    Index nodes_doubled = 0;               ///< of them, copies of interface nodes
     Index nodes_moved = 0;
     Index nodes_removed = 0;
     Index elements_added = 0;

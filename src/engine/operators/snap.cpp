@@ -29,7 +29,8 @@ constexpr double improvement_goal = 0.45;
 constexpr double poor_beside = 2e-3;
 /// Sine of the angle between the tool and a surface (line) up to which it runs along that.
 constexpr double along = 2e-3;
-/// Going onto the tool, a node may slide so many times its distance along what holds it before it is rather put there straight.
+/// Going onto the tool, a node may slide so many times its distance along what holds it before it is rather put there
+/// straight.
 constexpr double steep = 4;
 /// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
 constexpr double dip = 0.15;
@@ -44,13 +45,13 @@ constexpr double second_order_quality = 0.27;
 constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 5, hard_polishings = 8;
-/// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever along a wall too thin for
-/// elements, and what is cut in the end should not be another mesh.
+/// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever
+/// along a wall too thin for elements, and what is cut in the end should not be another mesh.
 constexpr double largest_growth = 4, largest_part = 1;
 /// The same of dividing elements for better ones after the cut.
 constexpr double largest_part_after = 2.75;
-/// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where second-order elements
-/// make it slow.
+/// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where
+/// second-order elements make it slow.
 constexpr double fewest_visits = 1.5e5, visits_per_element = 4;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
@@ -66,7 +67,9 @@ public:
     /// Nodes that already lie on the tool, where it is wanted.
     void touch_nodes() {
         for (int v = 0; v < band_.size(); ++v) {
-            if (std::abs(value_[v]) > std::max(f_.tolerance, d_.rounding) || d_.contact[v].has(&tool_) || d_.contact[v].full() || !in_region(v)) continue;
+            if (std::abs(value_[v]) > std::max(f_.tolerance, d_.rounding) || d_.contact[v].has(&tool_) ||
+                d_.contact[v].full() || !in_region(v))
+                continue;
             put_on_tool(f_, v, tool_);
             value_[v] = 0;
         }
@@ -111,8 +114,11 @@ public:
         }
         // The ends of a row that is held.
         for (const Candidate& c : candidates)
-            if (value_[c.node] != 0 && any_around(c.node, [&](const auto& nodes) { return std::ranges::any_of(nodes, [&](int v) { return d_.held_off[v] > 0; }); }))
-                hold_if_beside(c.node, d_.constraints[c.node].freedom == NodeFreedom::fixed ? along_beside : close_beside);
+            if (value_[c.node] != 0 && any_around(c.node, [&](const auto& nodes) {
+                    return std::ranges::any_of(nodes, [&](int v) { return d_.held_off[v] > 0; });
+                }))
+                hold_if_beside(c.node,
+                               d_.constraints[c.node].freedom == NodeFreedom::fixed ? along_beside : close_beside);
     }
 
     void split_edges() {
@@ -126,7 +132,7 @@ public:
     void collect_faces(int tag) {
         constexpr int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
         const auto touches = [&](int v) { return d_.contact[v].has(&tool_); };
-        std::map<std::array<int, 3>, int> sides;      // side of the first tetrahedron met
+        std::map<std::array<int, 3>, int> sides;  // side of the first tetrahedron met
         struct Shells {
             bool positive = false, negative = false, flat = false;
             bool parted() const { return positive + negative + flat > 1; }
@@ -152,8 +158,10 @@ public:
                 for (const int w : band_.triangles[t]) {
                     if (w <= v || !touches(w)) continue;
                     Shells& at = shells_at[{v, w}];
-                    if (lies_flat(band_.triangles[t])) at.flat = true;
-                    else (side_of(band_.triangles[t]) > 0 ? at.positive : at.negative) = true;
+                    if (lies_flat(band_.triangles[t]))
+                        at.flat = true;
+                    else
+                        (side_of(band_.triangles[t]) > 0 ? at.positive : at.negative) = true;
                     if (at.parted() && band_.cut_edges.find({v, w}) < 0) band_.cut_edges.add({v, w}, tag);
                 }
             }
@@ -208,7 +216,8 @@ private:
                 for (const int v : list[s]) {
                     out = out || outside[v];
                     least = std::min(least, bound[v]);
-                    for (const int w : list[s]) longest = std::max(longest, (band_.nodes[v].at - band_.nodes[w].at).squaredNorm());
+                    for (const int w : list[s])
+                        longest = std::max(longest, (band_.nodes[v].at - band_.nodes[w].at).squaredNorm());
                 }
                 in[s] = !out && least <= blade_margin * std::sqrt(longest);
             }
@@ -255,7 +264,9 @@ private:
     void hold_if_beside(int v, double part) {
         const double reach = reach_beyond(v);
         if (!is_beside(value_[v], reach, part)) {
-            if (is_beside(value_[v], reach, along_beside)) f_.passed[v] = d_.constraints[v].freedom == NodeFreedom::curve && runs_along(v) ? 0 : std::abs(value_[v]) / reach;
+            if (is_beside(value_[v], reach, along_beside))
+                f_.passed[v] =
+                    d_.constraints[v].freedom == NodeFreedom::curve && runs_along(v) ? 0 : std::abs(value_[v]) / reach;
             return;
         }
         d_.hold_beside(v, d_.contact[v].with(&tool_));
@@ -306,19 +317,27 @@ private:
         const auto rest_lies = [&](const auto& nodes) {
             return std::ranges::all_of(nodes, [&](int w) { return w == v || d_.contact[w]; });
         };
-        return std::ranges::any_of(band_.skin.around(v), [&](int s) { return !d_.constraints.is_flat(band_.skin.tag(s)) && rest_lies(band_.skin[s]); }) ||
+        return std::ranges::any_of(
+                   band_.skin.around(v),
+                   [&](int s) { return !d_.constraints.is_flat(band_.skin.tag(s)) && rest_lies(band_.skin[s]); }) ||
                std::ranges::any_of(band_.creases.around(v), [&](int s) {
-                   return !d_.constraints.is_straight(d_.constraints.on_edge(band_, band_.creases[s][0], band_.creases[s][1])) && rest_lies(band_.creases[s]);
+                   return !d_.constraints.is_straight(
+                              d_.constraints.on_edge(band_, band_.creases[s][0], band_.creases[s][1])) &&
+                          rest_lies(band_.creases[s]);
                });
     }
 
-    /// Whether, with v on a curved tool, an element would have all its nodes on it: one that fills a bulge of the tool, belongs to
-    /// neither side, and gets a better shape only by growing along the tool.
+    /// Whether, with v on a curved tool, an element would have all its nodes on it: one that fills a bulge of the tool,
+    /// belongs to neither side, and gets a better shape only by growing along the tool.
     bool would_fill_bulge(int v) const {
         if (!std::isfinite(tool_.feature_size())) return false;
-        const auto fills = [&](const auto& nodes) { return std::ranges::all_of(nodes, [&](int w) { return w == v || d_.contact[w].has(&tool_); }); };
+        const auto fills = [&](const auto& nodes) {
+            return std::ranges::all_of(nodes, [&](int w) { return w == v || d_.contact[w].has(&tool_); });
+        };
         return std::ranges::any_of(band_.tetras.around(v), [&](int t) { return fills(band_.tetras[t]); }) ||
-               std::ranges::any_of(band_.triangles.around(v), [&](int t) { return d_.constraints.is_shell(band_.triangles.origin(t)) && fills(band_.triangles[t]); });
+               std::ranges::any_of(band_.triangles.around(v), [&](int t) {
+                   return d_.constraints.is_shell(band_.triangles.origin(t)) && fills(band_.triangles[t]);
+               });
     }
 
     /// Moves a node onto the tool; false where that cannot be, or would spoil elements.
@@ -374,7 +393,9 @@ std::vector<int> fit_to_shapes(Interface& f) {
     for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
         if (!d.band.in_use(v) || (d.constraints[v].freedom == NodeFreedom::free && !d.contact[v])) continue;
         Vec3 x = d.band.nodes[v].at;
-        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) && d.off_tools(v) <= f.tolerance) continue;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) &&
+            d.off_tools(v) <= f.tolerance)
+            continue;
         if (!d.constraints.project(v, d.contact[v], x) || x == d.band.nodes[v].at || d.is_barred(v, x)) continue;
         if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
         d.band.nodes[v].at = x;
@@ -403,7 +424,8 @@ Vec3 middle_of(const BandMesh& band, const auto& nodes) {
     return sum / static_cast<double>(nodes.size());
 }
 
-/// Those in which new nodes are off their tools or the curved skin they were born on, or parts came out as folded second-order elements.
+/// Those in which new nodes are off their tools or the curved skin they were born on, or parts came out as folded
+/// second-order elements.
 Slots misfits(const Interface& f) {
     const BandMesh& band = f.d.band;
     Slots found;
@@ -414,7 +436,8 @@ Slots misfits(const Interface& f) {
     for (int v = band.original_nodes(); v < band.size(); ++v) {
         if (!band.in_use(v)) continue;
         const NodeConstraint& c = f.d.constraints[v];
-        const double allowed = f.d.constraints.is_straight(c) ? std::max(10 * f.tolerance, f.d.rounding) : largest_misfit * band.mean_edge_length(v);
+        const double allowed = f.d.constraints.is_straight(c) ? std::max(10 * f.tolerance, f.d.rounding)
+                                                              : largest_misfit * band.mean_edge_length(v);
         const bool on_shape = f.d.constraints.distance(c, band.nodes[v].at) <= allowed;
         if (on_shape && f.d.off_tools(v) <= 10 * f.tolerance) continue;
         found.places.push_back(band.nodes[v].at);
@@ -432,7 +455,10 @@ double poorest(const Interface& f, double limit, Slots& poor) {
     SparseCheck check;
     const auto look = [&](const auto& list, std::vector<int>& origins, auto quality_of) {
         for (int s = 0; s < list.size(); ++s) {
-            if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; })) continue;
+            if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) {
+                    return band.is_new(v) || band.nodes[v].at != band.nodes[v].start;
+                }))
+                continue;
             check();
             const double quality = quality_of(s);
             worst = std::min(worst, quality);
@@ -442,7 +468,8 @@ double poorest(const Interface& f, double limit, Slots& poor) {
         }
     };
     look(band.tetras, poor.tetras, [&](int t) { return tetra_quality(f.d, t); });
-    look(band.triangles, poor.triangles, [&](int t) { return f.d.constraints.is_shell(band.triangles.origin(t)) ? shell_quality(f.d, t) : 1.0; });
+    look(band.triangles, poor.triangles,
+         [&](int t) { return f.d.constraints.is_shell(band.triangles.origin(t)) ? shell_quality(f.d, t) : 1.0; });
     poor.tidy();
     return worst;
 }
@@ -460,8 +487,9 @@ void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
 
 int element_count(const BandMesh& band) { return band.tetras.size() + band.triangles.size(); }
 
-/// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves bulge a quarter as far, so that a tool finds room between a
-/// curved skin and its chords where it found none. The band grows to about `most_elements`.
+/// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves
+/// bulge a quarter as far, so that a tool finds room between a curved skin and its chords where it found none. The band
+/// grows to about `most_elements`.
 void refine(Interface& f, const Slots& slots, double most_elements) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
@@ -471,10 +499,13 @@ void refine(Interface& f, const Slots& slots, double most_elements) {
         for (const int a : nodes)
             for (const int b : nodes) longest = std::max(longest, (band.nodes[a].at - band.nodes[b].at).squaredNorm());
         const bool divided = std::ranges::any_of(nodes, [&](int v) { return band.is_new(v); });
-        if (divided && std::ranges::none_of(slots.places, [&](const Vec3& x) { return (x - middle).squaredNorm() <= longest; })) return;
+        if (divided &&
+            std::ranges::none_of(slots.places, [&](const Vec3& x) { return (x - middle).squaredNorm() <= longest; }))
+            return;
         for (const int a : nodes)
             for (const int b : nodes)
-                if (a < b && (band.nodes[a].movable() || band.nodes[b].movable())) edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
+                if (a < b && (band.nodes[a].movable() || band.nodes[b].movable()))
+                    edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
     });
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -514,10 +545,12 @@ bool allow_to_hold(Interface& start, const Interface& cut, double part) {
         skin = skin || std::ranges::any_of(nodes, [&](int v) { return f.d.constraints.is_exterior(v); });
     });
     std::ostringstream text;
-    text << "no sound elements were found where the " << f.tool->kind() << (skin ? " meets the skin" : " passes inside the material");
+    text << "no sound elements were found where the " << f.tool->kind()
+         << (skin ? " meets the skin" : " passes inside the material");
     if (place) text << " near (" << place->transpose() << ")";
-    text << ": the mesh is too coarse there, or only a thin layer of material is left" << (skin ? "" : " between it and a border") << ". Move the "
-         << f.tool->kind() << " a little, or refine the mesh";
+    text << ": the mesh is too coarse there, or only a thin layer of material is left"
+         << (skin ? "" : " between it and a border") << ". Move the " << f.tool->kind()
+         << " a little, or refine the mesh";
     throw QualityError(text.str());
 }
 
@@ -572,10 +605,14 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index mesh_elements, int attempts, bool whole_tool) {
-    const bool plain = whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
+void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index mesh_elements, int attempts,
+                 bool whole_tool) {
+    const bool plain =
+        whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
     Interface start = f;
-    const double elements = element_count(start.d.band), most_elements = std::min(largest_growth * elements, elements + largest_part * static_cast<double>(mesh_elements));
+    const double elements = element_count(start.d.band),
+                 most_elements =
+                     std::min(largest_growth * elements, elements + largest_part * static_cast<double>(mesh_elements));
     std::optional<Interface> best;
     double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
     bool tried_to_hold = false;
@@ -595,7 +632,8 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
             const double quality = poorest(f, std::max(1.5 * poor_quality, enough), bad);
             if (quality >= enough) return;
             polish = true;
-            const bool too_many = element_count(f.d.band) - elements > (largest_growth - 1) * static_cast<double>(mesh_elements);
+            const bool too_many =
+                element_count(f.d.band) - elements > (largest_growth - 1) * static_cast<double>(mesh_elements);
             if (quality > best_quality && !(too_many && best && best_quality >= hold_quality)) {
                 best_quality = quality;
                 best = f;
@@ -610,8 +648,8 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
             if (!best) fail_at(f, bad);
             break;
         }
-        // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would get
-        // farther into elements whose nodes are not put on it.
+        // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would
+        // get farther into elements whose nodes are not put on it.
         std::vector<char>& off_tool = start.d.off_tool;
         const bool may_hold = polish && !tried_to_hold && best_quality < poor_quality;
         if (may_hold && allow_to_hold(start, f, best_quality < hold_quality ? along_beside : poor_beside)) {
@@ -632,19 +670,23 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
     if (best_quality >= poor_quality || plain) return;
     std::ostringstream text;
     text.precision(2);
-    text << "the " << f.tool->kind() << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality
+    text << "the " << f.tool->kind()
+         << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality
          << " at best: refine the mesh there for better ones";
     f.warnings.push_back(text.str());
 }
 
 void snap_to_tool(Interface& f, const Blade& blade, Index mesh_elements) {
-    cut_soundly(f, [&blade](Interface& g) {
-        cut_along(g, blade);
-        g.d.barrier = blade.tool;
-        for (int v = 0; v < g.d.band.size(); ++v)
-            g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
-        relax_band(g);
-    }, mesh_elements, 12, true);
+    cut_soundly(
+        f,
+        [&blade](Interface& g) {
+            cut_along(g, blade);
+            g.d.barrier = blade.tool;
+            for (int v = 0; v < g.d.band.size(); ++v)
+                g.d.side[v] = static_cast<signed char>((g.distance[v] > 0) - (g.distance[v] < 0));
+            relax_band(g);
+        },
+        mesh_elements, 12, true);
 }
 
 }  // namespace femscalpel

@@ -10,15 +10,18 @@
 
 namespace femscalpel {
 
-/// Seconds by step, in order; those of one name are added up. Copies are the same list: what attempts took that came to nothing is not lost.
+/// Seconds by step, in order; those of one name are added up. Copies are the same list: what attempts took that came to
+/// nothing is not lost.
 class Laps {
 public:
     using List = std::vector<std::pair<std::string, double>>;
 
     void add(const std::string& step, double seconds) {
         const auto known = std::ranges::find(*list_, step, &List::value_type::first);
-        if (known == list_->end()) list_->emplace_back(step, seconds);
-        else known->second += seconds;
+        if (known == list_->end())
+            list_->emplace_back(step, seconds);
+        else
+            known->second += seconds;
     }
     const List& list() const { return *list_; }
     double sum() const {

@@ -179,10 +179,13 @@ std::optional<CardContent> card_content(const Card& card) {
         return CardContent::nodal_values;
     }
     if (card.keyword == "SUBMODEL") return type_of(card) == "SURFACE" ? CardContent::nothing : CardContent::nodal_list;
-    if (card.keyword == "MODELCHANGE") return type_of(card) == "ELEMENT" ? CardContent::element_list : CardContent::nothing;
+    if (card.keyword == "MODELCHANGE")
+        return type_of(card) == "ELEMENT" ? CardContent::element_list : CardContent::nothing;
     if (card.keyword == "RESTART") return card.parameter("READ") ? CardContent::foreign_results : CardContent::nothing;
     // CalculiX compares the first letters ("*FLUID SECTIONS").
-    const auto is_this = [&](std::string_view known) { return known.empty() ? card.keyword.empty() : card.keyword.starts_with(known); };
+    const auto is_this = [&](std::string_view known) {
+        return known.empty() ? card.keyword.empty() : card.keyword.starts_with(known);
+    };
     if (std::ranges::any_of(nameless, is_this)) return CardContent::nothing;
     return {};
 }

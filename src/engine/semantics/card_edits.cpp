@@ -44,8 +44,8 @@ void CardEdits::apply(Card& card) const {
                 run = next;
                 run_number = next_number;
                 if (!edit->second.added.empty()) {
-                    const auto file = std::make_shared<const DeckFile>(
-                        DeckFile{piece.file->path + ":" + std::to_string(number) + " (carried over)", edit->second.added});
+                    const auto file = std::make_shared<const DeckFile>(DeckFile{
+                        piece.file->path + ":" + std::to_string(number) + " (carried over)", edit->second.added});
                     out.push_back({file, file->text, 1});
                 }
             }

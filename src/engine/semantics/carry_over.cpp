@@ -23,7 +23,8 @@ namespace {
 std::string number_text(double value) {
     std::array<char, 40> text{};
     char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    if (end - text.data() > 20) end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 12).ptr;
+    if (end - text.data() > 20)
+        end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 12).ptr;
     std::string out(text.data(), end);
     if (out.find_first_of(".en") == out.npos) out += '.';
     return out;
@@ -35,9 +36,14 @@ constexpr double unmoved = 1e-9;
 class CarryOver {
 public:
     CarryOver(const Mesh& before, Mesh& after, const Changes& changes)
-        : before_(before), after_(after), old_(before), new_numbers_(after),
-          origins_(before, old_.numbers(), after, new_numbers_, changes), input_(*before.solver_input),
-          edits_(input_.cards().size()), changes_(changes) {
+        : before_(before),
+          after_(after),
+          old_(before),
+          new_numbers_(after),
+          origins_(before, old_.numbers(), after, new_numbers_, changes),
+          input_(*before.solver_input),
+          edits_(input_.cards().size()),
+          changes_(changes) {
         Vec3 low = Vec3::Constant(INFINITY), high = -low;
         for (const Vec3& x : before.points) {
             low = low.cwiseMin(x);
@@ -80,7 +86,8 @@ private:
     // --- messages ----------------------------------------------------------------------------------
 
     /// Says `what` about the node or element of line `where`; equal remarks on one card become one.
-    void remark(std::size_t card, bool problem, const std::string& where, const std::string& entity, const std::string& what) {
+    void remark(std::size_t card, bool problem, const std::string& where, const std::string& entity,
+                const std::string& what) {
         Remark& r = remarks_[{card, problem, what}];
         if (r.count++ == 0) {
             r.where = where;
@@ -92,8 +99,10 @@ private:
         for (const auto& [key, r] : remarks_) {
             const auto& [card, problem, what] = key;
             std::string text = r.where + "*" + before_.solver_input->cards()[card].keyword + " names " + r.entity;
-            if (r.count > 1) text += " and " + std::to_string(r.count - 1) + " more, each of which " + what;
-            else text += ", which " + what;
+            if (r.count > 1)
+                text += " and " + std::to_string(r.count - 1) + " more, each of which " + what;
+            else
+                text += ", which " + what;
             (problem ? problems_ : notes_).push_back(std::move(text));
         }
     }
@@ -109,7 +118,8 @@ private:
     std::vector<Index> parts_of(Index element) const {
         std::vector<Index> out;
         if (new_numbers_.cell(element)) out.push_back(element);
-        if (const auto it = parts_.find(element); it != parts_.end()) out.insert(out.end(), it->second.begin(), it->second.end());
+        if (const auto it = parts_.find(element); it != parts_.end())
+            out.insert(out.end(), it->second.begin(), it->second.end());
         return out;
     }
 
@@ -122,7 +132,8 @@ private:
         std::vector<Faces*> of_group(after_.groups.size(), nullptr);
         bool any = false;
         for (std::size_t g = 0; g < of_group.size(); ++g)
-            if (after_.groups[g].hidden && after_.groups[g].kind != GroupKind::node && after_.groups[g].name.starts_with(mark_prefix)) {
+            if (after_.groups[g].hidden && after_.groups[g].kind != GroupKind::node &&
+                after_.groups[g].name.starts_with(mark_prefix)) {
                 of_group[g] = &marked_[after_.groups[g].name];
                 any = true;
             }
@@ -199,7 +210,8 @@ private:
         std::vector<Index> fresh = new_nodes_;
         std::ranges::sort(fresh);
         for (Index n = 0; n < after_.node_count(); ++n)
-            if (after_.families.contains(after_.node_families[n], group) && !std::ranges::binary_search(fresh, after_.node_ids[n]))
+            if (after_.families.contains(after_.node_families[n], group) &&
+                !std::ranges::binary_search(fresh, after_.node_ids[n]))
                 after_.node_families[n] = after_.families.with(after_.node_families[n], closed);
         DeckSet set;
         set.name = set.group = made;
@@ -244,14 +256,19 @@ private:
         };
         const std::vector<char> had = present(before_), has = present(after_);
         for (const DeckSet& set : before_.solver_input->sets()) {
-            const auto was = before_.find_group(set.group, group_kind(set.type)), is = after_.find_group(set.group, group_kind(set.type));
-            if (set.unheld.empty() && was && had[*was] && (!is || !has[*is])) emptied_.emplace(deck_key(set.name), std::string(to_string(set.type)));
+            const auto was = before_.find_group(set.group, group_kind(set.type)),
+                       is = after_.find_group(set.group, group_kind(set.type));
+            if (set.unheld.empty() && was && had[*was] && (!is || !has[*is]))
+                emptied_.emplace(deck_key(set.name), std::string(to_string(set.type)));
         }
     }
 
-    /// Cards that name such a set say less than they did; those whose lines carry loads or equations are told of on their own.
+    /// Cards that name such a set say less than they did; those whose lines carry loads or equations are told of on
+    /// their own.
     void check_emptied(std::size_t c, const Card& card, CardContent content) {
-        if (emptied_.empty() || content == CardContent::node_loads || content == CardContent::node_weights || content == CardContent::equation) return;
+        if (emptied_.empty() || content == CardContent::node_loads || content == CardContent::node_weights ||
+            content == CardContent::equation)
+            return;
         const auto check = [&](const std::string& where, const std::string& name) {
             if (const auto set = emptied_.find(deck_key(name)); set != emptied_.end())
                 remark(c, true, where, set->second + " '" + name + "'", "lost all its members");
@@ -273,9 +290,10 @@ private:
         const auto content = card_content(card);
         if (!content) {
             if (unknown_.insert(card.keyword).second)
-                problems_.push_back(card.where() + ": *" + card.keyword +
-                                    " is not a card of CalculiX 2.20: whether it names nodes or elements is not known, so it "
-                                    "is kept as it is; check it");
+                problems_.push_back(
+                    card.where() + ": *" + card.keyword +
+                    " is not a card of CalculiX 2.20: whether it names nodes or elements is not known, so it "
+                    "is kept as it is; check it");
             return;
         }
         if (*content != CardContent::mesh) check_emptied(c, card, *content);
@@ -286,30 +304,52 @@ private:
             case CardContent::nodal_list:
                 pools_[std::to_string(old_.step(c)) + parameters_key(card)].push_back(c);
                 break;
-            case CardContent::node_loads: carry_node_loads(c, card, true); break;
-            case CardContent::node_weights: carry_node_loads(c, card, false); break;
-            case CardContent::element_loads: carry_element_loads(c, card); break;
-            case CardContent::element_values: carry_element_values(c, card); break;
-            case CardContent::element_list: carry_element_list(c, card); break;
-            case CardContent::element_normals: carry_normals(c, card); break;
-            case CardContent::equation: carry_equations(c, card); break;
-            case CardContent::face_equation: check_face_equations(c, card); break;
-            case CardContent::mpc: carry_mpcs(c, card); break;
+            case CardContent::node_loads:
+                carry_node_loads(c, card, true);
+                break;
+            case CardContent::node_weights:
+                carry_node_loads(c, card, false);
+                break;
+            case CardContent::element_loads:
+                carry_element_loads(c, card);
+                break;
+            case CardContent::element_values:
+                carry_element_values(c, card);
+                break;
+            case CardContent::element_list:
+                carry_element_list(c, card);
+                break;
+            case CardContent::element_normals:
+                carry_normals(c, card);
+                break;
+            case CardContent::equation:
+                carry_equations(c, card);
+                break;
+            case CardContent::face_equation:
+                check_face_equations(c, card);
+                break;
+            case CardContent::mpc:
+                carry_mpcs(c, card);
+                break;
             case CardContent::foreign_results:
-                problems_.push_back(card.where() + ": *" + card.keyword +
-                                    ", READ needs results of the mesh as it was; the changed mesh has other nodes and elements");
+                problems_.push_back(
+                    card.where() + ": *" + card.keyword +
+                    ", READ needs results of the mesh as it was; the changed mesh has other nodes and elements");
                 break;
             case CardContent::nothing:
                 if (card.keyword == "VIEWFACTOR") check_view_factors(card);
                 break;
-            case CardContent::mesh: break;
+            case CardContent::mesh:
+                break;
         }
     }
 
     void check_view_factors(const Card& card) {
         if (card.parameter("READ") && !view_factors_made_)
-            problems_.push_back(card.where() + ": *VIEWFACTOR, READ needs view factors of the mesh as it was; compute them anew");
-        else view_factors_made_ = true;
+            problems_.push_back(card.where() +
+                                ": *VIEWFACTOR, READ needs view factors of the mesh as it was; compute them anew");
+        else
+            view_factors_made_ = true;
     }
 
     void check_references(std::size_t c, const Card& card) {
@@ -335,7 +375,8 @@ private:
                 const std::string name = name_of_old_members(what->set);
                 if (name == what->set) continue;
                 remark(c, false, line.where(), "set '" + what->set + "'",
-                       "has new nodes; the card now names '" + name + "', the nodes it had, so that the total stays the same");
+                       "has new nodes; the card now names '" + name +
+                           "', the nodes it had, so that the total stays the same");
                 edits_[c].replace(line, name + "," + std::string(line.rest()));
                 continue;
             }
@@ -360,7 +401,7 @@ private:
         std::string written;  ///< label
         LoadLabel label;
         std::string rest;
-        std::string mark;     ///< the group that has its faces or elements; empty if the line stays as it is
+        std::string mark;  ///< the group that has its faces or elements; empty if the line stays as it is
         Faces faces;
         std::vector<Index> other_members;  ///< of a set: elements that have no such face
 
@@ -375,7 +416,8 @@ private:
         std::map<std::string, std::set<std::pair<Index, int>>> left;
         for (const LoadLine& l : lines)
             if (!l.mark.empty())
-                if (const auto [it, fresh] = left.try_emplace(l.mark); fresh) it->second.insert(marked_[l.mark].begin(), marked_[l.mark].end());
+                if (const auto [it, fresh] = left.try_emplace(l.mark); fresh)
+                    it->second.insert(marked_[l.mark].begin(), marked_[l.mark].end());
         std::map<std::pair<std::string, Index>, const LoadLine*> line_of;  // by group and element of the input
         std::map<std::string, const LoadLine*> last_line;
         for (const LoadLine& l : lines) {
@@ -403,7 +445,8 @@ private:
                 const auto parent = parents_.find(element);
                 const auto found = line_of.find({mark, parent == parents_.end() ? element : parent->second});
                 const LoadLine& l = found == line_of.end() ? *last_line.at(mark) : *found->second;
-                edits_[c].add_after(l.line, l.with(element, face == 0 ? l.written : l.label.with_face(face, is_plane_now(element))));
+                edits_[c].add_after(
+                    l.line, l.with(element, face == 0 ? l.written : l.label.with_face(face, is_plane_now(element))));
             }
     }
 
@@ -418,15 +461,19 @@ private:
             LoadLine l{start, *what, written, LoadLabel(written), std::string(line.rest()), "", {}, {}};
             if (l.label.suffix == "FC")
                 if (Index sink = 0; line.integer(sink) && origins_.is_doubled(sink))
-                    remark(c, true, line.where(), node_text(sink), "the crack doubled; the original, on the negative side, stays the sink");
+                    remark(c, true, line.where(), node_text(sink),
+                           "the crack doubled; the original, on the negative side, stays the sink");
             const auto look = [&](Index element) {
                 const auto cell = old_.numbers().cell(element);
                 if (!cell) return;
                 const int face = l.label.face(cell->type, old_.is_plane(*cell));
-                if (face > 0 || what->is_number()) l.faces.push_back({element, face});
-                else l.other_members.push_back(element);
+                if (face > 0 || what->is_number())
+                    l.faces.push_back({element, face});
+                else
+                    l.other_members.push_back(element);
             };
-            if (what->is_number()) look(what->number);
+            if (what->is_number())
+                look(what->number);
             else if (l.label.number > 0)
                 if (const auto group = old_.group(DeckSetType::elset, what->set))
                     for (const Index element : old_.members(*group)) look(element);
@@ -466,7 +513,8 @@ private:
         const std::string* type = card.parameter("TYPE");
         const bool points = card.keyword == "INITIALCONDITIONS";
         // Two entries and six values on the first line of a record, eight on the others.
-        const Index lines = points && deck_key(*type) == "SOLUTION" ? 1 + std::max<Index>(0, state_variables() - 6 + 7) / 8 : 1;
+        const Index lines =
+            points && deck_key(*type) == "SOLUTION" ? 1 + std::max<Index>(0, state_variables() - 6 + 7) / 8 : 1;
         CardReader line(card);
         while (line.next_data_line()) {
             const auto what = read_number_or_set(line);
@@ -527,13 +575,16 @@ private:
             for (const Index part : parts_of(element)) {
                 const CellRef cell = *new_numbers_.cell(part);
                 for (const Index n : after_.block(cell.type).nodes(cell.cell))
-                    if (std::ranges::find(images, after_.node_ids[n]) != images.end()) now.push_back({part, after_.node_ids[n]});
+                    if (std::ranges::find(images, after_.node_ids[n]) != images.end())
+                        now.push_back({part, after_.node_ids[n]});
             }
             if (now == std::vector<std::pair<Index, Index>>{{element, node}}) continue;
             edits_[c].drop(line);
-            if (now.empty()) remark(c, true, line.where(), element_text(element), "has no longer the node of its normal");
+            if (now.empty())
+                remark(c, true, line.where(), element_text(element), "has no longer the node of its normal");
             for (const auto& [part, image] : now)
-                edits_[c].add_after(line, std::to_string(part) + ", " + std::to_string(image) + "," + std::string(line.rest()));
+                edits_[c].add_after(
+                    line, std::to_string(part) + ", " + std::to_string(image) + "," + std::string(line.rest()));
         }
     }
 
@@ -586,10 +637,15 @@ private:
                 text += (k % 4 == 0 ? "\n" : ", ") + std::to_string(made.nodes[k]) + ", " + like.terms[k].written;
             edits_[equations_[made.like].card].add_after(equations_[made.like].last, text);
         }
-        tell_unrelated(related_.missed, "lie between nodes that this card relates, but have no counterpart between the partners of these, or the equations of these are "
-                                        "of different form: they are not related. Give them equations, or move the tool so that both sides are divided alike");
-        tell_unrelated(related_.one_sided, "on the crack lie between nodes that this card relates, and their partners are not doubled: only those on the negative side are "
-                                           "related. Check the equations there");
+        tell_unrelated(related_.missed,
+                       "lie between nodes that this card relates, but have no counterpart between the partners of "
+                       "these, or the equations of these are "
+                       "of different form: they are not related. Give them equations, or move the tool so that both "
+                       "sides are divided alike");
+        tell_unrelated(related_.one_sided,
+                       "on the crack lie between nodes that this card relates, and their partners are not doubled: "
+                       "only those on the negative side are "
+                       "related. Check the equations there");
     }
 
     static bool read_term(NodeEquation::Term& term) {
@@ -603,9 +659,11 @@ private:
     void tell_unrelated(const std::vector<RelatedNodes::Missed>& missed, const std::string& what) {
         std::map<std::size_t, std::pair<CardReader, std::set<Index>>> by_card;
         for (const RelatedNodes::Missed& m : missed)
-            by_card.try_emplace(equations_[m.like].card, equations_[m.like].last, std::set<Index>{}).first->second.second.insert(m.node);
+            by_card.try_emplace(equations_[m.like].card, equations_[m.like].last, std::set<Index>{})
+                .first->second.second.insert(m.node);
         for (const auto& [c, found] : by_card)
-            problems_.push_back(found.first.where() + "*" + input_.cards()[c].keyword + ": " + std::to_string(found.second.size()) + " new node(s), the first is " +
+            problems_.push_back(found.first.where() + "*" + input_.cards()[c].keyword + ": " +
+                                std::to_string(found.second.size()) + " new node(s), the first is " +
                                 std::to_string(*found.second.begin()) + ", " + what);
     }
 
@@ -620,7 +678,8 @@ private:
         while (line.next_data_line()) {
             std::vector<CardReader> lines{line};
             if (!line.integer(terms) || terms < 1 || line.next_data_line() == false) {
-                problems_.push_back(line.where() + "*" + card.keyword + ": no equation can be read here; the rest of the card is kept as it is");
+                problems_.push_back(line.where() + "*" + card.keyword +
+                                    ": no equation can be read here; the rest of the card is kept as it is");
                 return;
             }
             lines.push_back(line);
@@ -649,7 +708,8 @@ private:
                     } else if (what) {
                         field = name_of_old_members(what->set);
                         if (lost_members(what->set) > 0)
-                            remark(c, true, line.where(), "set '" + what->set + "'", "lost nodes; its pairs no longer match");
+                            remark(c, true, line.where(), "set '" + what->set + "'",
+                                   "lost nodes; its pairs no longer match");
                         if (field != what->set) {
                             same = false;
                             remark(c, true, line.where(), "set '" + what->set + "'",
@@ -675,7 +735,8 @@ private:
         if (node_gone(what.number))
             remark(c, true, line.where(), node_text(what.number), "was removed; its equation is left out");
         else if (origins_.is_doubled(what.number) && !copies_follow)
-            remark(c, true, line.where(), node_text(what.number), "the crack doubled; the equation stays with the original, on the negative side");
+            remark(c, true, line.where(), node_text(what.number),
+                   "the crack doubled; the equation stays with the original, on the negative side");
     }
 
     void check_face_equations(std::size_t c, const Card& card) {
@@ -688,7 +749,8 @@ private:
                     continue;
                 }
                 if (in_mesh(element) && parts_of(element) != std::vector<Index>{element})
-                    remark(c, true, line.where(), element_text(element), "was split or removed; the equation is kept as it is");
+                    remark(c, true, line.where(), element_text(element),
+                           "was split or removed; the equation is kept as it is");
             }
     }
 
@@ -711,13 +773,15 @@ private:
                     if (what->is_number() && what->number > 0) {
                         nodes.push_back(what->number);
                         if (node_gone(what->number)) {
-                            remark(c, true, line.where(), node_text(what->number), lists_nodes ? "was removed, and leaves the list" : "was removed");
+                            remark(c, true, line.where(), node_text(what->number),
+                                   lists_nodes ? "was removed, and leaves the list" : "was removed");
                             gone = true;
                             continue;
                         }
                         if (!lists_nodes && origins_.is_doubled(what->number))
                             remark(c, true, line.where(), node_text(what->number),
-                                   "the crack doubled; the " + type + " MPC stays with the original, on the negative side");
+                                   "the crack doubled; the " + type +
+                                       " MPC stays with the original, on the negative side");
                     }
                     left += (left.empty() ? "" : ", ") + (what->is_number() ? std::to_string(what->number) : what->set);
                 }
@@ -736,7 +800,9 @@ private:
             std::string added;
             int count = 0;
             for (const NodeOrigins::Node& n : origins_.nodes()) {
-                if (!n.is_new || !std::ranges::all_of(n.ancestors, [&](Index a) { return std::ranges::binary_search(nodes, a); })) continue;
+                if (!n.is_new ||
+                    !std::ranges::all_of(n.ancestors, [&](Index a) { return std::ranges::binary_search(nodes, a); }))
+                    continue;
                 added += ", " + std::to_string(n.number);
                 if (++count % 15 != 0) continue;
                 edits_[c].add_after(last, "0" + added);
@@ -749,9 +815,12 @@ private:
     void tell_not_joining(const CardReader& line, const std::string& type, const std::vector<Index>& nodes) {
         std::set<Index> between;
         for (const NodeOrigins::Node& n : origins_.nodes())
-            if (n.is_new && n.ancestors.size() > 1 && std::ranges::all_of(n.ancestors, [&](Index a) { return std::ranges::binary_search(nodes, a); })) between.insert(n.number);
+            if (n.is_new && n.ancestors.size() > 1 &&
+                std::ranges::all_of(n.ancestors, [&](Index a) { return std::ranges::binary_search(nodes, a); }))
+                between.insert(n.number);
         if (!between.empty())
-            problems_.push_back(line.where() + "*MPC: " + std::to_string(between.size()) + " new node(s), the first is " + std::to_string(*between.begin()) +
+            problems_.push_back(line.where() + "*MPC: " + std::to_string(between.size()) +
+                                " new node(s), the first is " + std::to_string(*between.begin()) +
                                 ", lie between nodes of this " + type + " MPC and do not join it");
     }
 
@@ -759,8 +828,10 @@ private:
         for (const OtherElement& e : input_.other_elements())
             for (const Index node : e.nodes)
                 if (node_gone(node))
-                    throw Error(input_.cards()[e.card].where() + ": element " + std::to_string(e.number) + " of type " + e.type + " needs " + node_text(node) +
-                                ", which would be removed, and cannot be removed itself. Move the tool, or take the element out of the deck");
+                    throw Error(input_.cards()[e.card].where() + ": element " + std::to_string(e.number) + " of type " +
+                                e.type + " needs " + node_text(node) +
+                                ", which would be removed, and cannot be removed itself. Move the tool, or take the "
+                                "element out of the deck");
                 else if (origins_.is_doubled(node))
                     remark(e.card, true, input_.cards()[e.card].where() + ": ", node_text(node),
                            "the crack doubled; element " + std::to_string(e.number) + " of type " + e.type +
@@ -808,7 +879,8 @@ private:
                         }
                         if (last == 0) last = first;
                         if (!line.at_end()) line.number(value);
-                        for (Index dof = first; dof <= std::min<Index>(last, first + 100); ++dof) out.values[static_cast<int>(dof)] = value;
+                        for (Index dof = first; dof <= std::min<Index>(last, first + 100); ++dof)
+                            out.values[static_cast<int>(dof)] = value;
                         break;
                     case CardContent::nodal_dof:
                         if (!line.integer(first)) continue;
@@ -818,7 +890,8 @@ private:
                     case CardContent::nodal_values:
                         for (int column = 0; !line.at_end() && line.number(value); ++column) out.values[column] = value;
                         break;
-                    default: out.values[0] = 0;
+                    default:
+                        out.values[0] = 0;
                 }
                 if (what->is_number()) {
                     if (node_gone(what->number)) {
@@ -866,7 +939,8 @@ private:
         Values out;
         for (const auto& [key, first] : of_ancestors.front()) {
             if (!std::ranges::all_of(of_ancestors, [&](const Values& v) { return v.contains(key); })) continue;
-            const bool inside = !of_shares.empty() && std::ranges::all_of(of_shares, [&](const Values& v) { return v.contains(key); });
+            const bool inside =
+                !of_shares.empty() && std::ranges::all_of(of_shares, [&](const Values& v) { return v.contains(key); });
             const std::vector<Values>& sources = inside ? of_shares : of_ancestors;
             const double any = sources.front().at(key);
             double value = 0;
@@ -900,7 +974,8 @@ private:
                 std::string text = number + ",";
                 if (content == CardContent::nodal_values)
                     for (int column = 0; column <= wanted.rbegin()->first; ++column)
-                        text += (column > 0 ? "," : "") + (wanted.contains(column) ? number_text(wanted.at(column)) : std::string());
+                        text += (column > 0 ? "," : "") +
+                                (wanted.contains(column) ? number_text(wanted.at(column)) : std::string());
                 edits_[c].append(card, text);
                 continue;
             }
@@ -909,7 +984,8 @@ private:
                 if (is_given(dof, value)) continue;
                 int last = dof;
                 if (content == CardContent::nodal_dofs) {
-                    while (it != wanted.end() && it->first == last + 1 && it->second == value && !is_given(it->first, value)) {
+                    while (it != wanted.end() && it->first == last + 1 && it->second == value &&
+                           !is_given(it->first, value)) {
                         ++last;
                         ++it;
                     }
@@ -930,14 +1006,14 @@ private:
     SolverInput input_;
     std::vector<CardEdits> edits_;  // by card
     const Changes& changes_;
-    std::vector<Equation> equations_;                        // of nodes by number
+    std::vector<Equation> equations_;                           // of nodes by number
     std::unordered_map<const char*, std::size_t> equation_at_;  // the same by start of their first line of terms
     RelatedNodes related_;
     double size_ = 0;
     std::vector<Index> new_nodes_;
-    std::unordered_map<Index, std::vector<Index>> parts_;    // parent -> further parts
-    std::unordered_map<Index, Index> parents_;               // further part -> parent
-    std::map<std::string, Faces> marked_;                    // group of mark_deck() -> what is in it now
+    std::unordered_map<Index, std::vector<Index>> parts_;  // parent -> further parts
+    std::unordered_map<Index, Index> parents_;             // further part -> parent
+    std::map<std::string, Faces> marked_;                  // group of mark_deck() -> what is in it now
     std::map<std::string, bool> shrank_;
     DeckSetIndex new_groups_{{}};
     std::map<std::string, std::string> closed_;              // set -> set of its old members
@@ -955,17 +1031,19 @@ private:
 
 /// Whether a deck has nothing that would have to follow a change: a mesh with sets, and cards that name neither.
 bool is_mesh_alone(const SolverInput& input) {
-    return input.other_elements().empty() && std::ranges::none_of(input.sets(), [](const DeckSet& s) { return s.closed; }) &&
+    return input.other_elements().empty() &&
+           std::ranges::none_of(input.sets(), [](const DeckSet& s) { return s.closed; }) &&
            std::ranges::all_of(input.cards(), [](const Card& card) {
                const auto content = card_content(card);
-               return content && (*content == CardContent::mesh || *content == CardContent::nothing) && card.keyword != "VIEWFACTOR" &&
-                      reference_nodes(card).empty();
+               return content && (*content == CardContent::mesh || *content == CardContent::nothing) &&
+                      card.keyword != "VIEWFACTOR" && reference_nodes(card).empty();
            });
 }
 
 }  // namespace
 
-void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict, std::vector<std::string>& warnings) {
+void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict,
+                std::vector<std::string>& warnings) {
     if (!before.solver_input || is_mesh_alone(*before.solver_input)) return;
     CarryOver carry(before, after, changes);
     after.solver_input = carry.run();
@@ -980,7 +1058,8 @@ void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool st
 
 void remove_marks(Mesh& mesh) {
     std::vector<bool> marks(mesh.groups.size());
-    for (std::size_t g = 0; g < marks.size(); ++g) marks[g] = mesh.groups[g].hidden && mesh.groups[g].name.starts_with(mark_prefix);
+    for (std::size_t g = 0; g < marks.size(); ++g)
+        marks[g] = mesh.groups[g].hidden && mesh.groups[g].name.starts_with(mark_prefix);
     if (std::ranges::find(marks, true) != marks.end()) remove_groups(mesh, marks);
 }
 

@@ -39,7 +39,8 @@ std::vector<std::pair<std::string, Index>> reference_nodes(const Card& card) {
     std::vector<std::pair<std::string, Index>> out;
     const auto look = [&](std::string_view parameter, std::string_view written) {
         const std::string* value = card.parameter(parameter);
-        if (!value || value->empty() || !std::ranges::all_of(*value, [](char c) { return c >= '0' && c <= '9'; })) return;
+        if (!value || value->empty() || !std::ranges::all_of(*value, [](char c) { return c >= '0' && c <= '9'; }))
+            return;
         if (value->size() <= 18) out.emplace_back(written, std::stoll(*value));
     };
     if (card.keyword == "RIGIDBODY" || card.keyword == "COUPLING") {
@@ -61,12 +62,15 @@ std::string parameters_key(const Card& card) {
 namespace {
 
 std::string mark(std::string_view kind, std::size_t card, const LoadLabel& label, std::string_view rest) {
-    return std::string(mark_prefix) + std::string(kind) + std::to_string(card) + ":" + label.prefix + "#" + label.suffix + "," + deck_key(rest);
+    return std::string(mark_prefix) + std::string(kind) + std::to_string(card) + ":" + label.prefix + "#" +
+           label.suffix + "," + deck_key(rest);
 }
 
 }  // namespace
 
-std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest) { return mark("FACES", card, label, rest); }
+std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest) {
+    return mark("FACES", card, label, rest);
+}
 
 std::string element_mark(std::size_t card, const LoadLabel& label, std::string_view rest) {
     return mark("ELEMENTS", card, label, rest);

@@ -30,7 +30,9 @@ public:
 
     /// The group that holds a node or element set, if the deck defines it and the mesh still has it.
     std::optional<GroupIndex> group(DeckSetType type, std::string_view name) const;
-    bool has_node(GroupIndex group, Index node) const { return mesh_.families.contains(mesh_.node_families[node], group); }
+    bool has_node(GroupIndex group, Index node) const {
+        return mesh_.families.contains(mesh_.node_families[node], group);
+    }
     /// Numbers of a group's nodes or elements; kept for further calls.
     const std::vector<Index>& members(GroupIndex group) const;
 

@@ -18,15 +18,30 @@ public:
             const Card& card = deck_.cards()[c];
             for (const auto& [parameter, node] : reference_nodes(card)) pin(node);
             switch (card_content(card).value_or(CardContent::nothing)) {
-                case CardContent::nodal_dofs: read_supports(c, card); break;
+                case CardContent::nodal_dofs:
+                    read_supports(c, card);
+                    break;
                 case CardContent::node_loads:
-                case CardContent::node_weights: read_first_nodes(card); break;
-                case CardContent::element_loads: read_loads(c, card); break;
-                case CardContent::element_list: read_elements(c, card); break;
-                case CardContent::element_normals: read_normals(card); break;
-                case CardContent::equation: read_equations(card); break;
-                case CardContent::mpc: read_mpcs(card); break;
-                default: break;
+                case CardContent::node_weights:
+                    read_first_nodes(card);
+                    break;
+                case CardContent::element_loads:
+                    read_loads(c, card);
+                    break;
+                case CardContent::element_list:
+                    read_elements(c, card);
+                    break;
+                case CardContent::element_normals:
+                    read_normals(card);
+                    break;
+                case CardContent::equation:
+                    read_equations(card);
+                    break;
+                case CardContent::mpc:
+                    read_mpcs(card);
+                    break;
+                default:
+                    break;
             }
         }
         for (const OtherElement& e : deck_.input().other_elements())
@@ -50,7 +65,9 @@ private:
         while (line.next_data_line())
             if (Index number = 0; line.integer(number))
                 if (const auto node = deck_.numbers().node(number))
-                    nodes_[std::string(mark_prefix) + "NODES" + std::to_string(deck_.step(c)) + parameters_key(card) + ":" + deck_key(line.rest())].push_back(*node);
+                    nodes_[std::string(mark_prefix) + "NODES" + std::to_string(deck_.step(c)) + parameters_key(card) +
+                           ":" + deck_key(line.rest())]
+                        .push_back(*node);
     }
 
     void read_first_nodes(const Card& card) {
@@ -69,10 +86,13 @@ private:
             const auto mark = [&](Index number) {
                 const auto cell = deck_.numbers().cell(number);
                 if (!cell) return;
-                if (const int face = label.face(cell->type, deck_.is_plane(*cell))) faces_[faces].push_back({*cell, face});
-                else if (what->is_number()) cells_[cells].push_back(*cell);
+                if (const int face = label.face(cell->type, deck_.is_plane(*cell)))
+                    faces_[faces].push_back({*cell, face});
+                else if (what->is_number())
+                    cells_[cells].push_back(*cell);
             };
-            if (what->is_number()) mark(what->number);
+            if (what->is_number())
+                mark(what->number);
             else if (label.number > 0)
                 if (const auto group = deck_.group(DeckSetType::elset, what->set))
                     for (const Index number : deck_.members(*group)) mark(number);
@@ -85,7 +105,8 @@ private:
             while (!line.at_end()) {
                 const auto what = read_number_or_set(line);
                 if (what && what->is_number())
-                    if (const auto cell = deck_.numbers().cell(what->number)) cells_[std::string(mark_prefix) + "LIST" + std::to_string(c)].push_back(*cell);
+                    if (const auto cell = deck_.numbers().cell(what->number))
+                        cells_[std::string(mark_prefix) + "LIST" + std::to_string(c)].push_back(*cell);
             }
     }
 

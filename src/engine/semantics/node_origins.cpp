@@ -19,7 +19,8 @@ constexpr double smallest_share = 1e-7;
 std::vector<double> barycentric(const Mesh& mesh, std::span<const Index> nodes, int corners, const Vec3& x) {
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, corners - 1);
     for (int k = 1; k < corners; ++k) edges.col(k - 1) = mesh.points[nodes[k]] - mesh.points[nodes[0]];
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along = edges.colPivHouseholderQr().solve(x - mesh.points[nodes[0]]);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along =
+        edges.colPivHouseholderQr().solve(x - mesh.points[nodes[0]]);
     std::vector<double> out{1 - along.sum()};
     out.insert(out.end(), along.data(), along.data() + along.size());
     return out;
@@ -43,14 +44,16 @@ NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, 
     std::unordered_map<Index, const std::vector<Index>*> born;
     for (const Changes::Born& b : changes.born) {
         born.emplace(b.node, &b.ancestors);
-        if (const auto now = after_numbers.node(b.node)) nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
+        if (const auto now = after_numbers.node(b.node))
+            nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
     }
     for (const Changes::Copy& c : changes.copies) {
         copies_[c.source].push_back(c.node);
         const auto now = after_numbers.node(c.node);
         if (!now) continue;
         const auto source = born.find(c.source);
-        nodes_.push_back({c.node, source == born.end() ? std::vector<Index>{c.source} : *source->second, true, 0, after.points[*now]});
+        nodes_.push_back({c.node, source == born.end() ? std::vector<Index>{c.source} : *source->second, true, 0,
+                          after.points[*now]});
     }
     shares_.resize(nodes_.size());
 }

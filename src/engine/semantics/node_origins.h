@@ -13,8 +13,8 @@ namespace femscalpel {
 class NodeOrigins {
 public:
     /// Linear in the meshes; `numbers` are those of `before` and `after`. `before` and its numbers must outlive this.
-    NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, const Mesh& after, const NumberIndex& after_numbers,
-                const Changes& changes);
+    NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, const Mesh& after,
+                const NumberIndex& after_numbers, const Changes& changes);
 
     /// A node of `before` and its share in the value at some node of `after`.
     struct Share {
@@ -27,8 +27,8 @@ public:
         Index number;
         std::vector<Index> ancestors;  ///< nodes of `before` it stands for: itself, or the ends of its edge
         bool is_new;
-        double moved = 0;              ///< how far, if not new
-        Vec3 place;                    ///< in `after`
+        double moved = 0;  ///< how far, if not new
+        Vec3 place;        ///< in `after`
     };
     const std::vector<Node>& nodes() const { return nodes_; }
 

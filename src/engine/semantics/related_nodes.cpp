@@ -26,18 +26,22 @@ struct Role {
 
 class Relation {
 public:
-    Relation(const std::vector<NodeEquation>& equations, const Mesh& before, const NumberIndex& numbers, const NodeOrigins& origins, const Changes& changes)
+    Relation(const std::vector<NodeEquation>& equations, const Mesh& before, const NumberIndex& numbers,
+             const NodeOrigins& origins, const Changes& changes)
         : equations_(equations), before_(before), numbers_(numbers), origins_(origins) {
         for (std::size_t e = 0; e < equations.size(); ++e) {
             Role role;
             for (const NodeEquation::Term& t : equations[e].terms) role.shape.emplace_back(t.dof, t.factor);
-            for (role.term = 0; role.term < role.shape.size(); ++role.term) roles_[equations[e].terms[role.term].node][role].push_back(e);
+            for (role.term = 0; role.term < role.shape.size(); ++role.term)
+                roles_[equations[e].terms[role.term].node][role].push_back(e);
         }
         std::unordered_set<Index> born;
         for (const Changes::Born& b : changes.born) born.insert(b.node);
         for (std::size_t k = 0; k < origins.nodes().size(); ++k) {
             const NodeOrigins::Node& n = origins.nodes()[k];
-            if (!born.contains(n.number) || !std::ranges::all_of(n.ancestors, [&](Index a) { return roles_.contains(a); })) continue;
+            if (!born.contains(n.number) ||
+                !std::ranges::all_of(n.ancestors, [&](Index a) { return roles_.contains(a); }))
+                continue;
             between_.push_back(k);
             for (const NodeOrigins::Share& s : origins.shares(k)) between_at_[s.node].push_back(k);
         }
@@ -83,7 +87,8 @@ private:
             ways *= options.back()->size();
         }
         if (shares.empty() || ways > most_ways) return false;
-        std::map<std::size_t, bool> wanted;  // equations of the first node that match the others', and whether one was made
+        std::map<std::size_t, bool>
+            wanted;  // equations of the first node that match the others', and whether one was made
         bool any = false;
         std::vector<std::size_t> way(shares.size());
         for (std::size_t w = 0; w < ways; ++w) {
@@ -128,13 +133,15 @@ private:
         for (const std::size_t m : near->second) {
             std::map<Index, double> left = wanted;
             for (const NodeOrigins::Share& s : origins_.shares(m)) left[s.node] -= s.weight;
-            if (m != k && std::ranges::all_of(left, [](const auto& l) { return std::abs(l.second) <= same_share; })) return origins_.nodes()[m].number;
+            if (m != k && std::ranges::all_of(left, [](const auto& l) { return std::abs(l.second) <= same_share; }))
+                return origins_.nodes()[m].number;
         }
         return {};
     }
 
     /// Whether the partners are as far from each other as the nodes.
-    bool lengths_match(const std::vector<NodeOrigins::Share>& shares, const Role& role, const std::vector<std::size_t>& way) const {
+    bool lengths_match(const std::vector<NodeOrigins::Share>& shares, const Role& role,
+                       const std::vector<std::size_t>& way) const {
         const auto place = [&](Index number) { return before_.points[*numbers_.node(number)]; };
         for (std::size_t t = 0; t < role.shape.size(); ++t)
             for (std::size_t i = 1; i < way.size(); ++i) {
@@ -199,8 +206,8 @@ private:
     const NumberIndex& numbers_;
     const NodeOrigins& origins_;
     std::map<Index, std::map<Role, std::vector<std::size_t>>> roles_;  // by node
-    std::vector<std::size_t> between_;                                 // places in origins_.nodes(): born between nodes of equations
-    std::map<Index, std::vector<std::size_t>> between_at_;             // the same by old node that has a share
+    std::vector<std::size_t> between_;  // places in origins_.nodes(): born between nodes of equations
+    std::map<Index, std::vector<std::size_t>> between_at_;  // the same by old node that has a share
     std::set<std::pair<std::vector<std::pair<Index, double>>, std::vector<Index>>> known_;
     std::vector<char> in_elements_;
     RelatedNodes out_;
@@ -208,8 +215,8 @@ private:
 
 }  // namespace
 
-RelatedNodes relate_new_nodes(const std::vector<NodeEquation>& equations, const Mesh& before, const NumberIndex& numbers, const NodeOrigins& origins,
-                              const Changes& changes) {
+RelatedNodes relate_new_nodes(const std::vector<NodeEquation>& equations, const Mesh& before,
+                              const NumberIndex& numbers, const NodeOrigins& origins, const Changes& changes) {
     if (equations.empty()) return {};
     return Relation(equations, before, numbers, origins, changes).run();
 }

@@ -12,7 +12,7 @@ namespace femscalpel {
 /// A linear equation between nodes, as a *EQUATION card has it.
 struct NodeEquation {
     struct Term {
-        Index node;           ///< number
+        Index node;  ///< number
         Index dof;
         double factor;
         std::string written;  ///< "dof, factor" as in the deck
@@ -38,14 +38,16 @@ struct RelatedNodes {
     std::vector<char> copies_follow;  ///< by equation: its doubled nodes' copies are related as they are
 };
 
-/// Relates what is new between and beside related nodes. A node born between nodes that have equations of one shape - the same degrees
-/// of freedom and factors, itself in the same term - gets an equation of that shape: each further term has the node that
-/// all the equations have there, or the new node that lies between theirs as it lies between its own (the same shares in the
-/// old elements). So linear fields that the equations allowed are allowed as before. Where all nodes of an equation are doubled, but for
-/// reference nodes that no element has, their copies get it too: those on the positive side of a crack.
+/// Relates what is new between and beside related nodes. A node born between nodes that have equations of one shape -
+/// the same degrees of freedom and factors, itself in the same term - gets an equation of that shape: each further term
+/// has the node that all the equations have there, or the new node that lies between theirs as it lies between its own
+/// (the same shares in the old elements). So linear fields that the equations allowed are allowed as before. Where all
+/// nodes of an equation are doubled, but for reference nodes that no element has, their copies get it too: those on the
+/// positive side of a crack.
 ///
-/// Missed are nodes born between nodes whose equations have no shape in common, or whose partners have no new node at that place.
-RelatedNodes relate_new_nodes(const std::vector<NodeEquation>& equations, const Mesh& before, const NumberIndex& numbers, const NodeOrigins& origins,
-                              const Changes& changes);
+/// Missed are nodes born between nodes whose equations have no shape in common, or whose partners have no new node at
+/// that place.
+RelatedNodes relate_new_nodes(const std::vector<NodeEquation>& equations, const Mesh& before,
+                              const NumberIndex& numbers, const NodeOrigins& origins, const Changes& changes);
 
 }  // namespace femscalpel

@@ -62,19 +62,32 @@ std::optional<DeckElementType> deck_element_type(std::string_view written) {
 
 std::string_view default_deck_label(CellType type) {
     switch (type) {
-        case CellType::line: return "B31";
-        case CellType::line3: return "B32";
-        case CellType::triangle: return "S3";
-        case CellType::triangle6: return "S6";
-        case CellType::quad: return "S4";
-        case CellType::quad8: return "S8";
-        case CellType::tetra: return "C3D4";
-        case CellType::tetra10: return "C3D10";
-        case CellType::wedge: return "C3D6";
-        case CellType::wedge15: return "C3D15";
-        case CellType::hexahedron: return "C3D8";
-        case CellType::hexahedron20: return "C3D20";
-        default: return "";
+        case CellType::line:
+            return "B31";
+        case CellType::line3:
+            return "B32";
+        case CellType::triangle:
+            return "S3";
+        case CellType::triangle6:
+            return "S6";
+        case CellType::quad:
+            return "S4";
+        case CellType::quad8:
+            return "S8";
+        case CellType::tetra:
+            return "C3D4";
+        case CellType::tetra10:
+            return "C3D10";
+        case CellType::wedge:
+            return "C3D6";
+        case CellType::wedge15:
+            return "C3D15";
+        case CellType::hexahedron:
+            return "C3D8";
+        case CellType::hexahedron20:
+            return "C3D20";
+        default:
+            return "";
     }
 }
 

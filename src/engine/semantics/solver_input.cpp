@@ -68,18 +68,25 @@ bool cut_is_harmless(std::string_view field, double value) {
 
 GroupKind group_kind(DeckSetType type) {
     switch (type) {
-        case DeckSetType::elset: return GroupKind::element;
-        case DeckSetType::element_surface: return GroupKind::facet;
-        default: return GroupKind::node;
+        case DeckSetType::elset:
+            return GroupKind::element;
+        case DeckSetType::element_surface:
+            return GroupKind::facet;
+        default:
+            return GroupKind::node;
     }
 }
 
 std::string_view to_string(DeckSetType type) {
     switch (type) {
-        case DeckSetType::nset: return "node set";
-        case DeckSetType::elset: return "element set";
-        case DeckSetType::node_surface: return "node surface";
-        case DeckSetType::element_surface: return "element surface";
+        case DeckSetType::nset:
+            return "node set";
+        case DeckSetType::elset:
+            return "element set";
+        case DeckSetType::node_surface:
+            return "node surface";
+        case DeckSetType::element_surface:
+            return "element surface";
     }
     return "";
 }
@@ -174,9 +181,7 @@ std::string_view CardReader::peek() const {
     return {at_, static_cast<std::size_t>((comma ? comma : end_) - at_)};
 }
 
-void CardReader::skip(std::string_view field) {
-    at_ = std::min(field.data() + field.size() + 1, end_);
-}
+void CardReader::skip(std::string_view field) { at_ = std::min(field.data() + field.size() + 1, end_); }
 
 bool CardReader::integer(Index& value) {
     const char* p = skip_blanks(at_, end_);

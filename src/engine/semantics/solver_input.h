@@ -163,10 +163,10 @@ private:
 
     const Card* card_;
     std::size_t piece_ = 0;
-    const char* line_ = nullptr;   // start of the current line
-    const char* at_ = nullptr;     // where the next field starts
-    const char* end_ = nullptr;    // end of the current line's content
-    const char* next_ = nullptr;   // start of the next line
+    const char* line_ = nullptr;  // start of the current line
+    const char* at_ = nullptr;    // where the next field starts
+    const char* end_ = nullptr;   // end of the current line's content
+    const char* next_ = nullptr;  // start of the next line
     bool is_data_ = false;
     bool fits_ = true;
     SparseCheck check_{256};

@@ -54,8 +54,16 @@ public:
     Evaluation(const Mesh& mesh, const NumberIndex& numbers, const SolverInput& input,
                std::span<const std::vector<Index>> contributed, std::span<const SetRole> roles,
                std::vector<std::string>* warnings)
-        : mesh_(mesh), numbers_(numbers), input_(input), contributed_(contributed), roles_(roles), warnings_(warnings),
-          index_(input.sets()), sets_(input.sets().size()), seen_(input.sets().size()), replaced_(input.sets().size()) {
+        : mesh_(mesh),
+          numbers_(numbers),
+          input_(input),
+          contributed_(contributed),
+          roles_(roles),
+          warnings_(warnings),
+          index_(input.sets()),
+          sets_(input.sets().size()),
+          seen_(input.sets().size()),
+          replaced_(input.sets().size()) {
         for (const OtherElement& e : input.other_elements()) others_.insert(e.number);
     }
 
@@ -127,9 +135,12 @@ private:
     void read(const Card& card, std::size_t s) {
         first_absent_ = 0;
         absent_count_ = 0;
-        if (card.keyword == "SURFACE") read_surface(card, s);
-        else if (card.parameter("GENERATE")) read_ranges(card, s);
-        else read_list(card, s);
+        if (card.keyword == "SURFACE")
+            read_surface(card, s);
+        else if (card.parameter("GENERATE"))
+            read_ranges(card, s);
+        else
+            read_list(card, s);
         sets_[s].clean();
         if (warnings_ && absent_count_ > 0) {
             const DeckSet& set = input_.sets()[s];
@@ -214,7 +225,8 @@ private:
                             ++found;
                         }
                 };
-                if (node) take(mesh_.node_ids);
+                if (node)
+                    take(mesh_.node_ids);
                 else
                     for (const CellBlock& b : mesh_.blocks()) take(b.ids);
             }
@@ -238,8 +250,10 @@ private:
             const bool by_number = line.integer(number);
             if (!by_number) name = line.field();
             if (nodes) {
-                if (by_number) add_number(s, true, number);
-                else if (!name.empty()) add_set(line, s, DeckSetType::nset, name);
+                if (by_number)
+                    add_number(s, true, number);
+                else if (!name.empty())
+                    add_set(line, s, DeckSetType::nset, name);
                 if (!line.at_end()) fail(line, "only one node or node set per line is allowed in a node surface");
                 continue;
             }
@@ -295,7 +309,7 @@ private:
     std::vector<std::string>* warnings_;
     DeckSetIndex index_;
     std::vector<Collector> sets_;
-    std::vector<char> seen_;      // defined so far
+    std::vector<char> seen_;  // defined so far
     std::vector<char> replaced_;
     std::vector<char> planes_;
     std::unordered_set<Index> others_;
@@ -306,8 +320,8 @@ private:
 }  // namespace
 
 std::optional<std::pair<DeckSetType, std::string>> set_of_card(const Card& card) {
-    const auto named = [&card](std::string_view parameter, DeckSetType type)
-        -> std::optional<std::pair<DeckSetType, std::string>> {
+    const auto named = [&card](std::string_view parameter,
+                               DeckSetType type) -> std::optional<std::pair<DeckSetType, std::string>> {
         const std::string* name = card.parameter(parameter);
         if (!name) return {};
         if (deck_key(*name).empty()) throw ReadError(card.where() + ": " + std::string(parameter) + "= without a name");

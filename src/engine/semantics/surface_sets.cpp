@@ -14,7 +14,8 @@ namespace femscalpel {
 namespace {
 
 bool has_name(std::string_view line) {
-    return std::ranges::any_of(line, [](char c) { return c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
+    return std::ranges::any_of(line,
+                               [](char c) { return c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
 }
 
 bool is_element_surface(const Card& card) {
@@ -48,7 +49,8 @@ Uses named_by_surfaces(const Mesh& mesh, const SolverInput& input, const DeckSet
 void erase_used_elsewhere(const SolverInput& input, Uses& uses) {
     for (const Card& card : input.cards()) {
         for (const CardParameter& p : card.parameters) {
-            const bool defines = (card.keyword == "ELSET" && p.name == "ELSET") || (card.keyword == "SURFACE" && p.name == "NAME");
+            const bool defines =
+                (card.keyword == "ELSET" && p.name == "ELSET") || (card.keyword == "SURFACE" && p.name == "NAME");
             if (!defines) uses.erase(deck_key(p.value));
         }
         if (card.keyword == "NODE" || card.keyword == "ELEMENT") continue;
@@ -79,7 +81,8 @@ std::vector<SurfaceSet> surface_sets(const Mesh& mesh) {
     for (auto& [name, faces] : uses) {
         const auto s = index.find(DeckSetType::elset, name);
         if (!s || !input.sets()[*s].unheld.empty()) continue;
-        if (const auto group = mesh.find_group(input.sets()[*s].group, GroupKind::element)) out.push_back({*group, std::move(faces)});
+        if (const auto group = mesh.find_group(input.sets()[*s].group, GroupKind::element))
+            out.push_back({*group, std::move(faces)});
     }
     return out;
 }
@@ -91,7 +94,8 @@ std::vector<bool> groups_of(std::span<const SurfaceSet> sets, const Mesh& mesh) 
     return out;
 }
 
-void renew_surface_sets(Mesh& mesh, std::span<const SurfaceSet> sets, const SolverInput& input, std::span<const CellRef> changed) {
+void renew_surface_sets(Mesh& mesh, std::span<const SurfaceSet> sets, const SolverInput& input,
+                        std::span<const CellRef> changed) {
     if (sets.empty()) return;
     std::map<std::pair<GroupIndex, int>, std::vector<GroupIndex>> sets_for;  // by surface and label
     std::map<GroupIndex, std::set<GroupIndex>> surfaces_of;                  // by set
@@ -121,7 +125,9 @@ void renew_surface_sets(Mesh& mesh, std::span<const SurfaceSet> sets, const Solv
             for (const GroupIndex surface : mesh.families.groups(f.family)) {
                 const auto found = sets_for.find({surface, label_from_face(f.face, plane)});
                 // Elements that the surface names by number stay so.
-                if (found == sets_for.end() || std::ranges::none_of(inherited, [&](GroupIndex g) { return surfaces_of[g].contains(surface); })) continue;
+                if (found == sets_for.end() ||
+                    std::ranges::none_of(inherited, [&](GroupIndex g) { return surfaces_of[g].contains(surface); }))
+                    continue;
                 const std::size_t before = wanted.size();
                 for (const GroupIndex g : found->second)
                     if (std::ranges::find(inherited, g) != inherited.end()) wanted.push_back(g);

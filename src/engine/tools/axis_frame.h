@@ -13,8 +13,10 @@ struct AxisFrame {
         outward = r - height * unit_axis;
         radius = outward.norm();
         // On the axis itself every direction across it is as good.
-        if (radius > 1e-300) outward /= radius;
-        else outward = unit_axis.unitOrthogonal();
+        if (radius > 1e-300)
+            outward /= radius;
+        else
+            outward = unit_axis.unitOrthogonal();
     }
 
     double height;

@@ -21,14 +21,17 @@ TopoDS_Shape read_cad_file(const std::filesystem::path& path) {
     try {
         if (suffix == ".step" || suffix == ".stp") {
             STEPControl_Reader reader;
-            if (reader.ReadFile(name.c_str()) != IFSelect_RetDone) throw ReadError("'" + name + "' is not a STEP file that OpenCASCADE can read");
+            if (reader.ReadFile(name.c_str()) != IFSelect_RetDone)
+                throw ReadError("'" + name + "' is not a STEP file that OpenCASCADE can read");
             reader.TransferRoots();
             shape = reader.OneShape();
         } else if (suffix == ".brep" || suffix == ".brp") {
             BRep_Builder builder;
-            if (!BRepTools::Read(shape, name.c_str(), builder)) throw ReadError("'" + name + "' is not a BREP file that OpenCASCADE can read");
+            if (!BRepTools::Read(shape, name.c_str(), builder))
+                throw ReadError("'" + name + "' is not a BREP file that OpenCASCADE can read");
         } else {
-            throw ReadError("'" + name + "': the suffix is '" + suffix + "'; shapes are read from .step, .stp, .brep and .brp files");
+            throw ReadError("'" + name + "': the suffix is '" + suffix +
+                            "'; shapes are read from .step, .stp, .brep and .brp files");
         }
     } catch (const Standard_Failure& e) {
         throw ReadError("'" + name + "': OpenCASCADE says: " + e.GetMessageString());

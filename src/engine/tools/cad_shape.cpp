@@ -49,14 +49,17 @@ struct CadEdge {
         for (int k = 0; k <= count; ++k) samples.push_back(point(curve.Value(parameter(k, count)).XYZ()));
     }
 
-    double parameter(double k, int count) const { return curve.FirstParameter() + k / count * (curve.LastParameter() - curve.FirstParameter()); }
+    double parameter(double k, int count) const {
+        return curve.FirstParameter() + k / count * (curve.LastParameter() - curve.FirstParameter());
+    }
 
     CadShape::Foot foot(const Point& x) const {
         const int count = static_cast<int>(samples.size()) - 1;
         double least = std::numeric_limits<double>::infinity(), t = 0;
         for (int k = 0; k < count; ++k) {
             const Point along = samples[k + 1] - samples[k];
-            const double length = along.squaredNorm(), s = length > 0 ? std::clamp(along.dot(x - samples[k]) / length, 0.0, 1.0) : 0;
+            const double length = along.squaredNorm(),
+                         s = length > 0 ? std::clamp(along.dot(x - samples[k]) / length, 0.0, 1.0) : 0;
             const double distance = (samples[k] + s * along - x).squaredNorm();
             if (distance >= least) continue;
             least = distance;
@@ -107,9 +110,13 @@ struct CadShape::Geometry {
     }
 };
 
-CadShape CadShape::read(const std::filesystem::path& path) { return CadShape(std::make_shared<const Geometry>(read_cad_file(path))); }
+CadShape CadShape::read(const std::filesystem::path& path) {
+    return CadShape(std::make_shared<const Geometry>(read_cad_file(path)));
+}
 
-CadShape CadShape::from_brep(const std::string& text) { return CadShape(std::make_shared<const Geometry>(shape_from_brep(text, "skin"))); }
+CadShape CadShape::from_brep(const std::string& text) {
+    return CadShape(std::make_shared<const Geometry>(shape_from_brep(text, "skin")));
+}
 
 int CadShape::face_count() const { return static_cast<int>(geometry_->faces.size()); }
 int CadShape::edge_count() const { return static_cast<int>(geometry_->edges.size()); }
@@ -126,7 +133,9 @@ std::vector<int> CadShape::faces_at(const Eigen::Vector3d& x, double tolerance) 
     std::vector<int> out;
     for (int k = 0; k < face_count(); ++k) {
         const Geometry::CadFace& f = geometry_->faces[k];
-        if (f.box.exteriorDistance(x) <= tolerance && std::abs(f.face.distance(x)) <= tolerance && f.face.beyond(x) <= tolerance) out.push_back(k);
+        if (f.box.exteriorDistance(x) <= tolerance && std::abs(f.face.distance(x)) <= tolerance &&
+            f.face.beyond(x) <= tolerance)
+            out.push_back(k);
     }
     return out;
 }
@@ -134,7 +143,8 @@ std::vector<int> CadShape::faces_at(const Eigen::Vector3d& x, double tolerance) 
 std::vector<int> CadShape::edges_at(const Eigen::Vector3d& x, double tolerance) const {
     std::vector<int> out;
     for (int k = 0; k < edge_count(); ++k)
-        if (geometry_->edges[k].box.exteriorDistance(x) <= tolerance && (on_edge(k, x).at - x).norm() <= tolerance) out.push_back(k);
+        if (geometry_->edges[k].box.exteriorDistance(x) <= tolerance && (on_edge(k, x).at - x).norm() <= tolerance)
+            out.push_back(k);
     return out;
 }
 

@@ -12,7 +12,8 @@ namespace femscalpel {
 /// The shape a mesh was made from, by OpenCASCADE: its faces and edges, for nodes of the mesh's skin to stay on.
 class CadShape {
 public:
-    /// From a .step, .stp, .brep or .brp file. Throws ReadError that names the file, ToolError when there is no face in it.
+    /// From a .step, .stp, .brep or .brp file. Throws ReadError that names the file, ToolError when there is no face in
+    /// it.
     static CadShape read(const std::filesystem::path& path);
 
     /// From the text of a .brep file, as FreeCAD's exportBrepToString() gives it. Throws ToolError.

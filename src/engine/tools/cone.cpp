@@ -22,9 +22,12 @@ double checked_angle(double degrees) {
 }  // namespace
 
 Cone::Cone(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double radius, double half_angle)
-    : origin_(checked_point(origin, "cone: origin")), axis_(checked_direction(axis, "cone: axis")),
-      radius_(checked_length(radius, "cone: radius")), half_angle_(checked_angle(half_angle)),
-      sine_(std::sin(half_angle * std::numbers::pi / 180)), cosine_(std::cos(half_angle * std::numbers::pi / 180)),
+    : origin_(checked_point(origin, "cone: origin")),
+      axis_(checked_direction(axis, "cone: axis")),
+      radius_(checked_length(radius, "cone: radius")),
+      half_angle_(checked_angle(half_angle)),
+      sine_(std::sin(half_angle * std::numbers::pi / 180)),
+      cosine_(std::cos(half_angle * std::numbers::pi / 180)),
       apex_(origin_ - radius_ * cosine_ / sine_ * axis_) {}
 
 double Cone::distance(const Eigen::Vector3d& x) const {

@@ -8,7 +8,8 @@
 namespace femscalpel {
 
 Cylinder::Cylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double radius)
-    : origin_(checked_point(origin, "cylinder: origin")), axis_(checked_direction(axis, "cylinder: axis")),
+    : origin_(checked_point(origin, "cylinder: origin")),
+      axis_(checked_direction(axis, "cylinder: axis")),
       radius_(checked_length(radius, "cylinder: radius")) {}
 
 Eigen::Vector3d Cylinder::from_axis(const Eigen::Vector3d& x) const {

@@ -7,15 +7,17 @@
 
 namespace femscalpel {
 
-EllipticCylinder::EllipticCylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, const Eigen::Vector3d& direction, double first,
-                                   double second)
+EllipticCylinder::EllipticCylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
+                                   const Eigen::Vector3d& direction, double first, double second)
     : origin_(origin), u_(direction), v_(axis.cross(direction)), a_(first), b_(second) {}
 
-Eigen::Vector2d EllipticCylinder::local(const Eigen::Vector3d& x) const { return {u_.dot(x - origin_), v_.dot(x - origin_)}; }
+Eigen::Vector2d EllipticCylinder::local(const Eigen::Vector3d& x) const {
+    return {u_.dot(x - origin_), v_.dot(x - origin_)};
+}
 
 EllipticCylinder::Foot EllipticCylinder::foot(const Eigen::Vector2d& p) const {
-    // Eberly, "Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid" (2013): in the first quadrant, the
-    // larger half axis first, the foot is (r y0 / (s + r), y1 / (s + 1)), s the only root of a convex function.
+    // Eberly, "Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid" (2013): in the first quadrant,
+    // the larger half axis first, the foot is (r y0 / (s + r), y1 / (s + 1)), s the only root of a convex function.
     const bool swapped = a_ < b_;
     const double e0 = swapped ? b_ : a_, e1 = swapped ? a_ : b_;
     const double y0 = std::abs(swapped ? p[1] : p[0]), y1 = std::abs(swapped ? p[0] : p[1]);
@@ -44,7 +46,8 @@ EllipticCylinder::Foot EllipticCylinder::foot(const Eigen::Vector2d& p) const {
         }
     }
     Foot out;
-    out.at = swapped ? Eigen::Vector2d(std::copysign(x1, p[0]), std::copysign(x0, p[1])) : Eigen::Vector2d(std::copysign(x0, p[0]), std::copysign(x1, p[1]));
+    out.at = swapped ? Eigen::Vector2d(std::copysign(x1, p[0]), std::copysign(x0, p[1]))
+                     : Eigen::Vector2d(std::copysign(x0, p[0]), std::copysign(x1, p[1]));
     const bool outside = (p[0] / a_) * (p[0] / a_) + (p[1] / b_) * (p[1] / b_) > 1;
     out.distance = (outside ? 1 : -1) * (p - out.at).norm();
     return out;

@@ -9,7 +9,8 @@ namespace femscalpel {
 /// the unit vector `direction`, across the unit vector `axis`.
 class EllipticCylinder final : public Tool {
 public:
-    EllipticCylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, const Eigen::Vector3d& direction, double first, double second);
+    EllipticCylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, const Eigen::Vector3d& direction,
+                     double first, double second);
 
     std::string kind() const override { return "elliptic cylinder"; }
     double distance(const Eigen::Vector3d& x) const override;

@@ -7,8 +7,8 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <GeomLProp_SLProps.hxx>
 #include <Geom2d_Curve.hxx>
+#include <GeomLProp_SLProps.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_Surface.hxx>
 #include <Poly_Triangulation.hxx>
@@ -107,7 +107,8 @@ struct BorderFoot {
 /// Closest point of a triangle as weights of its corners.
 Point weights_on(const Triangle& t, const Point& x) {
     const Point ab = t.corner[1] - t.corner[0], ac = t.corner[2] - t.corner[0], ax = x - t.corner[0];
-    const double aa = ab.dot(ab), ad = ab.dot(ac), dd = ac.dot(ac), bx = ab.dot(ax), cx = ac.dot(ax), det = aa * dd - ad * ad;
+    const double aa = ab.dot(ab), ad = ab.dot(ac), dd = ac.dot(ac), bx = ab.dot(ax), cx = ac.dot(ax),
+                 det = aa * dd - ad * ad;
     if (det > 0) {
         const double v = (dd * bx - ad * cx) / det, w = (aa * cx - ad * bx) / det;
         if (v >= 0 && w >= 0 && v + w <= 1) return {1 - v - w, v, w};
@@ -116,7 +117,8 @@ Point weights_on(const Triangle& t, const Point& x) {
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
         const Point &a = t.corner[k], &b = t.corner[(k + 1) % 3];
-        const double length = (b - a).squaredNorm(), s = length > 0 ? std::clamp((b - a).dot(x - a) / length, 0.0, 1.0) : 0;
+        const double length = (b - a).squaredNorm(),
+                     s = length > 0 ? std::clamp((b - a).dot(x - a) / length, 0.0, 1.0) : 0;
         const double distance = (a + s * (b - a) - x).squaredNorm();
         if (distance >= least) continue;
         least = distance;
@@ -127,7 +129,9 @@ Point weights_on(const Triangle& t, const Point& x) {
     return best;
 }
 
-Point at(const Triangle& t, const Point& weights) { return weights[0] * t.corner[0] + weights[1] * t.corner[1] + weights[2] * t.corner[2]; }
+Point at(const Triangle& t, const Point& weights) {
+    return weights[0] * t.corner[0] + weights[1] * t.corner[1] + weights[2] * t.corner[2];
+}
 
 struct NearestTriangle {
     using Scalar = double;
@@ -172,7 +176,9 @@ struct Face::Geometry {
         BRepTools::Clean(shape);
         BRepMesh_IncrementalMesh(shape, picture_sag * size, false, 0.1);
         for (; faces.More(); faces.Next()) add_sheet(TopoDS::Face(faces.Current()));
-        if (triangles.empty()) throw ToolError("face: the shape's faces cannot be divided into triangles; check its geometry in the CAD program");
+        if (triangles.empty())
+            throw ToolError(
+                "face: the shape's faces cannot be divided into triangles; check its geometry in the CAD program");
         std::vector<int> order;
         std::vector<Box> boxes;
         for (const Triangle& t : triangles) {
@@ -221,13 +227,18 @@ struct Face::Geometry {
                 break;
             }
             const Eigen::Vector2d step = uv - before;
-            if (std::abs(step[0]) * su.Magnitude() + std::abs(step[1]) * sv.Magnitude() < 1e-14 * box.diagonal().norm()) break;
+            if (std::abs(step[0]) * su.Magnitude() + std::abs(step[1]) * sv.Magnitude() < 1e-14 * box.diagonal().norm())
+                break;
         }
         s.surface->D1(uv[0], uv[1], p, su, sv);
         Point normal = point(su.Crossed(sv).XYZ());
         const double length = normal.norm();
-        if (length > 1e-14 * su.Magnitude() * sv.Magnitude()) normal *= (s.reversed ? -1 : 1) / length;
-        else normal = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]).normalized();  // a pole; the picture's normal will do
+        if (length > 1e-14 * su.Magnitude() * sv.Magnitude())
+            normal *= (s.reversed ? -1 : 1) / length;
+        else
+            normal = (t.corner[1] - t.corner[0])
+                         .cross(t.corner[2] - t.corner[0])
+                         .normalized();  // a pole; the picture's normal will do
         return {point(p.XYZ()), normal};
     }
 
@@ -238,8 +249,8 @@ struct Face::Geometry {
         return out;
     }
 
-    /// The point of the border closest to a point on the surface. Of the chains for which `counts` holds; where one of them
-    /// meets one that does not count, it goes on straight.
+    /// The point of the border closest to a point on the surface. Of the chains for which `counts` holds; where one of
+    /// them meets one that does not count, it goes on straight.
     BorderFoot border_foot(const Place& foot, auto counts) const {
         BorderFoot best;
         const double close = 1e-9 * box.diagonal().norm();
@@ -257,7 +268,8 @@ struct Face::Geometry {
         for (const BorderPiece& piece : pieces) {
             if (!counts(chain_of[piece.edge])) continue;
             const Point along = piece.end - piece.start;
-            const double length = along.squaredNorm(), s = length > 0 ? std::clamp(along.dot(foot.at - piece.start) / length, 0.0, 1.0) : 0;
+            const double length = along.squaredNorm(),
+                         s = length > 0 ? std::clamp(along.dot(foot.at - piece.start) / length, 0.0, 1.0) : 0;
             // The chord is off the curve by less than its own length.
             if ((piece.start + s * along - foot.at).norm() > best.distance + std::sqrt(length)) continue;
             const BRepAdaptor_Curve& curve = border[piece.edge];
@@ -307,10 +319,12 @@ private:
         if (picture.IsNull() || !picture->HasUVNodes()) return;
         Sheet sheet{BRep_Tool::Surface(face), face.Orientation() == TopAbs_REVERSED, {}, {}};
         // Without the bounds that some files give their surfaces: beyond the border it goes on.
-        if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(sheet.surface); !trimmed.IsNull()) sheet.surface = trimmed->BasisSurface();
+        if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(sheet.surface); !trimmed.IsNull())
+            sheet.surface = trimmed->BasisSurface();
         double bounds[4];
         sheet.surface->Bounds(bounds[0], bounds[1], bounds[2], bounds[3]);
-        const bool periodic[2] = {static_cast<bool>(sheet.surface->IsUPeriodic()), static_cast<bool>(sheet.surface->IsVPeriodic())};
+        const bool periodic[2] = {static_cast<bool>(sheet.surface->IsUPeriodic()),
+                                  static_cast<bool>(sheet.surface->IsVPeriodic())};
         for (int k = 0; k < 2; ++k) {
             const double infinity = std::numeric_limits<double>::infinity();
             const bool ends = !periodic[k];
@@ -340,11 +354,12 @@ private:
             const double curvature = std::max(std::abs(properties.MaxCurvature()), std::abs(properties.MinCurvature()));
             if (curvature > 0) feature_size = std::min(feature_size, 1 / curvature);
         }
-        if (feature_size > 1e9 * box_size(picture)) feature_size = std::numeric_limits<double>::infinity();  // rounding of a plane
+        if (feature_size > 1e9 * box_size(picture))
+            feature_size = std::numeric_limits<double>::infinity();  // rounding of a plane
         sheets.push_back(std::move(sheet));
     }
 
-    static double box_size(const Handle(Poly_Triangulation)& picture) {
+    static double box_size(const Handle(Poly_Triangulation) & picture) {
         Box b;
         for (int k = 1; k <= picture->NbNodes(); ++k) b.extend(point(picture->Node(k).XYZ()));
         return b.diagonal().norm();
@@ -372,8 +387,10 @@ private:
                 const bool straight = curve.GetType() == GeomAbs_Line;
                 const int count = straight ? 1 : 48;
                 for (int k = 0; k < count; ++k) {
-                    const double from = curve.FirstParameter() + k * (curve.LastParameter() - curve.FirstParameter()) / count;
-                    const double to = curve.FirstParameter() + (k + 1) * (curve.LastParameter() - curve.FirstParameter()) / count;
+                    const double from =
+                        curve.FirstParameter() + k * (curve.LastParameter() - curve.FirstParameter()) / count;
+                    const double to =
+                        curve.FirstParameter() + (k + 1) * (curve.LastParameter() - curve.FirstParameter()) / count;
                     pieces.push_back({index, from, to, point(curve.Value(from).XYZ()), point(curve.Value(to).XYZ())});
                 }
             }
@@ -406,11 +423,13 @@ private:
                 if (previous[f] < 0 && next[e] < 0 && (ends[f][0].at - ends[e][1].at).norm() <= close) {
                     next[e] = f;
                     previous[f] = e;
-                    smooth[e] = ends[e][1].tangent.dot(ends[f][0].tangent) > std::cos(corner_angle * std::numbers::pi / 180);
+                    smooth[e] =
+                        ends[e][1].tangent.dot(ends[f][0].tangent) > std::cos(corner_angle * std::numbers::pi / 180);
                 }
         chain_of.assign(count, -1);
         const auto follow = [&](int from) {
-            for (int e = from; e >= 0 && chain_of[e] < 0; e = smooth[e] ? next[e] : -1) chain_of[e] = static_cast<int>(chains.size());
+            for (int e = from; e >= 0 && chain_of[e] < 0; e = smooth[e] ? next[e] : -1)
+                chain_of[e] = static_cast<int>(chains.size());
             chains.emplace_back();
         };
         for (int e = 0; e < count; ++e)
@@ -420,7 +439,8 @@ private:
         for (int e = 0; e < count; ++e) {
             Chain& chain = chains[chain_of[e]];
             if (previous[e] < 0 || !smooth[previous[e]])
-                chain.ends.insert(chain.ends.begin(), {ends[e][0].at, ends[e][0].tangent, previous[e] < 0 ? -1 : chain_of[previous[e]]});
+                chain.ends.insert(chain.ends.begin(),
+                                  {ends[e][0].at, ends[e][0].tangent, previous[e] < 0 ? -1 : chain_of[previous[e]]});
             if (smooth[e]) continue;
             chain.ends.push_back({ends[e][1].at, ends[e][1].tangent, next[e] < 0 ? -1 : chain_of[next[e]]});
             if (next[e] >= 0) joints.push_back({ends[e][1].at, chain_of[e], chain_of[next[e]]});
@@ -431,7 +451,8 @@ private:
             border[piece.edge].D2((piece.from + piece.to) / 2, p, d, dd);
             const double bend = d.Crossed(dd).Magnitude(), speed = d.Magnitude();
             double& least = chains[chain_of[piece.edge]].least_radius;
-            if (bend > 1e-9 * speed * speed * speed / box.diagonal().norm()) least = std::min(least, speed * speed * speed / bend);
+            if (bend > 1e-9 * speed * speed * speed / box.diagonal().norm())
+                least = std::min(least, speed * speed * speed / bend);
         }
     }
 
@@ -476,7 +497,9 @@ public:
         const BorderFoot to = closest(foot);
         return (to.at - foot.at).dot(to.left.normalized());
     }
-    Eigen::Vector3d normal(const Eigen::Vector3d& x) const override { return -closest(geometry_->level_foot(x)).left.normalized(); }
+    Eigen::Vector3d normal(const Eigen::Vector3d& x) const override {
+        return -closest(geometry_->level_foot(x)).left.normalized();
+    }
     double feature_size() const override { return geometry_->chains[chain_].least_radius; }
 
 private:
@@ -538,7 +561,8 @@ std::vector<int> Face::chains_before(const Eigen::Vector3d& x, double clearance)
     const BorderFoot nearest = g.border_foot(foot, [](int) { return true; });
     std::vector<int> there{nearest.chain}, out;
     for (const Joint& j : g.joints)
-        if ((j.at - nearest.at).norm() <= 1e-6 * g.box.diagonal().norm()) there.insert(there.end(), {j.before, j.after});
+        if ((j.at - nearest.at).norm() <= 1e-6 * g.box.diagonal().norm())
+            there.insert(there.end(), {j.before, j.after});
     std::ranges::sort(there);
     there.erase(std::unique(there.begin(), there.end()), there.end());
     for (const int c : there)
@@ -560,17 +584,22 @@ Patch Face::within(const std::vector<int>& chains) const {
         if (!counts[j.before] || !counts[j.after]) continue;
         if (j.before == j.after) {
             std::ostringstream message;
-            message << "face: its border has a single corner, at (" << j.at.transpose() << "). Divide the edge there into two, so that the corner is between two edges";
+            message << "face: its border has a single corner, at (" << j.at.transpose()
+                    << "). Divide the edge there into two, so that the corner is between two edges";
             throw ToolError(message.str());
         }
         patch.corners.push_back({j.at, {side_of[j.before], side_of[j.after]}});
     }
-    const auto closest = [g = geometry_, counts](const Place& foot) { return g->border_foot(foot, [&](int c) { return counts[c] != 0; }); };
+    const auto closest = [g = geometry_, counts](const Place& foot) {
+        return g->border_foot(foot, [&](int c) { return counts[c] != 0; });
+    };
     patch.distance = [g = geometry_, counts](const Eigen::Vector3d& x) {
         if (g->is_far(x)) return g->box.exteriorDistance(x);
         return g->beyond(g->level_foot(x), [&](int c) { return counts[c] != 0; });
     };
-    patch.side = [g = geometry_, closest, side_of](const Eigen::Vector3d& x) { return side_of[closest(g->level_foot(x)).chain]; };
+    patch.side = [g = geometry_, closest, side_of](const Eigen::Vector3d& x) {
+        return side_of[closest(g->level_foot(x)).chain];
+    };
     return patch;
 }
 

@@ -16,8 +16,8 @@ namespace femscalpel {
 /// normals point to (of a solid's faces: outside).
 ///
 /// Beyond its border the surface goes on as the underlying geometry does (plane, cylinder, ...; a spline in its tangent
-/// plane), and beyond() tells how far. Up to twice its own size away distances are exact; farther they are a lower bound with
-/// a sign, which is all that locating needs.
+/// plane), and beyond() tells how far. Up to twice its own size away distances are exact; farther they are a lower
+/// bound with a sign, which is all that locating needs.
 class Face final : public Tool {
 public:
     /// From a .step, .stp, .brep or .brp file; all faces in it. Throws ReadError that names the file when it cannot be
@@ -42,8 +42,8 @@ public:
 
     int face_count() const;
 
-    /// The border is made of chains of edges, which meet in its corners. Those that a point of the surface, beyond the border
-    /// by more than `clearance`, is beyond; of two that meet in the corner nearest to it, perhaps both.
+    /// The border is made of chains of edges, which meet in its corners. Those that a point of the surface, beyond the
+    /// border by more than `clearance`, is beyond; of two that meet in the corner nearest to it, perhaps both.
     std::vector<int> chains_before(const Eigen::Vector3d& x, double clearance) const;
 
     /// The part of the surface within these chains of the border; where one of them meets another, it goes on straight.

@@ -30,7 +30,8 @@ const Plane& plane_for(const Tool& tool, const std::string& shape) {
 Vector3d on_plane(const Plane& plane, const Vector3d& x, double size, const std::string& what) {
     if (std::abs(plane.distance(x)) > 1e-6 * size) {
         std::ostringstream message;
-        message << "within: " << what << " is off the plane by " << std::abs(plane.distance(x)) << "; give a point of the plane";
+        message << "within: " << what << " is off the plane by " << std::abs(plane.distance(x))
+                << "; give a point of the plane";
         throw ToolError(message.str());
     }
     return plane.project(x);
@@ -74,40 +75,49 @@ bool Patch::has(const Tool* tool) const {
     return std::ranges::any_of(sides, [&](const auto& s) { return s.get() == tool; });
 }
 
-Disk::Disk(const Vector3d& center, double radius) : center_(checked_point(center, "disk: center")), radius_(checked_length(radius, "disk: radius")) {}
+Disk::Disk(const Vector3d& center, double radius)
+    : center_(checked_point(center, "disk: center")), radius_(checked_length(radius, "disk: radius")) {}
 
 Patch Disk::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "disk");
-    Patch patch = one_side(std::make_unique<Cylinder>(on_plane(plane, center_, radius_, "the disk's center"), plane.unit_normal(), radius_));
+    Patch patch = one_side(std::make_unique<Cylinder>(on_plane(plane, center_, radius_, "the disk's center"),
+                                                      plane.unit_normal(), radius_));
     patch.feature_size = radius_;
     return patch;
 }
 
 Ellipse::Ellipse(const Vector3d& center, double first, double second, const Vector3d& direction)
-    : center_(checked_point(center, "ellipse: center")), first_(checked_length(first, "ellipse: first half axis")),
-      second_(checked_length(second, "ellipse: second half axis")), direction_(checked_direction(direction, "ellipse: direction")) {}
+    : center_(checked_point(center, "ellipse: center")),
+      first_(checked_length(first, "ellipse: first half axis")),
+      second_(checked_length(second, "ellipse: second half axis")),
+      direction_(checked_direction(direction, "ellipse: direction")) {}
 
 Patch Ellipse::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "ellipse");
-    Patch patch = one_side(std::make_unique<EllipticCylinder>(on_plane(plane, center_, std::max(first_, second_), "the ellipse's center"), plane.unit_normal(),
-                                                              along_plane(plane, direction_, "the ellipse's direction"), first_, second_));
+    Patch patch = one_side(std::make_unique<EllipticCylinder>(
+        on_plane(plane, center_, std::max(first_, second_), "the ellipse's center"), plane.unit_normal(),
+        along_plane(plane, direction_, "the ellipse's direction"), first_, second_));
     patch.feature_size = std::min(first_, second_);
     return patch;
 }
 
 HalfPlane::HalfPlane(const Vector3d& origin, const Vector3d& direction)
-    : origin_(checked_point(origin, "half plane: origin")), direction_(checked_direction(direction, "half plane: direction")) {}
+    : origin_(checked_point(origin, "half plane: origin")),
+      direction_(checked_direction(direction, "half plane: direction")) {}
 
 Patch HalfPlane::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "half plane");
-    return one_side(std::make_unique<Plane>(plane.project(origin_), -along_plane(plane, direction_, "the half plane's direction")));
+    return one_side(
+        std::make_unique<Plane>(plane.project(origin_), -along_plane(plane, direction_, "the half plane's direction")));
 }
 
 Polygon::Polygon(std::vector<Vector3d> corners) : corners_(std::move(corners)) {
-    if (corners_.size() < 3) throw ToolError("polygon: " + std::to_string(corners_.size()) + " corner(s); give at least three");
+    if (corners_.size() < 3)
+        throw ToolError("polygon: " + std::to_string(corners_.size()) + " corner(s); give at least three");
     for (std::size_t k = 0; k < corners_.size(); ++k) {
         checked_point(corners_[k], "polygon: corner " + std::to_string(k + 1));
-        if (corners_[k] == corners_[(k + 1) % corners_.size()]) throw ToolError("polygon: corner " + std::to_string(k + 1) + " is repeated");
+        if (corners_[k] == corners_[(k + 1) % corners_.size()])
+            throw ToolError("polygon: corner " + std::to_string(k + 1) + " is repeated");
     }
 }
 
@@ -134,12 +144,15 @@ Patch Polygon::on(const Tool& tool) const {
             bool bad;
             if (neighbours) {
                 // Folded back on itself.
-                const Eigen::Vector2d p = j == i + 1 ? Eigen::Vector2d(a - b) : Eigen::Vector2d(b - a), q = j == i + 1 ? Eigen::Vector2d(d - c) : Eigen::Vector2d(c - d);
+                const Eigen::Vector2d p = j == i + 1 ? Eigen::Vector2d(a - b) : Eigen::Vector2d(b - a),
+                                      q = j == i + 1 ? Eigen::Vector2d(d - c) : Eigen::Vector2d(c - d);
                 bad = std::abs(cross(p, q)) <= 1e-9 * p.norm() * q.norm() && p.dot(q) > 0;
             } else {
                 bad = cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;
             }
-            if (bad) throw ToolError("polygon: sides " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " cross or touch; give the corners in order around it");
+            if (bad)
+                throw ToolError("polygon: sides " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
+                                " cross or touch; give the corners in order around it");
         }
     if (std::abs(area) <= 1e-9 * size * size) throw ToolError("polygon: its area is zero");
     Patch patch;
@@ -162,7 +175,8 @@ Patch Polygon::on(const Tool& tool) const {
                 distance = d;
                 best = static_cast<int>(k);
             }
-            if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+            if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+                inside = !inside;
         }
         if (inside) distance = -distance;
         return best;
@@ -179,8 +193,10 @@ Patch Polygon::on(const Tool& tool) const {
     return patch;
 }
 
-CylinderPart::CylinderPart(double low, double high, std::optional<Angles> angles) : low_(low), high_(high), angles_(std::move(angles)) {
-    if (!(std::isfinite(low) && std::isfinite(high) && low < high)) throw ToolError("cylinder part: low must be less than high, both finite numbers");
+CylinderPart::CylinderPart(double low, double high, std::optional<Angles> angles)
+    : low_(low), high_(high), angles_(std::move(angles)) {
+    if (!(std::isfinite(low) && std::isfinite(high) && low < high))
+        throw ToolError("cylinder part: low must be less than high, both finite numbers");
     if (!angles_) return;
     checked_direction(angles_->zero, "cylinder part: zero");
     if (!(angles_->start < angles_->end && angles_->end < angles_->start + 360))
@@ -194,7 +210,9 @@ Patch CylinderPart::on(const Tool& tool) const {
     const double radius = cylinder->radius();
     Patch patch;
     patch.feature_size = (high_ - low_) / 2;
-    if (angles_) patch.feature_size = std::min(patch.feature_size, radius * (angles_->end - angles_->start) * std::numbers::pi / 360);
+    if (angles_)
+        patch.feature_size =
+            std::min(patch.feature_size, radius * (angles_->end - angles_->start) * std::numbers::pi / 360);
     patch.sides.push_back(std::make_unique<Plane>(origin + low_ * axis, -axis));
     patch.sides.push_back(std::make_unique<Plane>(origin + high_ * axis, axis));
     const double middle = (low_ + high_) / 2, half = (high_ - low_) / 2;
@@ -204,20 +222,24 @@ Patch CylinderPart::on(const Tool& tool) const {
         return patch;
     }
     const Vector3d in = angles_->zero - axis.dot(angles_->zero) * axis;
-    if (in.norm() < 1e-6 * angles_->zero.norm()) throw ToolError("cylinder part: zero lies along the axis; give a direction across it");
+    if (in.norm() < 1e-6 * angles_->zero.norm())
+        throw ToolError("cylinder part: zero lies along the axis; give a direction across it");
     const Vector3d u = in.normalized(), v = axis.cross(u);
-    const double start = angles_->start * std::numbers::pi / 180, end = angles_->end * std::numbers::pi / 180, centre = (start + end) / 2,
-                 spread = (end - start) / 2;
+    const double start = angles_->start * std::numbers::pi / 180, end = angles_->end * std::numbers::pi / 180,
+                 centre = (start + end) / 2, spread = (end - start) / 2;
     const auto radial = [=](double t) { return Vector3d(std::cos(t) * u + std::sin(t) * v); };
     const auto tangent = [=](double t) { return Vector3d(-std::sin(t) * u + std::cos(t) * v); };
     patch.sides.push_back(std::make_unique<Plane>(origin, -tangent(start)));
     patch.sides.push_back(std::make_unique<Plane>(origin, tangent(end)));
     for (const int z : {0, 1})
-        for (const int t : {2, 3}) patch.corners.push_back({origin + (z == 0 ? low_ : high_) * axis + radius * radial(t == 2 ? start : end), {z, t}});
+        for (const int t : {2, 3})
+            patch.corners.push_back(
+                {origin + (z == 0 ? low_ : high_) * axis + radius * radial(t == 2 ? start : end), {z, t}});
     // Distances beyond the borders, along the axis and around it.
     const auto beyond = [=](const Vector3d& x, double& z, double& t, bool& upper, bool& later) {
         const double height = axis.dot(x - origin) - middle;
-        const double turn = std::remainder(std::atan2(v.dot(x - origin), u.dot(x - origin)) - centre, 2 * std::numbers::pi);
+        const double turn =
+            std::remainder(std::atan2(v.dot(x - origin), u.dot(x - origin)) - centre, 2 * std::numbers::pi);
         upper = height > 0;
         later = turn > 0;
         z = std::abs(height) - half;

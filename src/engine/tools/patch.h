@@ -36,7 +36,8 @@ class Within {
 public:
     virtual ~Within() = default;
 
-    /// The patch of the surface of `tool`. Throws ToolError when the shape is for other tools, or does not lie on this one.
+    /// The patch of the surface of `tool`. Throws ToolError when the shape is for other tools, or does not lie on this
+    /// one.
     virtual Patch on(const Tool& tool) const = 0;
 };
 

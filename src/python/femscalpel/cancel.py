@@ -7,10 +7,10 @@ from . import _engine
 class CancelToken:
     """Ends computations from another thread.
 
-    What runs in ``with token:`` ends with :class:`Cancelled` within a fifth of a second of ``token.cancel()``: every function of the
-    package that takes long, in the thread that entered. Nothing is changed or written then: meshes and sessions stay as they were, and
-    of a file that was being written the old one. (Ctrl-C needs no token: it ends what Python's main thread runs with
-    KeyboardInterrupt.)
+    What runs in ``with token:`` ends with :class:`Cancelled` within a fifth of a second of ``token.cancel()``: every
+    function of the package that takes long, in the thread that entered. Nothing is changed or written then: meshes and
+    sessions stay as they were, and of a file that was being written the old one. (Ctrl-C needs no token: it ends what
+    Python's main thread runs with KeyboardInterrupt.)
 
     Once cancelled, a token stays so. Tokens nest; each is left in the thread and order it was entered.
 

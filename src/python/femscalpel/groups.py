@@ -37,8 +37,11 @@ class BoundaryPart:
         return len(self.nodes) + len(self.edges) + len(self.triangles) + len(self.quads)
 
     def __repr__(self) -> str:
-        counts = [f"{len(getattr(self, name))} {name}" for name in ("nodes", "edges", "triangles", "quads")
-                  if len(getattr(self, name))]
+        counts = [
+            f"{len(getattr(self, name))} {name}"
+            for name in ("nodes", "edges", "triangles", "quads")
+            if len(getattr(self, name))
+        ]
         return f"<BoundaryPart: {', '.join(counts) or 'empty'}>"
 
 
@@ -60,8 +63,11 @@ class VirtualBoundary:
     enclosed: np.ndarray
 
     def __repr__(self) -> str:
-        return (f"<VirtualBoundary of {self.kind} group {self.name!r}: bounding {self.bounding!r}, linking {self.linking!r}, "
-                f"isolated {self.isolated!r}, {len(self.enclosed)} elements enclosed>")
+        return (
+            f"<VirtualBoundary of {self.kind} group {self.name!r}: bounding {self.bounding!r}, linking "
+            f"{self.linking!r}, "
+            f"isolated {self.isolated!r}, {len(self.enclosed)} elements enclosed>"
+        )
 
 
 def virtual_boundary(mesh: Mesh, name: str, kind: Optional[str] = None) -> VirtualBoundary:
@@ -117,5 +123,9 @@ def virtual_boundaries(mesh: Mesh, kind: Optional[str] = None) -> Tuple[VirtualB
 
 def _find(mesh: Mesh, groups: list) -> list:
     found = _engine.virtual_boundaries(mesh._engine_mesh, groups)
-    return [VirtualBoundary(name, kind, BoundaryPart(**bounding), BoundaryPart(**linking), BoundaryPart(**isolated), enclosed)
-            for (name, kind), (bounding, linking, isolated, enclosed) in zip(groups, found)]
+    return [
+        VirtualBoundary(
+            name, kind, BoundaryPart(**bounding), BoundaryPart(**linking), BoundaryPart(**isolated), enclosed
+        )
+        for (name, kind), (bounding, linking, isolated, enclosed) in zip(groups, found)
+    ]

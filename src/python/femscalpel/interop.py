@@ -35,12 +35,19 @@ def from_meshio(source) -> Mesh:
             raise _engine.Error(f"unknown element type {cell_type!r}; known are {', '.join(CELL_TYPES)}")
         cells.setdefault(cell_type, []).append(nodes)
         cell_ids.setdefault(cell_type, []).append(numbers)
-    groups = [(name, "node", node_ids[np.asarray(members, dtype=np.int64)]) for name, members in source.point_sets.items()]
+    groups = [
+        (name, "node", node_ids[np.asarray(members, dtype=np.int64)]) for name, members in source.point_sets.items()
+    ]
     for name, parts in source.cell_sets.items():
         members = [numbers[np.asarray(part, dtype=np.int64)] for numbers, part in zip(ids, parts) if part is not None]
         groups.append((name, "element", np.concatenate(members) if members else []))
-    return Mesh(points, {t: np.concatenate(a) for t, a in cells.items()}, node_ids,
-                {t: np.concatenate(a) for t, a in cell_ids.items()}, groups)
+    return Mesh(
+        points,
+        {t: np.concatenate(a) for t, a in cells.items()},
+        node_ids,
+        {t: np.concatenate(a) for t, a in cell_ids.items()},
+        groups,
+    )
 
 
 def to_meshio(mesh: Mesh):
@@ -58,7 +65,11 @@ def to_meshio(mesh: Mesh):
     for group in mesh.groups.all("element"):
         members = group.ids
         cell_sets[group.name] = [np.flatnonzero(np.isin(ids, members)) for ids in cell_ids.values()]
-    return meshio.Mesh(mesh.points.copy(), [(t, a.copy()) for t, a in cells.items()],
-                       point_data={NODE_IDS: mesh.node_ids.copy()},
-                       cell_data={CELL_IDS: [a.copy() for a in cell_ids.values()]},
-                       point_sets=point_sets, cell_sets=cell_sets)
+    return meshio.Mesh(
+        mesh.points.copy(),
+        [(t, a.copy()) for t, a in cells.items()],
+        point_data={NODE_IDS: mesh.node_ids.copy()},
+        cell_data={CELL_IDS: [a.copy() for a in cell_ids.values()]},
+        point_sets=point_sets,
+        cell_sets=cell_sets,
+    )

@@ -41,7 +41,7 @@ class Group:
 
     @property
     def kind(self) -> str:
-        """"node", "element" (of any dimension, also mixed) or "facet"."""
+        """ "node", "element" (of any dimension, also mixed) or "facet"."""
         return self._kind
 
     @property
@@ -106,11 +106,15 @@ def _group_entries(groups) -> list:
         if isinstance(entry, Group):
             entry = (entry.name, entry.kind, entry.ids)
         if not isinstance(entry, (tuple, list)) or len(entry) != 3:
-            raise TypeError("groups must be {name: (kind, ids)} or a list of (name, kind, ids), "
-                            f"not contain {_arguments.describe(entry)}")
+            raise TypeError(
+                "groups must be {name: (kind, ids)} or a list of (name, kind, ids), "
+                f"not contain {_arguments.describe(entry)}"
+            )
         name, kind, ids = entry
         _arguments.text(name, "groups: name")
-        out.append((name, _check_kind(kind, f"groups[{name!r}]: kind"), _arguments.integers(ids, f"groups[{name!r}]: ids")))
+        out.append(
+            (name, _check_kind(kind, f"groups[{name!r}]: kind"), _arguments.integers(ids, f"groups[{name!r}]: ids"))
+        )
     return out
 
 
@@ -180,7 +184,9 @@ class Mesh:
             node_ids = np.arange(1, len(points) + 1)
         node_ids = _arguments.integers(node_ids, "node_ids")
         if node_ids.shape != (len(points),):
-            raise ValueError(f"node_ids must have the shape ({len(points)},), one number per point, not {node_ids.shape}")
+            raise ValueError(
+                f"node_ids must have the shape ({len(points)},), one number per point, not {node_ids.shape}"
+            )
         if not isinstance(cells, Mapping):
             raise TypeError(f"cells must be a dict of element type to array, not {_arguments.describe(cells)}")
         if cell_ids is not None and not isinstance(cell_ids, Mapping):
@@ -207,7 +213,9 @@ class Mesh:
             else:
                 raise ValueError(f"cell_ids must have an entry {cell_type!r}, as cells has")
             if ids.shape != (len(nodes),):
-                raise ValueError(f"cell_ids{where} must have the shape ({len(nodes)},), one number per element, not {ids.shape}")
+                raise ValueError(
+                    f"cell_ids{where} must have the shape ({len(nodes)},), one number per element, not {ids.shape}"
+                )
             blocks.append((cell_type, nodes, ids))
         if cell_ids is not None:
             for cell_type in cell_ids:
@@ -235,7 +243,8 @@ class Mesh:
 
     @property
     def cells(self) -> Dict[str, np.ndarray]:
-        """Nodes of the elements by type, for the types the mesh has: (m, k) int64 indices into points, read-only views."""
+        """Nodes of the elements by type, for the types the mesh has: (m, k) int64 indices into points, read-only
+        views."""
         return self._engine_mesh.cells
 
     @property

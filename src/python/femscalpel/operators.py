@@ -62,26 +62,40 @@ def _refine_size(refine) -> Optional[float]:
     if refine is False:
         return 0.0
     if refine is True:
-        raise TypeError("refine must be None (where the tool is finer than the mesh), False (never) or a length, not True")
+        raise TypeError(
+            "refine must be None (where the tool is finer than the mesh), False (never) or a length, not True"
+        )
     if (size := _arguments.real(refine, "refine")) <= 0:
         raise ValueError(f"refine must be a positive length, not {size}; False is for never")
     return size
 
 
-def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
+def crack(
+    mesh: Mesh,
+    tool: Tool,
+    name: str = "CRACK",
+    method: str = "snap",
+    transition: Optional[int] = None,
+    feature_angle: float = 30.0,
+    strict: bool = False,
+    preserve: Optional[Iterable[str]] = None,
+    band_only: bool = False,
+    within: Optional[Within] = None,
+    refine: RefineOption = None,
+    skin: ShapeOption = None,
+) -> Result:
     """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
     nodes on it. The lips are coincident; the original nodes stay with the negative side. Only elements near the
     tool change: everything else keeps its number, its coordinates bit for bit and its groups. Every group of
-    the input is in the result. `mesh` itself is not changed. It may have cracks already, also across the new one: their lips are
-    skin like any other, and where cracks cross, every piece of the material has nodes of its own. The lips of the older crack keep
-    their plane and area, but need not match node for node there any more; the report warns of that.
+    the input is in the result. `mesh` itself is not changed. It may have cracks already, also across the new one: their
+    lips are skin like any other, and where cracks cross, every piece of the material has nodes of its own. The lips of
+    the older crack keep their plane and area, but need not match node for node there any more; the report warns of
+    that.
 
-    Shells that lie in the tool's surface come apart from those that stand on them: a plate stays with the negative side, or, where
-    others are joined to it on the negative side only, with the positive.
+    Shells that lie in the tool's surface come apart from those that stand on them: a plate stays with the negative
+    side, or, where others are joined to it on the negative side only, with the positive.
 
     Parameters
     ----------
@@ -97,9 +111,10 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         "snap" moves nodes near the tool onto it and splits what still crosses; it always succeeds on a sound
         mesh. "deform" only moves nodes (the paper, 3.1.1) and may end in QualityError.
     transition : int, optional
-        How many rings of nodes around those on the tool may move (the paper's bandwidth i, 3.1.2), 1 to 20. When not given: with
-        "deform" as in the paper, the largest distance of an interface node from the tool over the mean edge length, at least 2; with
-        "snap", which moves nodes by less than an edge and splits the rest, 2: more do not make better elements.
+        How many rings of nodes around those on the tool may move (the paper's bandwidth i, 3.1.2), 1 to 20. When not
+        given: with "deform" as in the paper, the largest distance of an interface node from the tool over the mean edge
+        length, at least 2; with "snap", which moves nodes by less than an edge and splits the rest, 2: more do not make
+        better elements.
     feature_angle : float
         Degrees; a skin edge sharper than this is a feature line that keeps its shape.
     strict : bool
@@ -120,15 +135,16 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
         and stay single, and ``name_FRONT`` is an element group of segments along it, in order (in a shell mesh, the
         nodes at its tips). It may reach out of the mesh.
     refine : None, False or number
-        Whether elements near the tool are bisected first, as :func:`refine` does. None: where the tool is finer than the mesh, that
-        is where edges are longer than half its radius (of a crack within a part of a tool, than a quarter of that part's width); a
-        plane has no radius, and method "deform" never refines of itself. A number: where edges are longer than this; of a
-        crack within a part of a tool, around its front. False: never. ``result.report.refinement`` says what was done.
+        Whether elements near the tool are bisected first, as :func:`refine` does. None: where the tool is finer than
+        the mesh, that is where edges are longer than half its radius (of a crack within a part of a tool, than a
+        quarter of that part's width); a plane has no radius, and method "deform" never refines of itself. A number:
+        where edges are longer than this; of a crack within a part of a tool, around its front. False: never.
+        ``result.report.refinement`` says what was done.
     skin : Shape, path or FreeCAD shape, optional
-        The CAD shape the mesh was made from. Nodes of the skin that are born or move come to lie on its faces and edges, not on the
-        mesh's triangles, so that the skin gets better than the input's; all others stay where they are. Edges between
-        triangles of one face are no feature lines, whatever their angle. What of the skin lies on no face of the shape is kept as it is,
-        with a warning.
+        The CAD shape the mesh was made from. Nodes of the skin that are born or move come to lie on its faces and
+        edges, not on the mesh's triangles, so that the skin gets better than the input's; all others stay where they
+        are. Edges between triangles of one face are no feature lines, whatever their angle. What of the skin lies on no
+        face of the shape is kept as it is, with a warning.
 
     Returns
     -------
@@ -138,8 +154,8 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     Raises
     ------
     ToolError
-        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool cuts nothing: the message says
-        where it passes instead.
+        The name is bad or taken, `preserve` names a group the mesh does not have, or the tool cuts nothing: the message
+        says where it passes instead.
     UnsupportedElementError
         The band around the tool reaches quadrangles, prisms, pyramids or hexahedra.
     QualityError
@@ -156,8 +172,14 @@ def crack(mesh: Mesh, tool: Tool, name: str = "CRACK", method: str = "snap", tra
     >>> result = crack(mesh, Plane(origin=(7.3, 5, 5), normal=(0.9, 0.3, 0.2)))
     >>> result.mesh.groups["CRACK_P"].ids
     """
-    return Result._wrap(_engine.crack(check_mesh(mesh), check_tool(tool),
-                                      _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), check_within(within)))
+    return Result._wrap(
+        _engine.crack(
+            check_mesh(mesh),
+            check_tool(tool),
+            _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
+            check_within(within),
+        )
+    )
 
 
 def _tools(tools) -> list:
@@ -166,7 +188,10 @@ def _tools(tools) -> list:
     try:
         tools = list(tools)
     except TypeError:
-        raise TypeError(f"tools must be a tool such as femscalpel.Cylinder, or a sequence of tools, not {_arguments.describe(tools)}") from None
+        raise TypeError(
+            f"tools must be a tool such as femscalpel.Cylinder, or a sequence of tools, not "
+            f"{_arguments.describe(tools)}"
+        ) from None
     if not tools:
         raise ValueError("tools is empty; give at least one tool")
     return [check_tool(tool, f"tools[{k}]") for k, tool in enumerate(tools)]
@@ -176,14 +201,25 @@ def _depth(depth) -> Optional[float]:
     return None if depth is None else _arguments.real(depth, "depth")
 
 
-def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
-          feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-          depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
+def drill(
+    mesh: Mesh,
+    tools: Union[Tool, Sequence[Tool]],
+    name: str = "HOLE",
+    method: str = "snap",
+    transition: Optional[int] = None,
+    feature_angle: float = 30.0,
+    strict: bool = False,
+    preserve: Optional[Iterable[str]] = None,
+    depth: Optional[float] = None,
+    band_only: bool = False,
+    refine: RefineOption = None,
+    skin: ShapeOption = None,
+) -> Result:
     """Drills one or several holes.
 
     What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
-    carried; the walls lie on the tools. Elements away from the holes keep their numbers, coordinates and groups. A group
-    that loses all its members stays, empty, and the report warns. `mesh` itself is not changed.
+    carried; the walls lie on the tools. Elements away from the holes keep their numbers, coordinates and groups. A
+    group that loses all its members stays, empty, and the report warns. `mesh` itself is not changed.
 
     Parameters
     ----------
@@ -219,8 +255,14 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", me
     >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
     >>> result.mesh.groups["HOLE_WALL"].ids
     """
-    return Result._wrap(_engine.drill(check_mesh(mesh), _tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-                                      _depth(depth)))
+    return Result._wrap(
+        _engine.drill(
+            check_mesh(mesh),
+            _tools(tools),
+            _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
+            _depth(depth),
+        )
+    )
 
 
 def _walls(tool, width, other, bottom) -> tuple:
@@ -236,13 +278,26 @@ def _walls(tool, width, other, bottom) -> tuple:
     return tool, _arguments.real(width, "width"), bottom
 
 
-def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
-        name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-        preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
+def cut(
+    mesh: Mesh,
+    tool: Tool,
+    width: Optional[float] = None,
+    other: Optional[Tool] = None,
+    bottom: Optional[Tool] = None,
+    name: str = "CUT",
+    method: str = "snap",
+    transition: Optional[int] = None,
+    feature_angle: float = 30.0,
+    strict: bool = False,
+    preserve: Optional[Iterable[str]] = None,
+    band_only: bool = False,
+    refine: RefineOption = None,
+    skin: ShapeOption = None,
+) -> Result:
     """Cuts a slot: an incision between two planes.
 
-    The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself is
-    not changed.
+    The elements between the planes are removed, with everything only they carried; both walls are flat. `mesh` itself
+    is not changed.
 
     Parameters
     ----------
@@ -256,8 +311,8 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
         The second wall. What lies on the negative side of both `tool` and `other` is removed: their normals point into
         the material that stays. They need not be parallel; then they make a notch.
     bottom : Tool, optional
-        Where the slot ends: it stays on the negative side of this plane (or cylinder: a circular saw). Through the whole
-        part when not given.
+        Where the slot ends: it stays on the negative side of this plane (or cylinder: a circular saw). Through the
+        whole part when not given.
     name : str
         Prefix of the new groups: ``name_P`` and ``name_N``, the walls on the positive and negative side of the slot's
         middle plane (of `tool` and `other`), normals out of the material, and ``name_BOTTOM``.
@@ -285,11 +340,29 @@ def cut(mesh: Mesh, tool: Tool, width: Optional[float] = None, other: Optional[T
     >>> saw.mesh.groups["CUT_BOTTOM"].ids
     """
     first, second, bottom = _walls(tool, width, other, bottom)
-    return Result._wrap(_engine.cut(check_mesh(mesh), first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), bottom))
+    return Result._wrap(
+        _engine.cut(
+            check_mesh(mesh),
+            first,
+            second,
+            _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
+            bottom,
+        )
+    )
 
 
-def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: float, gradation: float = 0.5, reach: float = 0.0,
-           relax: bool = True, max_elements: int = 5_000_000, feature_angle: float = 30.0, strict: bool = False, skin: ShapeOption = None) -> Result:
+def refine(
+    mesh: Mesh,
+    near: Union[Tool, Sequence[Tool], np.ndarray],
+    size: float,
+    gradation: float = 0.5,
+    reach: float = 0.0,
+    relax: bool = True,
+    max_elements: int = 5_000_000,
+    feature_angle: float = 30.0,
+    strict: bool = False,
+    skin: ShapeOption = None,
+) -> Result:
     """Bisects elements near a tool until their edges are short enough.
 
     For a tool that is finer than the mesh, or for sharp stresses around it. No edge is longer afterwards than
@@ -338,9 +411,21 @@ def refine(mesh: Mesh, near: Union[Tool, Sequence[Tool], np.ndarray], size: floa
     for name, value in (("relax", relax), ("strict", strict)):
         if not isinstance(value, bool):
             raise TypeError(f"{name} must be True or False, not {_arguments.describe(value)}")
-    return Result._wrap(_engine.refine(
-        engine_mesh, tools, points, _arguments.real(size, "size"), _arguments.real(gradation, "gradation"), _arguments.real(reach, "reach"),
-        relax, _arguments.whole(max_elements, "max_elements", 1), _arguments.real(feature_angle, "feature_angle"), strict, check_skin(skin)))
+    return Result._wrap(
+        _engine.refine(
+            engine_mesh,
+            tools,
+            points,
+            _arguments.real(size, "size"),
+            _arguments.real(gradation, "gradation"),
+            _arguments.real(reach, "reach"),
+            relax,
+            _arguments.whole(max_elements, "max_elements", 1),
+            _arguments.real(feature_angle, "feature_angle"),
+            strict,
+            check_skin(skin),
+        )
+    )
 
 
 def _near(near) -> tuple:
@@ -381,22 +466,75 @@ class Scalpel:
         """A copy of the mesh the session works on."""
         return Mesh._wrap(self._session.mesh)
 
-    def crack(self, tool: Tool, name: str = "CRACK", method: str = "snap", transition: Optional[int] = None,
-              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              band_only: bool = False, within: Optional[Within] = None, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
+    def crack(
+        self,
+        tool: Tool,
+        name: str = "CRACK",
+        method: str = "snap",
+        transition: Optional[int] = None,
+        feature_angle: float = 30.0,
+        strict: bool = False,
+        preserve: Optional[Iterable[str]] = None,
+        band_only: bool = False,
+        within: Optional[Within] = None,
+        refine: RefineOption = None,
+        skin: ShapeOption = None,
+    ) -> Result:
         """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(self._session.crack(check_tool(tool), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-                                                check_within(within)))
+        return Result._wrap(
+            self._session.crack(
+                check_tool(tool),
+                _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
+                check_within(within),
+            )
+        )
 
-    def drill(self, tools: Union[Tool, Sequence[Tool]], name: str = "HOLE", method: str = "snap", transition: Optional[int] = None,
-              feature_angle: float = 30.0, strict: bool = False, preserve: Optional[Iterable[str]] = None,
-              depth: Optional[float] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
+    def drill(
+        self,
+        tools: Union[Tool, Sequence[Tool]],
+        name: str = "HOLE",
+        method: str = "snap",
+        transition: Optional[int] = None,
+        feature_angle: float = 30.0,
+        strict: bool = False,
+        preserve: Optional[Iterable[str]] = None,
+        depth: Optional[float] = None,
+        band_only: bool = False,
+        refine: RefineOption = None,
+        skin: ShapeOption = None,
+    ) -> Result:
         """As :func:`femscalpel.drill`, on the session's mesh."""
-        return Result._wrap(self._session.drill(_tools(tools), _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), _depth(depth)))
+        return Result._wrap(
+            self._session.drill(
+                _tools(tools),
+                _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
+                _depth(depth),
+            )
+        )
 
-    def cut(self, tool: Tool, width: Optional[float] = None, other: Optional[Tool] = None, bottom: Optional[Tool] = None,
-            name: str = "CUT", method: str = "snap", transition: Optional[int] = None, feature_angle: float = 30.0, strict: bool = False,
-            preserve: Optional[Iterable[str]] = None, band_only: bool = False, refine: RefineOption = None, skin: ShapeOption = None) -> Result:
+    def cut(
+        self,
+        tool: Tool,
+        width: Optional[float] = None,
+        other: Optional[Tool] = None,
+        bottom: Optional[Tool] = None,
+        name: str = "CUT",
+        method: str = "snap",
+        transition: Optional[int] = None,
+        feature_angle: float = 30.0,
+        strict: bool = False,
+        preserve: Optional[Iterable[str]] = None,
+        band_only: bool = False,
+        refine: RefineOption = None,
+        skin: ShapeOption = None,
+    ) -> Result:
         """As :func:`femscalpel.cut`, on the session's mesh."""
         first, second, bottom = _walls(tool, width, other, bottom)
-        return Result._wrap(self._session.cut(first, second, _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin), bottom))
+        return Result._wrap(
+            self._session.cut(
+                first,
+                second,
+                _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
+                bottom,
+            )
+        )

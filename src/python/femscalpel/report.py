@@ -84,8 +84,8 @@ class HeldNodes:
 
 @dataclass(frozen=True)
 class PoorPlace:
-    """A place where elements came out with a mean ratio below 0.02 (and below a tenth of the worst there was), as what is kept there and the
-    tool leave no room for better ones."""
+    """A place where elements came out with a mean ratio below 0.02 (and below a tenth of the worst there was), as what
+    is kept there and the tool leave no room for better ones."""
 
     elements: List[int]  #: numbers of the input's elements that they are parts of, worst first
     mean_ratio: float  #: of the worst
@@ -104,11 +104,11 @@ class Report:
     name: str  #: prefix of the groups it made
     method: str  #: "snap" or "deform"
     transition: int  #: number of rings around the tool that were allowed to move
-    #: Node numbers: ICN, ECN (interface), ITN, ETN (transition), as in the paper. Of mid-side nodes those that moved, in the set of
-    #: their edge: interface if it lies on the tool, else transition.
+    #: Node numbers: ICN, ECN (interface), ITN, ETN (transition), as in the paper. Of mid-side nodes those that moved,
+    #: in the set of their edge: interface if it lies on the tool, else transition.
     node_sets: Dict[str, np.ndarray]
-    #: Number of nodes by constraint: the tool's kind ("plane"), "tangent plane" (on the skin or a shell), of these "line"
-    #: and "fixed"; "group boundary"; "free". A node can count twice.
+    #: Number of nodes by constraint: the tool's kind ("plane"), "tangent plane" (on the skin or a shell), of these
+    #: "line" and "fixed"; "group boundary"; "free". A node can count twice.
     constraints: Dict[str, int]
     quality: Quality  #: near the tool, before and after
     groups: List[GroupRecord]
@@ -139,8 +139,8 @@ class Report:
 
     @property
     def constraints_by_group(self) -> Dict[str, Dict[str, int]]:
-        """Constraint counts of each group: how many nodes near the tool its boundary keeps on a "surface", on a "line" or
-        "fixed". Groups of one name but several kinds are told apart by `groups`, which has the same numbers."""
+        """Constraint counts of each group: how many nodes near the tool its boundary keeps on a "surface", on a "line"
+        or "fixed". Groups of one name but several kinds are told apart by `groups`, which has the same numbers."""
         counts: Dict[str, Dict[str, int]] = {}
         for g in self.groups:
             sums = counts.setdefault(g.name, {"surface": 0, "line": 0, "fixed": 0})
@@ -152,19 +152,34 @@ class Report:
         """Summary, warnings and the table of groups as aligned text."""
         before, after = self.quality
         facts = [
-            ("nodes", f"{self.nodes_added} added ({self.nodes_split} on split edges, {self.nodes_doubled} doubled), "
-                      f"{self.nodes_removed} removed, {self.nodes_moved} moved by at most {self.max_displacement:.4g}"),
+            (
+                "nodes",
+                f"{self.nodes_added} added ({self.nodes_split} on split edges, {self.nodes_doubled} doubled), "
+                f"{self.nodes_removed} removed, {self.nodes_moved} moved by at most {self.max_displacement:.4g}",
+            ),
             ("elements", f"{self.elements_added} added, {self.elements_removed} removed"),
             ("node sets", _counts({name: len(ids) for name, ids in self.node_sets.items()})),
             ("constraints", _counts(self.constraints)),
-            ("mean ratio", f"minimum {before.minimum:.3f} -> {after.minimum:.3f}, mean {before.mean:.3f} -> {after.mean:.3f} "
-                           f"({before.count} -> {after.count} elements near the tool)"),
-            ("seconds", f"{sum(self.seconds.values()):.3f}"
-                        + (f" ({_counts({k: f'{s:.3f}' for k, s in self.seconds.items()})})" if self.seconds else "")),
+            (
+                "mean ratio",
+                f"minimum {before.minimum:.3f} -> {after.minimum:.3f}, mean {before.mean:.3f} -> {after.mean:.3f} "
+                f"({before.count} -> {after.count} elements near the tool)",
+            ),
+            (
+                "seconds",
+                f"{sum(self.seconds.values()):.3f}"
+                + (f" ({_counts({k: f'{s:.3f}' for k, s in self.seconds.items()})})" if self.seconds else ""),
+            ),
         ]
         if self.refinement is not None:
             size, elements_before, elements_after = self.refinement
-            facts.insert(0, ("refined", f"first, to edges of {size:.4g} near the tool: {elements_before} -> {elements_after} elements"))
+            facts.insert(
+                0,
+                (
+                    "refined",
+                    f"first, to edges of {size:.4g} near the tool: {elements_before} -> {elements_after} elements",
+                ),
+            )
         title = f"{self.operation} {self.name}".rstrip()
         lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]
@@ -172,8 +187,21 @@ class Report:
         return "\n".join(lines + ["", *self._group_table()]) + "\n"
 
     def _group_table(self) -> List[str]:
-        header = ("group", "kind", "status", "count", "->", "after", "measure", "->", "after", "change", "moved", "drift",
-                  "surface/line/fixed")
+        header = (
+            "group",
+            "kind",
+            "status",
+            "count",
+            "->",
+            "after",
+            "measure",
+            "->",
+            "after",
+            "change",
+            "moved",
+            "drift",
+            "surface/line/fixed",
+        )
         rows = [header]
         for g in self.groups:
             measured = g.kind != "node" and g.dimension > 0
@@ -182,15 +210,28 @@ class Report:
             else:
                 change = "-"
             unit = {0: "", 1: "L", 2: "A", 3: "V"}[g.dimension] if measured else ""
-            rows.append((
-                g.name, g.kind + (f" {unit}" if unit else ""), g.status, str(g.count_before), "->", str(g.count_after),
-                f"{g.measure_before:.6g}" if measured else "-", "->", f"{g.measure_after:.6g}" if measured else "-", change,
-                str(g.nodes_moved), f"{g.boundary_drift:.2g}" + ("" if g.boundary_kept else " free"),
-                f"{g.nodes_on_surface}/{g.nodes_on_line}/{g.nodes_fixed}",
-            ))
+            rows.append(
+                (
+                    g.name,
+                    g.kind + (f" {unit}" if unit else ""),
+                    g.status,
+                    str(g.count_before),
+                    "->",
+                    str(g.count_after),
+                    f"{g.measure_before:.6g}" if measured else "-",
+                    "->",
+                    f"{g.measure_after:.6g}" if measured else "-",
+                    change,
+                    str(g.nodes_moved),
+                    f"{g.boundary_drift:.2g}" + ("" if g.boundary_kept else " free"),
+                    f"{g.nodes_on_surface}/{g.nodes_on_line}/{g.nodes_fixed}",
+                )
+            )
         widths = [max(len(row[i]) for row in rows) for i in range(len(header))]
-        lines = [" ".join(cell.ljust(w) if i < 3 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip()
-                 for row in rows]
+        lines = [
+            " ".join(cell.ljust(w) if i < 3 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip()
+            for row in rows
+        ]
         return [lines[0], "-" * len(lines[0]), *lines[1:]] if self.groups else ["no groups"]
 
     def to_csv(self, file) -> None:
@@ -210,8 +251,10 @@ class Report:
         return self.to_text()
 
     def __repr__(self) -> str:
-        return (f"<Report {self.operation} {self.name!r}: {self.nodes_added} nodes added, {self.nodes_moved} moved, "
-                f"mean ratio at least {self.quality.after.minimum:.3f}, {len(self.warnings)} warnings>")
+        return (
+            f"<Report {self.operation} {self.name!r}: {self.nodes_added} nodes added, {self.nodes_moved} moved, "
+            f"mean ratio at least {self.quality.after.minimum:.3f}, {len(self.warnings)} warnings>"
+        )
 
 
 def _counts(values: dict) -> str:

@@ -12,11 +12,11 @@ class Shape(_engine.CadShape):
     Parameters
     ----------
     source : path, FreeCAD shape, or text
-        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, a ``Part.Shape``, or the text of a ``.brep`` file. It must be where the
-        mesh is, and in its unit; lengths of a STEP file are taken in millimetres.
+        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, a ``Part.Shape``, or the text of a ``.brep`` file. It must be
+        where the mesh is, and in its unit; lengths of a STEP file are taken in millimetres.
 
-    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no face in it.
-    Give the same object to several operators: finding one's way on the shape is prepared once.
+    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no
+    face in it. Give the same object to several operators: finding one's way on the shape is prepared once.
     """
 
     def __init__(self, source):
@@ -27,7 +27,9 @@ class Shape(_engine.CadShape):
         elif isinstance(source, (str, os.PathLike)):
             super().__init__(os.fspath(source))
         else:
-            raise TypeError(f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(source)}")
+            raise TypeError(
+                f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(source)}"
+            )
 
     def __repr__(self) -> str:
         return f"Shape({self.face_count} faces, {self.edge_count} edges)"

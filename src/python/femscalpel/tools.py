@@ -69,7 +69,9 @@ class Cylinder(_engine.Cylinder):
     """
 
     def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float):
-        super().__init__(_arguments.vector(origin, "origin"), _arguments.vector(axis, "axis"), _arguments.real(radius, "radius"))
+        super().__init__(
+            _arguments.vector(origin, "origin"), _arguments.vector(axis, "axis"), _arguments.real(radius, "radius")
+        )
 
     @property
     def origin(self) -> Tuple[float, float, float]:
@@ -126,13 +128,17 @@ class Torus(_engine.Torus):
     major_radius, minor_radius : number
         Radius of the circle and of the tube around it, in the mesh's unit.
 
-    Raises :class:`femscalpel.ToolError` when the axis is zero, a radius not positive, or the minor radius not smaller than
-    the major one.
+    Raises :class:`femscalpel.ToolError` when the axis is zero, a radius not positive, or the minor radius not smaller
+    than the major one.
     """
 
     def __init__(self, center: Sequence[float], axis: Sequence[float], major_radius: float, minor_radius: float):
-        super().__init__(_arguments.vector(center, "center"), _arguments.vector(axis, "axis"),
-                         _arguments.real(major_radius, "major_radius"), _arguments.real(minor_radius, "minor_radius"))
+        super().__init__(
+            _arguments.vector(center, "center"),
+            _arguments.vector(axis, "axis"),
+            _arguments.real(major_radius, "major_radius"),
+            _arguments.real(minor_radius, "minor_radius"),
+        )
 
     @property
     def center(self) -> Tuple[float, float, float]:
@@ -165,13 +171,17 @@ class Cone(_engine.Cone):
     half_angle : number
         Degrees between the axis and the surface.
 
-    Raises :class:`femscalpel.ToolError` when the axis is zero, the radius not positive or the angle not between 0 and 90.
-    The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
+    Raises :class:`femscalpel.ToolError` when the axis is zero, the radius not positive or the angle not between 0 and
+    90. The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
     """
 
     def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float, half_angle: float):
-        super().__init__(_arguments.vector(origin, "origin"), _arguments.vector(axis, "axis"), _arguments.real(radius, "radius"),
-                         _arguments.real(half_angle, "half_angle"))
+        super().__init__(
+            _arguments.vector(origin, "origin"),
+            _arguments.vector(axis, "axis"),
+            _arguments.real(radius, "radius"),
+            _arguments.real(half_angle, "half_angle"),
+        )
 
     @property
     def origin(self) -> Tuple[float, float, float]:
@@ -197,17 +207,18 @@ class Cone(_engine.Cone):
 class Face(_engine.Face):
     """A face or shell of a CAD model, by OpenCASCADE; its positive side is the one its normals point to.
 
-    A crack along it goes as far as the face does: where its border lies inside the material it is the crack's front, and
+    A crack along it goes as far as the face does: where its border lies inside the material it is the crack's front,
+    and
     ``name_FRONT`` has the segments along it (see ``within`` of :func:`crack`); corners of the border become nodes.
 
     Parameters
     ----------
     source : path, or FreeCAD shape
-        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, or a ``Part.Shape``: all faces in it, which must meet smoothly.
-        Lengths of a STEP file are taken in millimetres.
+        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, or a ``Part.Shape``: all faces in it, which must meet
+        smoothly. Lengths of a STEP file are taken in millimetres.
 
-    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no face in
-    it, or faces that meet at an angle.
+    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no
+    face in it, or faces that meet at an angle.
     """
 
     def __init__(self, source):

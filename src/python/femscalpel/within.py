@@ -104,7 +104,12 @@ class CylinderPart(_engine.CylinderPart):
         The direction across the axis from which `angles` are measured.
     """
 
-    def __init__(self, along: Tuple[float, float], angles: Optional[Tuple[float, float]] = None, zero: Optional[Sequence[float]] = None):
+    def __init__(
+        self,
+        along: Tuple[float, float],
+        angles: Optional[Tuple[float, float]] = None,
+        zero: Optional[Sequence[float]] = None,
+    ):
         if (angles is None) != (zero is None):
             raise ValueError("give both angles and zero, or neither")
         self.along, self.angles, self.zero = _arguments.pair(along, "along"), None, None
@@ -119,5 +124,7 @@ class CylinderPart(_engine.CylinderPart):
 def check_within(within):
     """`within`; TypeError when it is something else or not None."""
     if within is not None and not isinstance(within, Within):
-        raise TypeError(f"within must be a Disk, Ellipse, Polygon, HalfPlane or CylinderPart, not {_arguments.describe(within)}")
+        raise TypeError(
+            f"within must be a Disk, Ellipse, Polygon, HalfPlane or CylinderPart, not {_arguments.describe(within)}"
+        )
     return within

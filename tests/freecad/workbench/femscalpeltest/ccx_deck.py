@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a CalculiX deck written by FreeCAD applies to the mesh, computed without FemScalpel and without CalculiX.
 
-Knows the cards FreeCAD 0.20 writes for solids and shells of triangles and tetrahedra, and stops at those it does not know.
+Knows the cards FreeCAD 0.20 writes for solids and shells of triangles and tetrahedra, and stops at those it does not
+know.
 """
 
 import re
@@ -78,12 +79,14 @@ class Deck:
         return len({tuple(np.round(self.points[n], 7)) for n in nodes})
 
     def skin_in(self, nodes):
-        """Area of the solids' skin, or of shells, all of whose nodes are in `nodes`; length of shells' edges if there is
-        none. What coincides counts once."""
+        """Area of the solids' skin, or of shells, all of whose nodes are in `nodes`; length of shells' edges if there
+        is none. What coincides counts once."""
         triangles = [n for kind, n in self.elements.values() if kind.startswith("S") and nodes.issuperset(n)]
         if triangles:
             corners = np.array([[self.points[n] for n in triangle[:3]] for triangle in triangles])
-            return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+            return (
+                np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+            )
         owners, shapes = {}, {}
         for kind, element in self.elements.values():
             for face in TETRA_FACES if kind.startswith("C3D") else ((0, 1), (1, 2), (2, 0)):
@@ -104,7 +107,7 @@ class Deck:
         """Volume (shells: area) of an element set, by the elements' corners."""
         total = 0.0
         for kind, nodes in map(self.elements.get, self.elsets[elset]):
-            points = np.array([self.points[n] for n in nodes[:4 if kind.startswith("C3D") else 3]])
+            points = np.array([self.points[n] for n in nodes[: 4 if kind.startswith("C3D") else 3]])
             edges = points[1:] - points[0]
             total += abs(np.linalg.det(edges)) / 6 if len(edges) == 3 else np.linalg.norm(np.cross(*edges)) / 2
         return total
@@ -143,8 +146,11 @@ class Deck:
                 for i, weight in zip(face, row):
                     yield nodes[i], values[0] * weight * normal / 6
             return
-        density = [self.density[material] for elset, material in self.sections.items()
-                   if element in self._members(elset) and material in self.density]
+        density = [
+            self.density[material]
+            for elset, material in self.sections.items()
+            if element in self._members(elset) and material in self.density
+        ]
         if len(density) != 1:
             raise ValueError(f"element {element} has {len(density)} materials")
         weights, derivatives = _tetra(len(nodes))
@@ -177,7 +183,7 @@ class Deck:
         width = {"C3D4": 4, "C3D10": 10, "S3": 3, "S6": 6}[options["TYPE"]]
         flat = [int(v) for row in rows for v in row]
         for i in range(0, len(flat), width + 1):
-            self.elements[flat[i]] = options["TYPE"], flat[i + 1:i + width + 1]
+            self.elements[flat[i]] = options["TYPE"], flat[i + 1 : i + width + 1]
             self.elsets.setdefault(options["ELSET"], []).append(flat[i])
 
     def _nset(self, options, rows):
@@ -190,7 +196,9 @@ class Deck:
         self.surfaces[options["NAME"]] = [(int(e), int(f.strip("S"))) for e, f in rows]
 
     def _cload(self, options, rows):
-        self.concentrated += [(node, int(dof), float(value)) for target, dof, value in rows for node in self.nodes(target)]
+        self.concentrated += [
+            (node, int(dof), float(value)) for target, dof, value in rows for node in self.nodes(target)
+        ]
 
     def _dload(self, options, rows):
         self.distributed += [(row[0], row[1], [float(v) for v in row[2:]]) for row in rows]
@@ -223,9 +231,32 @@ class Deck:
 
 
 _WITHOUT_MEANING_HERE = {
-    "HEADING", "ELASTIC", "PLASTIC", "CONDUCTIVITY", "EXPANSION", "SPECIFIC HEAT", "INITIAL CONDITIONS", "STEP", "STATIC", "BUCKLE",
-    "FREQUENCY", "COUPLED TEMPERATURE-DISPLACEMENT", "CONTROLS", "DFLUX", "FILM", "SECTION PRINT", "SURFACE INTERACTION",
-    "SURFACE BEHAVIOR", "NODE FILE", "EL FILE", "NODE PRINT", "END STEP", "FRICTION", "PHYSICAL CONSTANTS", "OUTPUT"}
+    "HEADING",
+    "ELASTIC",
+    "PLASTIC",
+    "CONDUCTIVITY",
+    "EXPANSION",
+    "SPECIFIC HEAT",
+    "INITIAL CONDITIONS",
+    "STEP",
+    "STATIC",
+    "BUCKLE",
+    "FREQUENCY",
+    "COUPLED TEMPERATURE-DISPLACEMENT",
+    "CONTROLS",
+    "DFLUX",
+    "FILM",
+    "SECTION PRINT",
+    "SURFACE INTERACTION",
+    "SURFACE BEHAVIOR",
+    "NODE FILE",
+    "EL FILE",
+    "NODE PRINT",
+    "END STEP",
+    "FRICTION",
+    "PHYSICAL CONSTANTS",
+    "OUTPUT",
+}
 
 
 def _cards(text):
@@ -277,7 +308,7 @@ def _quadratic(b, edges):
     """Values of the quadratic shape functions at barycentric point b, and derivatives by b."""
     values = np.concatenate([b * (2 * b - 1), [4 * b[i] * b[j] for i, j in edges]])
     gradient = np.zeros((len(values), len(b)))
-    gradient[:len(b)] = np.diag(4 * b - 1)
+    gradient[: len(b)] = np.diag(4 * b - 1)
     for k, (i, j) in enumerate(edges):
         gradient[len(b) + k, i], gradient[len(b) + k, j] = 4 * b[j], 4 * b[i]
     return values, gradient

@@ -27,6 +27,7 @@ class Analysis(DocumentTest):
     def setUp(self):
         super().setUp()
         from femexamples import ccx_cantilever_base_solid
+
         ccx_cantilever_base_solid.setup_cantilever_base_solid(self.doc, "ccxtools")
         self.analysis, self.source, self.box = self.doc.Analysis, self.doc.Mesh, self.doc.Box
         self.doc.ConstraintFixed.References = [(self.box, ("Face1", "Face2"))]
@@ -41,6 +42,7 @@ class Analysis(DocumentTest):
 
     def tools(self):
         from femtools import ccxtools
+
         tools = ccxtools.FemToolsCcx(self.analysis, self.doc.CalculiXccxTools)
         tools.update_objects()
         tools.setup_working_dir(self.folder.name)
@@ -93,6 +95,7 @@ class Analysis(DocumentTest):
 
     def test_takes_the_place_of_its_source(self):
         from femtools.membertools import get_mesh_to_solve
+
         self.assertEqual(get_mesh_to_solve(self.analysis)[0], self.source)
         self.assertEqual(ObjectsFemScalpel.putIntoAnalysis(self.crack), self.analysis)
         self.assertEqual(get_mesh_to_solve(self.analysis)[0], self.crack)
@@ -194,10 +197,12 @@ class Analysis(DocumentTest):
         self.assertEqual((self.analysis.Group, self.doc.UndoCount), (group, steps))
 
     def test_chain(self):
-        second = ObjectsFemScalpel.makeCrack(self.doc, self.crack, "Second", origin=(2000, 500, 500), normal=(1, 0, 0.1),
-                                             group_name="SECOND")
-        third = ObjectsFemScalpel.makeCrack(self.doc, second, "Third", origin=(6000, 500, 500), normal=(1, 0.1, 0),
-                                            group_name="THIRD")
+        second = ObjectsFemScalpel.makeCrack(
+            self.doc, self.crack, "Second", origin=(2000, 500, 500), normal=(1, 0, 0.1), group_name="SECOND"
+        )
+        third = ObjectsFemScalpel.makeCrack(
+            self.doc, second, "Third", origin=(6000, 500, 500), normal=(1, 0.1, 0), group_name="THIRD"
+        )
         ObjectsFemScalpel.putIntoAnalysis(third)  # not recomputed yet
         self.assertGreater(third.FemMesh.NodeCount, second.FemMesh.NodeCount)
         self.assertEqual([m for m in self.analysis.Group if m.isDerivedFrom("Fem::FemMeshObject")], [third])
@@ -241,8 +246,13 @@ class Analysis(DocumentTest):
         force.Direction = (self.box, ["Edge1"])
         self.analysis.addObject(force)
         points = [self.box.Shape.getElement(name).Point for name in ("Vertex5", "Vertex8")]
-        self.crack.PlanePlacement = FreeCAD.Placement(points[0], FreeCAD.Rotation(
-            FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(0.3, 0, 0) + (points[1] - points[0]).cross(FreeCAD.Vector(1, 0, 0)).normalize()))
+        self.crack.PlanePlacement = FreeCAD.Placement(
+            points[0],
+            FreeCAD.Rotation(
+                FreeCAD.Vector(0, 0, 1),
+                FreeCAD.Vector(0.3, 0, 0) + (points[1] - points[0]).cross(FreeCAD.Vector(1, 0, 0)).normalize(),
+            ),
+        )
         self.doc.recompute()
         with self.assertRaisesRegex(ValueError, "doubles Box.Vertex"):
             ObjectsFemScalpel.putIntoAnalysis(self.crack)
@@ -271,10 +281,13 @@ class Analysis(DocumentTest):
             self.crack.Proxy.execute(self.crack)
 
     def test_vertices_the_analysis_refers_to_keep_their_nodes(self):
-        # On a straight edge and on a flat face, where nodes are free to move. Corner nodes, as meshers make at vertices.
+        # On a straight edge and on a flat face, where nodes are free to move. Corner nodes, as meshers make at
+        # vertices.
         femmesh = self.source.FemMesh
         corners = {n for v in femmesh.Volumes for n in femmesh.getElementNodes(v)[:4]}
-        points = {n: femmesh.Nodes[n] for n in corners if femmesh.Nodes[n].z == 1000 and 3000 < femmesh.Nodes[n].x < 5200}
+        points = {
+            n: femmesh.Nodes[n] for n in corners if femmesh.Nodes[n].z == 1000 and 3000 < femmesh.Nodes[n].x < 5200
+        }
         self.assertGreater(len(points), 1)
         vertices = self.doc.addObject("Part::Feature", "Points")
         vertices.Shape = Part.makeCompound([Part.Vertex(p) for p in points.values()])

@@ -33,8 +33,15 @@ CORNERS = {
     "triangle": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
     "quad": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]],
 }
-QUADRATIC = {"tetra": "tetra10", "pyramid": "pyramid13", "wedge": "wedge15", "hexahedron": "hexahedron20",
-             "line": "line3", "triangle": "triangle6", "quad": "quad8"}
+QUADRATIC = {
+    "tetra": "tetra10",
+    "pyramid": "pyramid13",
+    "wedge": "wedge15",
+    "hexahedron": "hexahedron20",
+    "line": "line3",
+    "triangle": "triangle6",
+    "quad": "quad8",
+}
 
 
 def one_element(shape, order):
@@ -51,7 +58,7 @@ def all_types():
     points, cells, ids, first = [], {}, {}, 0
     for number, (shape, order) in enumerate((s, o) for s in CORNERS for o in (1, 2)):
         mesh = one_element(shape, order)
-        (name, nodes), = mesh.cells.items()
+        ((name, nodes),) = mesh.cells.items()
         points.append(mesh.points + [3.0 * number, 0.1, 1 / 3])
         cells[name], ids[name] = nodes + first, [1000 - 7 * number]
         first += mesh.node_count
@@ -64,7 +71,9 @@ class Bridge(unittest.TestCase):
         mesh = all_types()
         femmesh = femmesh_bridge.to_femmesh(mesh)
         self.assertEqual((femmesh.EdgeCount, femmesh.FaceCount, femmesh.VolumeCount), (2, 4, 8))
-        self.assertEqual((femmesh.TetraCount, femmesh.PyramidCount, femmesh.PrismCount, femmesh.HexaCount), (2, 2, 2, 2))
+        self.assertEqual(
+            (femmesh.TetraCount, femmesh.PyramidCount, femmesh.PrismCount, femmesh.HexaCount), (2, 2, 2, 2)
+        )
         self.assertEqual(content(femmesh_bridge.from_femmesh(femmesh)), content(mesh))
 
     def test_node_order_is_what_freecad_writes_for_calculix(self):
@@ -105,6 +114,7 @@ class Bridge(unittest.TestCase):
 
     def test_meshes_of_freecads_examples_have_positive_volumes(self):
         from femexamples.meshes import mesh_canticcx_tetra10
+
         femmesh = Fem.FemMesh()
         mesh_canticcx_tetra10.create_nodes(femmesh)
         mesh_canticcx_tetra10.create_elements(femmesh)
@@ -137,12 +147,17 @@ class Bridge(unittest.TestCase):
         for nodes in ([1], [2, 3], [4]):
             femmesh.addGroupElements(femmesh.addGroup("twice", "Node"), nodes)
         mesh = femmesh_bridge.from_femmesh(femmesh)
-        self.assertEqual([(g.name, g.ids.tolist()) for g in mesh.groups.all()],
-                         [("twice", [1]), ("twice_2", [2, 3]), ("twice_3", [4])])
+        self.assertEqual(
+            [(g.name, g.ids.tolist()) for g in mesh.groups.all()],
+            [("twice", [1]), ("twice_2", [2, 3]), ("twice_3", [4])],
+        )
 
     def test_elements_turned_into_a_node_group(self):
-        mesh = fs.Mesh(CORNERS["tetra"], {"tetra": [[0, 1, 2, 3]], "triangle": [[0, 2, 1]]},
-                       groups={"LIP": ("element", [2]), "BODY": ("element", [1])})
+        mesh = fs.Mesh(
+            CORNERS["tetra"],
+            {"tetra": [[0, 1, 2, 3]], "triangle": [[0, 2, 1]]},
+            groups={"LIP": ("element", [2]), "BODY": ("element", [1])},
+        )
         femmesh = femmesh_bridge.to_femmesh(mesh, as_node_groups=("LIP",))
         self.assertEqual((femmesh.VolumeCount, femmesh.FaceCount), (1, 0))
         self.assertEqual(groups_of(femmesh), [("LIP", "Node", (1, 2, 3)), ("BODY", "Volume", (1,))])
@@ -155,8 +170,11 @@ class Bridge(unittest.TestCase):
             femmesh_bridge.to_femmesh(fs.Mesh(points, {"line": [[0, 1]]}, cell_ids={"line": [2**31]}))
         with self.assertRaisesRegex(fs.WriteError, "node number"):
             femmesh_bridge.to_femmesh(fs.Mesh(points[:1], {}, [2**31]))
-        mesh = fs.Mesh(points[:4], {"tetra": [range(4)], "vertex": [[0]]},
-                       groups={"SIDE": ("facet", [[1, 1]]), "MASS": ("element", [2])})
+        mesh = fs.Mesh(
+            points[:4],
+            {"tetra": [range(4)], "vertex": [[0]]},
+            groups={"SIDE": ("facet", [[1, 1]]), "MASS": ("element", [2])},
+        )
         femmesh = femmesh_bridge.to_femmesh(mesh)
         self.assertEqual(femmesh.VolumeCount, 1)
         self.assertEqual(groups_of(femmesh), [("MASS", "All", ())])

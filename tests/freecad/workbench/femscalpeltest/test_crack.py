@@ -48,8 +48,10 @@ class CrackObject(DocumentTest):
         lips = {("CRACK_P", "element"), ("CRACK_N", "element")}
         self.assertEqual(elements, {i: e for i, e in expected_elements.items() if e[0] == "tetra"})
         # FreeCAD's document objects keep no empty groups.
-        self.assertEqual({k: v for k, v in groups.items() if not k[0].startswith("CRACK_")},
-                         {k: v for k, v in expected_groups.items() if v and not k[0].startswith("CRACK_")})
+        self.assertEqual(
+            {k: v for k, v in groups.items() if not k[0].startswith("CRACK_")},
+            {k: v for k, v in expected_groups.items() if v and not k[0].startswith("CRACK_")},
+        )
         self.assertTrue(lips <= expected_groups.keys())
 
     def test_results_are_shown(self):
@@ -111,13 +113,16 @@ class CrackObject(DocumentTest):
     def test_plane_is_where_the_user_sees_it(self):
         turned = FreeCAD.Placement(FreeCAD.Vector(100, 0, 0), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 90))
         self.source.Placement = turned
-        self.crack.PlanePlacement = FreeCAD.Placement(turned.multVec(FreeCAD.Vector(3.3, 2.5, 2)),
-                                                      turned.Rotation * self.crack.PlanePlacement.Rotation)
+        self.crack.PlanePlacement = FreeCAD.Placement(
+            turned.multVec(FreeCAD.Vector(3.3, 2.5, 2)), turned.Rotation * self.crack.PlanePlacement.Rotation
+        )
         mesh = self.recompute()
         self.assertTrue(self.crack.Placement.isIdentity())
         np.testing.assert_allclose(mesh.points.min(axis=0), [95, 0, 0], atol=1e-9)
         np.testing.assert_allclose(mesh.points.max(axis=0), [100, 6, 4], atol=1e-9)
-        origin, normal = self.crack.PlanePlacement.Base, self.crack.PlanePlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1))
+        origin, normal = self.crack.PlanePlacement.Base, self.crack.PlanePlacement.Rotation.multVec(
+            FreeCAD.Vector(0, 0, 1)
+        )
         lip = mesh.points[np.isin(mesh.node_ids, mesh.groups["CRACK_P"].ids)]
         self.assertGreater(len(lip), 10)
         self.assertLess(np.abs(fs.Plane(origin, normal).distance(lip)).max(), 1e-8)
@@ -142,8 +147,9 @@ class CrackObject(DocumentTest):
         self.assertTrue(content(self.recompute()) == good)
 
     def test_crack_of_a_crack(self):
-        second = ObjectsFemScalpel.makeCrack(self.doc, self.crack, "Second", origin=(3, 2.5, 2), normal=(0, 0.2, 1),
-                                             group_name="SECOND")
+        second = ObjectsFemScalpel.makeCrack(
+            self.doc, self.crack, "Second", origin=(3, 2.5, 2), normal=(0, 0.2, 1), group_name="SECOND"
+        )
         self.doc.recompute()
         names = {name for name, _, _ in groups_of(second.FemMesh)}
         self.assertTrue({"CRACK_P", "CRACK_N", "SECOND_P", "SECOND_N", "LEFT", "FIX"} <= names)
@@ -168,7 +174,9 @@ class CrackObject(DocumentTest):
         cells = mesh.cells["tetra"]
         faces = np.sort(np.concatenate([cells[:, f] for f in ([0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 3])]), axis=1)
         skin, count = np.unique(faces, axis=0, return_counts=True)
-        self.source.FemMesh = femmesh_bridge.to_femmesh(fs.Mesh(mesh.points, {"tetra": cells, "triangle": skin[count == 1]}))
+        self.source.FemMesh = femmesh_bridge.to_femmesh(
+            fs.Mesh(mesh.points, {"tetra": cells, "triangle": skin[count == 1]})
+        )
         self.recompute()
         types = {name: kind for name, kind, _ in groups_of(self.crack.FemMesh)}
         self.assertEqual((types["CRACK_P"], types["CRACK_N"]), ("Face", "Face"))
@@ -191,7 +199,9 @@ class CrackObject(DocumentTest):
 
     def test_saved_and_loaded(self):
         before = self.recompute()
-        shown = {name: getattr(self.crack, name) for name in ("NodesAdded", "GroupReport", "ConstraintCounts", "GroupName")}
+        shown = {
+            name: getattr(self.crack, name) for name in ("NodesAdded", "GroupReport", "ConstraintCounts", "GroupName")
+        }
         path = os.path.join(self.folder.name, "saved.FCStd")
         self.doc.saveAs(path)
         FreeCAD.closeDocument(self.doc.Name)
@@ -239,8 +249,9 @@ class CrackObject(DocumentTest):
         self.assertIn("Source is not set", self.crack.getStatusString())
 
     def test_an_error_in_a_chain_reaches_its_end(self):
-        second = ObjectsFemScalpel.makeCrack(self.doc, self.crack, "Second", origin=(3, 2.5, 2), normal=(0, 0.2, 1),
-                                             group_name="SECOND")
+        second = ObjectsFemScalpel.makeCrack(
+            self.doc, self.crack, "Second", origin=(3, 2.5, 2), normal=(0, 0.2, 1), group_name="SECOND"
+        )
         self.doc.recompute()
         self.doc.removeObject("Source")
         self.doc.recompute()
@@ -311,7 +322,8 @@ class Macro(DocumentTest):
         lines = [
             "import FreeCAD, ObjectsFemScalpel",
             f"doc = FreeCAD.getDocument('{self.doc.Name}')",
-            f"crack = ObjectsFemScalpel.makeCrack(doc, doc.getObject('{source.Name}'), origin=(2.9, 0, 0), normal=(1, 0, 0))",
+            f"crack = ObjectsFemScalpel.makeCrack(doc, doc.getObject('{source.Name}'), origin=(2.9, 0, 0), normal=(1, "
+            f"0, 0))",
             "doc.recompute()",
             "FreeCAD.Console.PrintMessage('\\n'.join(crack.GroupReport))",
         ]

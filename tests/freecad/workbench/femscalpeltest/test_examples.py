@@ -2,11 +2,12 @@
 """FreeCAD's own FEM examples, cracked by script and solved by CalculiX.
 
 Every example whose mesh is of tetrahedra or triangles. The crack takes the mesh's place in the analysis; then FreeCAD
-writes the deck, as before the crack, and CalculiX solves it. What the deck applies is computed by ccx_deck.py and compared
-with the uncracked mesh: total load, support reactions, supported areas, materials, surfaces. A table is printed.
+writes the deck, as before the crack, and CalculiX solves it. What the deck applies is computed by ccx_deck.py and
+compared with the uncracked mesh: total load, support reactions, supported areas, materials, surfaces. A table is
+printed.
 
-The planes leave every part with a support of its own. Where there is none (an infinite plane always parts the body), the
-lips are tied in the deck.
+The planes leave every part with a support of its own. Where there is none (an infinite plane always parts the body),
+the lips are tied in the deck.
 """
 
 import importlib
@@ -24,15 +25,28 @@ from .ccx_deck import Deck
 
 # Loads, reactions and supported areas do not change by more than this, of their sum of magnitudes.
 EXACT = 1e-6
-# Areas and volumes with curved borders, and what FreeCAD makes loads of by them, differ as the mesh is another polyhedron.
+# Areas and volumes with curved borders, and what FreeCAD makes loads of by them, differ as the mesh is another
+# polyhedron.
 CURVED = 5e-3
 # CalculiX stops iterating a coupled or nonlinear step at about this much out of balance, with and without a crack.
 ITERATED = 1e-5
 
 
 class Example:
-    def __init__(self, module, origin, normal, tie=False, measure=1e-9, load=EXACT, reaction=EXACT, frequency=False, solve=True,
-                 into=None, radius=None):
+    def __init__(
+        self,
+        module,
+        origin,
+        normal,
+        tie=False,
+        measure=1e-9,
+        load=EXACT,
+        reaction=EXACT,
+        frequency=False,
+        solve=True,
+        into=None,
+        radius=None,
+    ):
         """A plane; with `into`, the half of it in that direction from `origin`; with `radius`, a disk."""
         self.module, self.finite = module, into is not None or radius is not None
         rotation = FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(*normal))
@@ -101,6 +115,7 @@ class Solved:
 
     def __init__(self, doc, pairs=(), solve=True):
         from femtools import ccxtools
+
         with tempfile.TemporaryDirectory() as folder:
             tools = ccxtools.FemToolsCcx(doc.Analysis, doc.CalculiXccxTools)
             tools.update_objects()
@@ -172,7 +187,18 @@ class ExamplesTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         if cls.table:
-            head = ("example", "elements", "doubled", "quality", "load", "change", "reaction", "change", "supports", "sets")
+            head = (
+                "example",
+                "elements",
+                "doubled",
+                "quality",
+                "load",
+                "change",
+                "reaction",
+                "change",
+                "supports",
+                "sets",
+            )
             rows = [head, *cls.table]
             widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
             print("\n" + "\n".join("  ".join(cell.ljust(w) for cell, w in zip(row, widths)).rstrip() for row in rows))
@@ -185,6 +211,7 @@ class ExamplesTest(unittest.TestCase):
         source = self.doc.Mesh
         if source.FemMesh.NodeCount == 0:
             from femmesh.gmshtools import GmshTools
+
             self.assertFalse(GmshTools(source).create_mesh())
         if prepare:
             prepare(source)
@@ -205,23 +232,39 @@ class ExamplesTest(unittest.TestCase):
             self.assertEqual(len(after.results), len(before.results))
         one = before.magnitude or before.held_magnitude or 1
         load = max(np.linalg.norm(after.load - before.load), abs(after.magnitude - before.magnitude)) / one
-        self.assertLessEqual(load, example.load, f"load {before.load} -> {after.load}, {before.magnitude} -> {after.magnitude}")
+        self.assertLessEqual(
+            load, example.load, f"load {before.load} -> {after.load}, {before.magnitude} -> {after.magnitude}"
+        )
         reaction = 0
         if before.reaction is not None and not example.frequency:
             reaction = np.linalg.norm(after.reaction - before.reaction) / one
-            self.assertLessEqual(reaction, max(example.load, example.reaction), f"reaction {before.reaction} -> {after.reaction}")
+            self.assertLessEqual(
+                reaction, max(example.load, example.reaction), f"reaction {before.reaction} -> {after.reaction}"
+            )
         held = self.changes(before.deck.nsets, self.held_by, before, after)
         sets = self.changes(before.deck.elsets, lambda solved, name: solved.deck.measure(name), before, after)
-        sets.update(self.changes(before.deck.surfaces, lambda solved, name: solved.deck.surface_area(name), before, after))
+        sets.update(
+            self.changes(before.deck.surfaces, lambda solved, name: solved.deck.surface_area(name), before, after)
+        )
         for name, change in {**held, **sets}.items():
             self.assertLessEqual(change, example.measure, name)
-        self.table.append((
-            example.module + (" (tied)" if example.tie else "") + (" (finite)" if example.finite else ""),
-            f"{crack.Source.FemMesh.VolumeCount or crack.Source.FemMesh.FaceCount} -> "
-            f"{crack.FemMesh.VolumeCount or crack.FemMesh.FaceCount}",
-            str(crack.NodesDoubled), f"{crack.MinimumQuality:.2f}", f"{np.linalg.norm(after.load):.6g}", f"{load:.0e}",
-            f"{np.linalg.norm(after.reaction):.6g}" if after.reaction is not None and not example.frequency else "-", f"{reaction:.0e}",
-            f"{max(held.values(), default=0):.0e}", f"{max(sets.values(), default=0):.0e}"))
+        self.table.append(
+            (
+                example.module + (" (tied)" if example.tie else "") + (" (finite)" if example.finite else ""),
+                f"{crack.Source.FemMesh.VolumeCount or crack.Source.FemMesh.FaceCount} -> "
+                f"{crack.FemMesh.VolumeCount or crack.FemMesh.FaceCount}",
+                str(crack.NodesDoubled),
+                f"{crack.MinimumQuality:.2f}",
+                f"{np.linalg.norm(after.load):.6g}",
+                f"{load:.0e}",
+                f"{np.linalg.norm(after.reaction):.6g}"
+                if after.reaction is not None and not example.frequency
+                else "-",
+                f"{reaction:.0e}",
+                f"{max(held.values(), default=0):.0e}",
+                f"{max(sets.values(), default=0):.0e}",
+            )
+        )
 
     def held_by(self, solved, name):
         """How much of the mesh a constraint's nodes are: area, length, or number of places."""
@@ -247,8 +290,13 @@ class ExamplesTest(unittest.TestCase):
         known, places = crack.Source.FemMesh.Nodes, {}
         for number, point in crack.FemMesh.Nodes.items():
             places.setdefault(tuple(point), []).append(number)
-        return [(numbers[0], other) for numbers in places.values() if len(numbers) > 1 for other in numbers[1:]
-                if other not in known]
+        return [
+            (numbers[0], other)
+            for numbers in places.values()
+            if len(numbers) > 1
+            for other in numbers[1:]
+            if other not in known
+        ]
 
 
 class Examples(ExamplesTest):
@@ -270,6 +318,7 @@ class ExamplesByGroupName(ExamplesTest):
 
     def add_groups(self, source):
         from femmesh.meshtools import get_femnodes_by_references
+
         femmesh, rest, remaining = source.FemMesh.copy(), None, set(source.FemMesh.Volumes)
         for member in self.doc.Analysis.Group:
             if member.isDerivedFrom("App::MaterialObjectPython"):
@@ -307,13 +356,20 @@ class ExamplesByGroupName(ExamplesTest):
 def _test_of(example, method):
     def test(self):
         getattr(self, method)(example)
+
     return test
 
 
 for _example in SOLIDS + SHELLS:
     setattr(Examples, "test_" + _example.module, _test_of(_example, "check"))
-    if _example.module in ("boxanalysis_static", "ccx_cantilever_prescribeddisplacement", "constraint_transform_beam_hinged",
-                           "material_multiple_tensionrod_twoboxes", "material_multiple_bendingbeam_fiveboxes", "thermomech_bimetall"):
+    if _example.module in (
+        "boxanalysis_static",
+        "ccx_cantilever_prescribeddisplacement",
+        "constraint_transform_beam_hinged",
+        "material_multiple_tensionrod_twoboxes",
+        "material_multiple_bendingbeam_fiveboxes",
+        "thermomech_bimetall",
+    ):
         setattr(ExamplesByGroupName, "test_" + _example.module, _test_of(_example, "check_groups"))
 
 for _example in FINITE:

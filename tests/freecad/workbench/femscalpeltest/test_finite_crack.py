@@ -11,7 +11,9 @@ import ObjectsFemScalpel
 from .documents import DocumentTest, content
 from .meshes import grid_box
 
-PLACEMENT = FreeCAD.Placement(FreeCAD.Vector(4.1, 3.9, 4.2), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(1, 0, 0)))
+PLACEMENT = FreeCAD.Placement(
+    FreeCAD.Vector(4.1, 3.9, 4.2), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(1, 0, 0))
+)
 
 
 class FiniteCrack(DocumentTest):
@@ -53,13 +55,19 @@ class FiniteCrack(DocumentTest):
 
     def test_ellipse(self):
         along = PLACEMENT.Rotation.multVec(FreeCAD.Vector(1, 0, 0))
-        self.check(self.make(patch="Ellipse", patch_radius=3, patch_second_radius=2), self.plane(),
-                   fs.Ellipse(PLACEMENT.Base, (3, 2), along))
+        self.check(
+            self.make(patch="Ellipse", patch_radius=3, patch_second_radius=2),
+            self.plane(),
+            fs.Ellipse(PLACEMENT.Base, (3, 2), along),
+        )
 
     def test_polygon(self):
         corners = [(-2, -2), (2.5, -1.5), (2, 2.5), (-1.5, 2)]
-        _, front = self.check(self.make(patch="Polygon", patch_corners=corners), self.plane(),
-                              fs.Polygon([self.global_of(x, y, 0) for x, y in corners]))
+        _, front = self.check(
+            self.make(patch="Polygon", patch_corners=corners),
+            self.plane(),
+            fs.Polygon([self.global_of(x, y, 0) for x, y in corners]),
+        )
         for x, y in corners:
             self.assertLess(np.linalg.norm(front - self.global_of(x, y, 0), axis=1).min(), 1e-9)
 
@@ -74,15 +82,20 @@ class FiniteCrack(DocumentTest):
 
     def test_part_of_a_cylinder(self):
         center, axis = (4, 4, 4), (0, 0, 1)
-        crack = ObjectsFemScalpel.makeCylindricalCrack(self.doc, self.source, origin=center, axis=axis, radius=2.6, along=(-2.2, 2.4))
+        crack = ObjectsFemScalpel.makeCylindricalCrack(
+            self.doc, self.source, origin=center, axis=axis, radius=2.6, along=(-2.2, 2.4)
+        )
         self.check(crack, fs.Cylinder(center, axis, 2.6), fs.CylinderPart((-2.2, 2.4)))
         crack.EndAngle = 200
         self.check(crack, fs.Cylinder(center, axis, 2.6), fs.CylinderPart((-2.2, 2.4), (0, 200), (1, 0, 0)))
 
     def test_impossible_patches_are_told(self):
-        for options in ({"patch": "Disk", "patch_radius": 0}, {"patch": "Polygon", "patch_corners": [(0, 0), (1, 0)]},
-                        {"patch": "Polygon", "patch_corners": [(-2, -2), (2, 2), (2, -2), (-2, 2)]},
-                        {"patch": "Ellipse", "patch_radius": 2, "patch_second_radius": 0}):
+        for options in (
+            {"patch": "Disk", "patch_radius": 0},
+            {"patch": "Polygon", "patch_corners": [(0, 0), (1, 0)]},
+            {"patch": "Polygon", "patch_corners": [(-2, -2), (2, 2), (2, -2), (-2, 2)]},
+            {"patch": "Ellipse", "patch_radius": 2, "patch_second_radius": 0},
+        ):
             with self.subTest(**options):
                 crack = self.make(**options)
                 self.doc.recompute()
@@ -94,22 +107,28 @@ class FiniteCrack(DocumentTest):
 
 
 class NotchedCantilever(DocumentTest):
-    """FreeCAD's cantilever, 8000 x 1000 x 1000, with an edge crack of half its height: one piece still, it carries its load.
+    """FreeCAD's cantilever, 8000 x 1000 x 1000, with an edge crack of half its height: one piece still, it carries its
+    load.
 
-    Under the moment M at the crack it gets the extra angle 4 s S / E, s = 6 M / W^3 being the stress without a crack and
-    S(1/2) = 1.71 (Tada, Paris, Irwin, The Stress Analysis of Cracks Handbook, strip in bending). So the end goes down by
-    1.70 times what it did, by 1.64 times if the strip is in plane strain.
+    Under the moment M at the crack it gets the extra angle 4 s S / E, s = 6 M / W^3 being the stress without a crack
+    and S(1/2) = 1.71 (Tada, Paris, Irwin, The Stress Analysis of Cracks Handbook, strip in bending). So the end goes
+    down by 1.70 times what it did, by 1.64 times if the strip is in plane strain.
     """
 
     def test_solved(self):
         from femexamples import ccx_cantilever_faceload
         from .test_examples import Solved
+
         ccx_cantilever_faceload.setup(self.doc, "ccxtools")
         self.doc.recompute()
-        fine = ObjectsFemScalpel.makeRefine(self.doc, self.doc.Mesh, tool="Plane", origin=(2100, 500, 500), axis=(1, 0, 0), size=250)
+        fine = ObjectsFemScalpel.makeRefine(
+            self.doc, self.doc.Mesh, tool="Plane", origin=(2100, 500, 500), axis=(1, 0, 0), size=250
+        )
         # Opens from the top, pulled by the load at the end, to half of the height.
-        placement = FreeCAD.Placement(FreeCAD.Vector(2100, 500, 500),
-                                      FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(0, 1, 0), FreeCAD.Vector(1, 0, 0), "XYZ"))
+        placement = FreeCAD.Placement(
+            FreeCAD.Vector(2100, 500, 500),
+            FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(0, 1, 0), FreeCAD.Vector(1, 0, 0), "XYZ"),
+        )
         crack = ObjectsFemScalpel.makeCrack(self.doc, fine, placement=placement, patch="HalfPlane")
         self.doc.recompute()
         self.assertNotIn("Invalid", crack.State, crack.getStatusString())

@@ -27,7 +27,9 @@ SHAPES = {
     "sphere and box": lambda: Part.makeSphere(11).fuse(Part.makeBox(14, 14, 14)),
     "torus": lambda: Part.makeTorus(20, 6),
     "rounded box": rounded_box,
-    "two solids": lambda: Part.makeCylinder(10, 12).generalFuse([Part.makeCylinder(10, 12, FreeCAD.Vector(0, 0, 12))])[0],
+    "two solids": lambda: Part.makeCylinder(10, 12).generalFuse([Part.makeCylinder(10, 12, FreeCAD.Vector(0, 0, 12))])[
+        0
+    ],
     "shell": lambda: Part.makeCylinder(10, 30).Faces[0],
 }
 
@@ -41,6 +43,7 @@ class OnShape(DocumentTest):
         mesh.ElementOrder = order
         mesh.CharacteristicLengthMax = size
         from femmesh.gmshtools import GmshTools
+
         GmshTools(mesh).create_mesh()  # may return mere warnings
         self.assertGreater(mesh.FemMesh.NodeCount, 0)
         if part.Shape.Solids:  # as FreeCAD's examples: tetrahedra alone
@@ -51,9 +54,10 @@ class OnShape(DocumentTest):
         return part.Shape, mesh
 
     def not_found(self, femmesh, shape, lips=()):
-        """Number of triangles of the skin (all, of a shell), lips apart, whose nodes FreeCAD finds on no single face."""
+        """Number of triangles of the skin (all, of a shell), lips apart, whose nodes FreeCAD finds on no single
+        face."""
         mesh = femmesh_bridge.from_femmesh(femmesh)
-        (name, cells), = ((k, v) for k, v in mesh.cells.items() if not k.startswith("line"))
+        ((name, cells),) = ((k, v) for k, v in mesh.cells.items() if not k.startswith("line"))
         if name.startswith("tetra"):
             places = np.array([(0, 1, 2, 4, 5, 6), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 2, 3, 6, 9, 7)])
             faces = cells[:, places if name == "tetra10" else places[:, :3]].reshape(-1, 6 if name == "tetra10" else 3)
@@ -90,8 +94,11 @@ class OnShape(DocumentTest):
                         self.doc.removeObject(crack.Name)
                     self.doc.removeObject(source.Name)
                     self.doc.removeObject("Geometry")
-        print(f"\n{cracks} cracks in curved geometry: {cracks - off - refused} keep all nodes on it, {off} say which they cannot, "
-              f"{refused} are refused on a mesh too coarse")
+        print(
+            f"\n{cracks} cracks in curved geometry: {cracks - off - refused} keep all nodes on it, {off} say which "
+            f"they cannot, "
+            f"{refused} are refused on a mesh too coarse"
+        )
         self.assertLess(off + refused, 0.2 * cracks)
 
     def test_kept_to_shape_from_the_start(self):
@@ -99,7 +106,9 @@ class OnShape(DocumentTest):
             with self.subTest(order=order):
                 shape, source = self.mesh_of("cylinder", order, 8)
                 crack = ObjectsFemScalpel.makeCrack(self.doc, source, origin=(0, 0, 14), normal=(0.4, 0.1, 1))
-                refined = ObjectsFemScalpel.makeRefine(self.doc, source, axis=(1, 0, 0), origin=(0, 0, 9), radius=2, size=3)
+                refined = ObjectsFemScalpel.makeRefine(
+                    self.doc, source, axis=(1, 0, 0), origin=(0, 0, 9), radius=2, size=3
+                )
                 drill = ObjectsFemScalpel.makeDrill(self.doc, refined, axis=(1, 0, 0), origin=(0, 0, 9), radius=2)
                 for obj in (crack, refined, drill):
                     self.assertFalse(obj.KeepToShape)
@@ -109,15 +118,31 @@ class OnShape(DocumentTest):
                 for obj in (crack, refined, drill):
                     self.assertNotIn("Invalid", obj.State)
                     self.assertEqual(list(obj.OffShape), [])
-                    self.assertEqual([w for w in obj.Warnings if not w.startswith(("the tool is finer than the mesh, which", "the mesh already has"))], [])
-                # What is new on the round side is on the cylinder, by the engine; so is the skin's volume between mesh and shape.
+                    self.assertEqual(
+                        [
+                            w
+                            for w in obj.Warnings
+                            if not w.startswith(("the tool is finer than the mesh, which", "the mesh already has"))
+                        ],
+                        [],
+                    )
+                # What is new on the round side is on the cylinder, by the engine; so is the skin's volume between mesh
+                # and shape.
                 mesh = femmesh_bridge.from_femmesh(refined.FemMesh)
                 self.assertGreater(mesh.node_count, len(before))
                 cells = next(c for k, c in mesh.cells.items() if k.startswith("tetra"))
-                volume = np.einsum("ij,ij->i", np.cross(*(mesh.points[cells[:, k]] - mesh.points[cells[:, 0]] for k in (1, 2))),
-                                   mesh.points[cells[:, 3]] - mesh.points[cells[:, 0]]).sum() / 6
+                volume = (
+                    np.einsum(
+                        "ij,ij->i",
+                        np.cross(*(mesh.points[cells[:, k]] - mesh.points[cells[:, 0]] for k in (1, 2))),
+                        mesh.points[cells[:, 3]] - mesh.points[cells[:, 0]],
+                    ).sum()
+                    / 6
+                )
                 self.assertLess(volume, shape.Volume)
-                plain = ObjectsFemScalpel.makeRefine(self.doc, source, axis=(1, 0, 0), origin=(0, 0, 9), radius=2, size=3)
+                plain = ObjectsFemScalpel.makeRefine(
+                    self.doc, source, axis=(1, 0, 0), origin=(0, 0, 9), radius=2, size=3
+                )
                 self.doc.recompute()
                 self.assertEqual(plain.GroupReport[0].split()[0], refined.GroupReport[0].split()[0])
                 for obj in (drill, refined, crack, plain, source):
@@ -136,8 +161,11 @@ class OnShape(DocumentTest):
 
     def check(self, shape, crack):
         femmesh = crack.FemMesh
-        lips = [set(femmesh.getGroupElements(g)) for g in femmesh.Groups if femmesh.getGroupName(g) in ("CRACK_P", "CRACK_N")
-                and femmesh.getGroupElementType(g) == "Node"]
+        lips = [
+            set(femmesh.getGroupElements(g))
+            for g in femmesh.Groups
+            if femmesh.getGroupName(g) in ("CRACK_P", "CRACK_N") and femmesh.getGroupElementType(g) == "Node"
+        ]
         self.assertEqual(self.not_found(femmesh, shape, lips), 0)
         # Lips stay together, on the plane.
         nodes = femmesh.Nodes
@@ -166,8 +194,11 @@ class OnShape(DocumentTest):
         self.doc.recompute()
         self.assertNotIn("Invalid", drill.State, drill.getStatusString())
         self.assertEqual(drill.OffShape, [])
-        walls = [set(drill.FemMesh.getGroupElements(g)) for g in drill.FemMesh.Groups
-                 if drill.FemMesh.getGroupName(g) == "HOLE_WALL"]
+        walls = [
+            set(drill.FemMesh.getGroupElements(g))
+            for g in drill.FemMesh.Groups
+            if drill.FemMesh.getGroupName(g) == "HOLE_WALL"
+        ]
         self.assertEqual(self.not_found(drill.FemMesh, shape, walls), 0)
         hole = fs.Cylinder((0, 0, 14), (1, 0.1, 0.2), 4)
         wall = np.array([drill.FemMesh.Nodes[n] for n in walls[0]])
@@ -209,7 +240,9 @@ class OnShape(DocumentTest):
         part.Shape = shape
         n = 16
         angles = np.arange(n) * 2 * np.pi / n
-        ring = [np.column_stack([r * np.cos(angles), r * np.sin(angles), np.full(n, z)]) for r in (9.93, 10) for z in (0, 2)]
+        ring = [
+            np.column_stack([r * np.cos(angles), r * np.sin(angles), np.full(n, z)]) for r in (9.93, 10) for z in (0, 2)
+        ]
         prisms = []
         for i in range(n):
             j = (i + 1) % n

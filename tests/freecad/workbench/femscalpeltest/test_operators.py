@@ -35,9 +35,13 @@ class Operators(DocumentTest):
             np.testing.assert_allclose(point, expected_nodes[number], atol=1e-12)
         self.assertEqual(elements, {i: e for i, e in expected_elements.items() if e[0] == "tetra"})
         made = {g.name for g in expected.report.groups if g.status == "new"}
-        self.assertEqual({k: v for k, v in groups.items() if k[0] not in made},
-                         {k: v for k, v in expected_groups.items() if v and k[0] not in made})
-        self.assertLessEqual({name for name in made if expected_groups.get((name, "element"))}, {name for name, _ in groups})
+        self.assertEqual(
+            {k: v for k, v in groups.items() if k[0] not in made},
+            {k: v for k, v in expected_groups.items() if v and k[0] not in made},
+        )
+        self.assertLessEqual(
+            {name for name in made if expected_groups.get((name, "element"))}, {name for name, _ in groups}
+        )
         self.assertEqual(obj.NodesAdded, expected.report.nodes_added)
         self.assertAlmostEqual(obj.MinimumQuality, expected.report.quality.after.minimum, places=9)
         self.assertEqual(obj.Warnings, expected.report.warnings)
@@ -46,7 +50,9 @@ class Operators(DocumentTest):
         return mesh
 
     def test_cylindrical_crack(self):
-        crack = ObjectsFemScalpel.makeCylindricalCrack(self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=1.4, group_name="CYL")
+        crack = ObjectsFemScalpel.makeCylindricalCrack(
+            self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=1.4, group_name="CYL"
+        )
         mesh = self.check(crack, fs.crack(self.mesh, fs.Cylinder(ORIGIN, AXIS, 1.4), name="CYL"))
         self.assertIn("CYL_N", mesh.groups)
 
@@ -61,12 +67,15 @@ class Operators(DocumentTest):
 
     def test_curved_cracks(self):
         for tool, expected, options in (
-                ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 1.3), {"radius": 1.3}),
-                ("Sphere", fs.Sphere(ORIGIN, 1.5), {"radius": 1.5}),
-                ("Torus", fs.Torus(ORIGIN, AXIS, 1.4, 0.9), {"radius": 1.4, "tube_radius": 0.9}),
-                ("Cone", fs.Cone(ORIGIN, AXIS, 3, 20), {"radius": 3, "half_angle": 20})):
+            ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 1.3), {"radius": 1.3}),
+            ("Sphere", fs.Sphere(ORIGIN, 1.5), {"radius": 1.5}),
+            ("Torus", fs.Torus(ORIGIN, AXIS, 1.4, 0.9), {"radius": 1.4, "tube_radius": 0.9}),
+            ("Cone", fs.Cone(ORIGIN, AXIS, 3, 20), {"radius": 3, "half_angle": 20}),
+        ):
             with self.subTest(tool=tool):
-                crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool=tool, origin=ORIGIN, axis=AXIS, **options)
+                crack = ObjectsFemScalpel.makeCurvedCrack(
+                    self.doc, self.source, tool=tool, origin=ORIGIN, axis=AXIS, **options
+                )
                 self.check(crack, fs.crack(self.mesh, expected))
                 self.doc.removeObject(crack.Name)
 
@@ -90,7 +99,9 @@ class Operators(DocumentTest):
     def test_refinement_first(self):
         for refine in (None, False, 0.4):
             with self.subTest(refine=refine):
-                crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, origin=ORIGIN, radius=1.3, refine=refine)
+                crack = ObjectsFemScalpel.makeCurvedCrack(
+                    self.doc, self.source, origin=ORIGIN, radius=1.3, refine=refine
+                )
                 expected = fs.crack(self.mesh, fs.Sphere(ORIGIN, 1.3), refine=refine)
                 self.check(crack, expected)
                 self.assertEqual(crack.RefinedTo.Value, expected.report.refinement.size if refine is not False else 0)
@@ -101,11 +112,23 @@ class Operators(DocumentTest):
             ObjectsFemScalpel.makeDrill(self.doc, self.source, refine=-1)
 
     def test_refine(self):
-        for tool, expected in (("Plane", fs.Plane(ORIGIN, AXIS)), ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 0.5)),
-                               ("Sphere", fs.Sphere(ORIGIN, 0.5))):
+        for tool, expected in (
+            ("Plane", fs.Plane(ORIGIN, AXIS)),
+            ("Cylinder", fs.Cylinder(ORIGIN, AXIS, 0.5)),
+            ("Sphere", fs.Sphere(ORIGIN, 0.5)),
+        ):
             with self.subTest(tool=tool):
-                refined = ObjectsFemScalpel.makeRefine(self.doc, self.source, tool=tool, origin=ORIGIN, axis=AXIS, radius=0.5,
-                                                       size=0.6, reach=0.1, gradation=0.7)
+                refined = ObjectsFemScalpel.makeRefine(
+                    self.doc,
+                    self.source,
+                    tool=tool,
+                    origin=ORIGIN,
+                    axis=AXIS,
+                    radius=0.5,
+                    size=0.6,
+                    reach=0.1,
+                    gradation=0.7,
+                )
                 mesh = self.check(refined, fs.refine(self.mesh, expected, 0.6, gradation=0.7, reach=0.1))
                 self.assertAlmostEqual(tetra_volumes(mesh.points, mesh.cells["tetra"]).sum(), 120, places=7)
                 self.assertGreater(mesh.cell_count, self.mesh.cell_count)
@@ -127,8 +150,9 @@ class Operators(DocumentTest):
         positions = [(1.6, 0, 0), (-1.6, 0, 0)]
         tools = [fs.Cylinder(placement.multVec(FreeCAD.Vector(*p)), (0, 0, 1), 0.9) for p in positions]
         fine = fs.refine(self.mesh, tools, 0.7).mesh
-        drill = ObjectsFemScalpel.makeDrill(self.doc, self.add_source(fine), placement=placement, radius=0.9, positions=positions,
-                                            group_name="BOLT")
+        drill = ObjectsFemScalpel.makeDrill(
+            self.doc, self.add_source(fine), placement=placement, radius=0.9, positions=positions, group_name="BOLT"
+        )
         mesh = self.check(drill, fs.drill(fine, tools, name="BOLT"))
         self.assertLessEqual({"BOLT_WALL", "BOLT_WALL1", "BOLT_WALL2"}, set(mesh.groups))
 
@@ -157,8 +181,10 @@ class Operators(DocumentTest):
         self.doc = FreeCAD.openDocument(path)
         self.doc.Refine.touch()
         self.doc.recompute()
-        self.assertEqual([o.Proxy.Type for o in (self.doc.Refine, self.doc.Drill, self.doc.Crack)],
-                         ["FemScalpel::Refine", "FemScalpel::Drill", "FemScalpel::Crack"])
+        self.assertEqual(
+            [o.Proxy.Type for o in (self.doc.Refine, self.doc.Drill, self.doc.Crack)],
+            ["FemScalpel::Refine", "FemScalpel::Drill", "FemScalpel::Crack"],
+        )
         self.assertEqual(self.doc.Crack.FemMesh.NodeCount, count)
         self.doc.Drill.Radius = 0.6
         self.doc.recompute()
@@ -187,11 +213,12 @@ class Operators(DocumentTest):
 
     def test_impossible_tools_are_told(self):
         for obj, message in (
-                (ObjectsFemScalpel.makeDrill(self.doc, self.source, radius=0), "radius"),
-                (ObjectsFemScalpel.makeDrill(self.doc, self.source, radius=50), "all|everything|whole"),
-                (ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Torus", radius=1, tube_radius=2), "radius"),
-                (ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Sphere", origin=(99, 0, 0)), "misses"),
-                (ObjectsFemScalpel.makeRefine(self.doc, self.source, size=0), "size")):
+            (ObjectsFemScalpel.makeDrill(self.doc, self.source, radius=0), "radius"),
+            (ObjectsFemScalpel.makeDrill(self.doc, self.source, radius=50), "all|everything|whole"),
+            (ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Torus", radius=1, tube_radius=2), "radius"),
+            (ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source, tool="Sphere", origin=(99, 0, 0)), "misses"),
+            (ObjectsFemScalpel.makeRefine(self.doc, self.source, size=0), "size"),
+        ):
             with self.subTest(message=message):
                 self.doc.recompute()
                 self.assertIn("Invalid", obj.State)

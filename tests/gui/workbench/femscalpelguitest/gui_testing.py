@@ -40,7 +40,8 @@ class NotShown(AssertionError):
 
 
 def wait_until(condition, what):
-    """Lets the window work until condition() holds; fails with `what` when it never does. A widget that is hidden meanwhile is waited for."""
+    """Lets the window work until condition() holds; fails with `what` when it never does. A widget that is hidden
+    meanwhile is waited for."""
     end = time.monotonic() + PATIENCE
 
     def holds():
@@ -171,8 +172,14 @@ def drag(start, end, steps=8):
     QTest.mousePress(canvas(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, a)
     for k in range(1, steps + 1):
         at = QtCore.QPoint(a.x() + (b.x() - a.x()) * k // steps, a.y() + (b.y() - a.y()) * k // steps)
-        move = QtGui.QMouseEvent(QtCore.QEvent.MouseMove, at, canvas().mapToGlobal(at), QtCore.Qt.NoButton, QtCore.Qt.LeftButton,
-                                 QtCore.Qt.NoModifier)
+        move = QtGui.QMouseEvent(
+            QtCore.QEvent.MouseMove,
+            at,
+            canvas().mapToGlobal(at),
+            QtCore.Qt.NoButton,
+            QtCore.Qt.LeftButton,
+            QtCore.Qt.NoModifier,
+        )
         QtGui.QApplication.sendEvent(canvas(), move)
         spin(0.02)
     QTest.mouseRelease(canvas(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, b)
@@ -227,7 +234,8 @@ def screenshot(name):
 
 
 def with_dialog(kind, handle, action):
-    """Does something that must open a modal dialog of a class, for which handle(dialog) is called once; it must close it."""
+    """Does something that must open a modal dialog of a class, for which handle(dialog) is called once; it must close
+    it."""
     handled = []
 
     def look():
@@ -291,12 +299,13 @@ class GuiTest(unittest.TestCase):
         for name in list(FreeCAD.listDocuments()):
             FreeCAD.closeDocument(name)
         spin(0.05)
-        new = report_view()[self.reported:]
+        new = report_view()[self.reported :]
         self.assertNotRegex(new, r"Traceback|Error:|Exception")
 
     def add_mesh(self, mesh, name="Mesh"):
         """A FEM mesh object with a femscalpel.Mesh, in sight."""
         import femmesh_bridge
+
         obj = self.doc.addObject("Fem::FemMeshObject", name)
         obj.FemMesh = femmesh_bridge.to_femmesh(mesh)
         self.doc.recompute()

@@ -7,5 +7,7 @@ def content_of(obj):
     mesh = obj.FemMesh
     nodes = {str(n): tuple(p) for n, p in mesh.Nodes.items()}
     elements = {str(e): mesh.getElementNodes(e) for e in (*mesh.Edges, *mesh.Faces, *mesh.Volumes)}
-    groups = sorted((mesh.getGroupName(g), mesh.getGroupElementType(g), sorted(mesh.getGroupElements(g))) for g in mesh.Groups)
+    groups = sorted(
+        (mesh.getGroupName(g), mesh.getGroupElementType(g), sorted(mesh.getGroupElements(g))) for g in mesh.Groups
+    )
     return [nodes, elements, groups]

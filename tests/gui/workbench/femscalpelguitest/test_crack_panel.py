@@ -23,9 +23,13 @@ def long_box(parts=1):
     plain = grid_box((14 * parts, 5 * parts, 4 * parts), (14.0, 5.0, 4.0))
     node_ids, cell_ids = 10 * np.arange(1, plain.node_count + 1) + 7, 3 * np.arange(1, plain.cell_count + 1) + 100
     middle = plain.points[plain.cells["tetra"]].mean(axis=1)
-    groups = {"LEFT": ("element", cell_ids[middle[:, 0] < 5]), "RIGHT": ("element", cell_ids[middle[:, 0] > 5]),
-              "CORE": ("element", cell_ids[abs(middle[:, 1] - 2.5) < 1.5]), "FIX": ("node", node_ids[plain.points[:, 0] == 0]),
-              "TOP": ("node", node_ids[plain.points[:, 2] == 4])}
+    groups = {
+        "LEFT": ("element", cell_ids[middle[:, 0] < 5]),
+        "RIGHT": ("element", cell_ids[middle[:, 0] > 5]),
+        "CORE": ("element", cell_ids[abs(middle[:, 1] - 2.5) < 1.5]),
+        "FIX": ("node", node_ids[plain.points[:, 0] == 0]),
+        "TOP": ("node", node_ids[plain.points[:, 2] == 4]),
+    }
     return fs.Mesh(plain.points, plain.cells, node_ids, {"tetra": cell_ids}, groups)
 
 
@@ -37,9 +41,15 @@ def enter_plane(origin, normal):
 def traces(doc):
     """Everything a cancelled command must leave as it was."""
     gui = FreeCADGui.getDocument(doc.Name)
-    return ([(o.Name, o.ViewObject.Visibility, o.ViewObject.SwitchNode.whichChild.getValue()) for o in doc.Objects],
-            doc.UndoNames, doc.RedoNames, gui.Modified, view().getSceneGraph().getNumChildren(), gui.getInEdit(),
-            [s.ObjectName for s in FreeCADGui.Selection.getSelectionEx()])
+    return (
+        [(o.Name, o.ViewObject.Visibility, o.ViewObject.SwitchNode.whichChild.getValue()) for o in doc.Objects],
+        doc.UndoNames,
+        doc.RedoNames,
+        gui.Modified,
+        view().getSceneGraph().getNumChildren(),
+        gui.getInEdit(),
+        [s.ObjectName for s in FreeCADGui.Selection.getSelectionEx()],
+    )
 
 
 class CrackTest(GuiTest):
@@ -61,7 +71,9 @@ class CrackCommand(CrackTest):
         self.wait_for_preview()
         wait_until(lambda: faces_drawn("FemScalpelBand") > 0, "the changed part")
         expected = fs.crack(femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((7.3, 2.5, 2.0), (1.0, 0.2, 0.1)))
-        wait_until(lambda: widget("status").text().startswith(f"{expected.report.nodes_moved} "), "the typed plane's preview")
+        wait_until(
+            lambda: widget("status").text().startswith(f"{expected.report.nodes_moved} "), "the typed plane's preview"
+        )
         self.assertGreater(faces_drawn("FemScalpelRest"), 0)
         self.assertGreater(faces_drawn("FemScalpelGhost"), 0)
         self.assertGreater(lines_drawn("FemScalpelOutline"), 0)
@@ -72,7 +84,7 @@ class CrackCommand(CrackTest):
         np.testing.assert_array_equal(widget("histogram").after, expected.report.quality.after.histogram)
         screenshot("crack_1_preview")
         press_ok()
-        crack, = (o for o in self.doc.Objects if o != self.mesh)
+        (crack,) = (o for o in self.doc.Objects if o != self.mesh)
         self.assertFalse(FreeCADGui.Control.activeDialog())
         self.assertIsNone(in_scene("FemScalpelPreview"))
         self.assertEqual(crack.Source, self.mesh)
@@ -90,7 +102,9 @@ class CrackCommand(CrackTest):
         self.assertEqual(content_of(self.doc.Crack), made)
 
     def test_edited_by_double_click(self):
-        crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0), group_name="FIRST")
+        crack = ObjectsFemScalpel.makeCrack(
+            self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0), group_name="FIRST"
+        )
         self.doc.recompute()
         self.doc.clearUndos()
         before = content_of(crack)
@@ -192,15 +206,22 @@ class CrackCommand(CrackTest):
         choose("look", "cut away")
         click_row("groups", "TOP")
         # All of it, not the part near the crack alone; its doubled nodes on both sides.
-        top = len(fs.crack(femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((2.9, 2.5, 2.0), (1.0, 0.2, 0.1))).mesh.groups["TOP"])
+        top = len(
+            fs.crack(
+                femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Plane((2.9, 2.5, 2.0), (1.0, 0.2, 0.1))
+            ).mesh.groups["TOP"]
+        )
         self.assertEqual(points_drawn("FemScalpelHighlightPoints"), top)
         screenshot("crack_group_lit")
         click_row("groups", "CRACK_N")
-        self.assertEqual([s.whichChild.getValue() for s in shapes_in("FemScalpelHighlightPoints", coin.SoSwitch)][0], -1)
+        self.assertEqual(
+            [s.whichChild.getValue() for s in shapes_in("FemScalpelHighlightPoints", coin.SoSwitch)][0], -1
+        )
         self.assertGreater(faces_drawn("FemScalpelHighlight"), 0)
 
     def test_put_into_analysis(self):
         import ObjectsFem
+
         analysis = ObjectsFem.makeAnalysis(self.doc, "Analysis")
         analysis.addObject(self.mesh)
         self.doc.recompute()
@@ -308,18 +329,28 @@ class CrackPicks(CrackTest):
         self.doc.recompute()
         self.open_panel()
         for obj, name, origin, normal in (
-                (self.part, "Face2", (14, 2.5, 2), (1, 0, 0)), (self.part, "Edge3", (0, 5, 2), (0, 0, 1)),
-                (sketch, "", (1, 2, 3), (1, 0, 0)), (plane, "", (3, 0, 0), (0, -1, 0)), (line, "", (3, 0, 0), (0, 0, 1))):
+            (self.part, "Face2", (14, 2.5, 2), (1, 0, 0)),
+            (self.part, "Edge3", (0, 5, 2), (0, 0, 1)),
+            (sketch, "", (1, 2, 3), (1, 0, 0)),
+            (plane, "", (3, 0, 0), (0, -1, 0)),
+            (line, "", (3, 0, 0), (0, 0, 1)),
+        ):
             with self.subTest(picked=f"{obj.Name}.{name}"):
                 click("pickGeometry")
                 self.pick(name, obj=obj)
                 np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], origin, atol=0.006)
-                np.testing.assert_allclose(np.abs([value("normalX"), value("normalY"), value("normalZ")]), np.abs(normal), atol=0.006)
+                np.testing.assert_allclose(
+                    np.abs([value("normalX"), value("normalY"), value("normalZ")]), np.abs(normal), atol=0.006
+                )
                 spin(0.02)
         click("pickGeometry")
         nodes = self.mesh.FemMesh.Nodes
-        element, top = next((e, top) for e in self.mesh.FemMesh.Volumes
-                            for top in [[nodes[n] for n in self.mesh.FemMesh.getElementNodes(e) if nodes[n].z == 4]] if len(top) == 3)
+        element, top = next(
+            (e, top)
+            for e in self.mesh.FemMesh.Volumes
+            for top in [[nodes[n] for n in self.mesh.FemMesh.getElementNodes(e) if nodes[n].z == 4]]
+            if len(top) == 3
+        )
         self.pick(f"Elem{element}F1", point=tuple((top[0] + top[1] + top[2]) / 3))
         self.assertAlmostEqual(abs(value("normalZ")), 1)
 
@@ -365,7 +396,9 @@ class CrackPicks(CrackTest):
         before = value("normalX"), value("normalY"), value("normalZ")
         centre, radius = np.array([value("originX"), 2.5, 2]), 0.06 * size
         drag(centre, centre + (0, 0, radius * 0.6))
-        self.assertGreater(np.linalg.norm(np.subtract((value("normalX"), value("normalY"), value("normalZ")), before)), 0.05)
+        self.assertGreater(
+            np.linalg.norm(np.subtract((value("normalX"), value("normalY"), value("normalZ")), before)), 0.05
+        )
         self.assertAlmostEqual(np.linalg.norm([value("normalX"), value("normalY"), value("normalZ")]), 1, delta=0.01)
         self.assertAlmostEqual(value("originX"), centre[0], delta=0.01)
         wait_until(lambda: is_shown("status"), "the panel")

@@ -14,7 +14,13 @@ from .test_crack_panel import long_box, traces
 from PySide import QtGui
 
 MESH_COMMANDS = [command for command in COMMANDS if command is not None]
-OPERATORS = ("FemScalpel_Crack", "FemScalpel_CylindricalCrack", "FemScalpel_Drill", "FemScalpel_Incision", "FemScalpel_Refine")
+OPERATORS = (
+    "FemScalpel_Crack",
+    "FemScalpel_CylindricalCrack",
+    "FemScalpel_Drill",
+    "FemScalpel_Incision",
+    "FemScalpel_Refine",
+)
 
 
 def bricks():
@@ -41,9 +47,13 @@ class EveryCommand(GuiTest):
         self.doc.addObject("App::DocumentObjectGroup", "Folder")
         before = traces(self.doc)
         for command in MESH_COMMANDS:
-            for selected, text in (((), "Select the one you mean"), (("First", "Second"), "Select one"),
-                                   (("Thing",), "Thing is not a FEM mesh. Select the mesh"), (("Folder",), "Folder is not a FEM mesh"),
-                                   (("Empty",), "Empty has no mesh yet: it is empty. Make the mesh first")):
+            for selected, text in (
+                ((), "Select the one you mean"),
+                (("First", "Second"), "Select one"),
+                (("Thing",), "Thing is not a FEM mesh. Select the mesh"),
+                (("Folder",), "Folder is not a FEM mesh"),
+                (("Empty",), "Empty has no mesh yet: it is empty. Make the mesh first"),
+            ):
                 with self.subTest(command=command.NAME, selected=selected):
                     FreeCADGui.Selection.clearSelection()
                     for name in selected:
@@ -67,13 +77,16 @@ class EveryCommand(GuiTest):
 
     def test_mesh_with_an_error(self):
         import ObjectsFemScalpel
+
         self.add_mesh(long_box())
         crack = ObjectsFemScalpel.makeCrack(self.doc, self.doc.Mesh, origin=(90, 0, 0), normal=(1, 0, 0))
         self.doc.recompute()
         FreeCADGui.Selection.addSelection(self.doc.Name, crack.Name)
         for command in MESH_COMMANDS:
             with self.subTest(command=command.NAME):
-                self.assertIn("Crack has an error. Mend it", message_during(lambda: FreeCADGui.runCommand(command.NAME)))
+                self.assertIn(
+                    "Crack has an error. Mend it", message_during(lambda: FreeCADGui.runCommand(command.NAME))
+                )
 
     def test_hexahedra_in_the_way(self):
         self.add_mesh(bricks(), "Bricks")
@@ -83,7 +96,10 @@ class EveryCommand(GuiTest):
                 if is_shown("radius"):
                     type_into("originY", "0.2")
                     type_into("radius", "0.6")
-                wait_until(lambda: is_shown("geometryError") and "hexahedr" in widget("geometryError").text().lower(), "the message")
+                wait_until(
+                    lambda: is_shown("geometryError") and "hexahedr" in widget("geometryError").text().lower(),
+                    "the message",
+                )
                 text = widget("geometryError").text().lower()
                 self.assertRegex(text, "move the tool|split")
                 screenshot("hexahedra_" + name)
@@ -128,7 +144,9 @@ class EveryCommand(GuiTest):
         screenshot("example")
         self.doc = caisson
         self.run_command("FemScalpel_Crack")
-        for name, number in zip(("originX", "originY", "originZ", "normalX", "normalY", "normalZ"), (200, -50, 430, -0.33, -0.30, 1)):
+        for name, number in zip(
+            ("originX", "originY", "originZ", "normalX", "normalY", "normalZ"), (200, -50, 430, -0.33, -0.30, 1)
+        ):
             type_into(name, repr(number))
         self.wait_for_preview()
         wait_until(lambda: lines_drawn("FemScalpelOutline") > 0, "the crack")

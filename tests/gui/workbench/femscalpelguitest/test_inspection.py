@@ -34,6 +34,7 @@ class GroupInspector(GuiTest):
 
     def test_groups_and_their_sizes(self):
         import ObjectsFem
+
         analysis = ObjectsFem.makeAnalysis(self.doc, "Analysis")
         material = ObjectsFem.makeMaterialSolid(self.doc, "Steel")
         analysis.addObject(self.mesh)
@@ -99,6 +100,7 @@ class GroupInspector(GuiTest):
 
     def test_colour_chosen(self):
         from femscalpelgui import preferences
+
         self.open_panel()
         self.tick("LEFT")
         table = widget("groups")
@@ -110,11 +112,19 @@ class GroupInspector(GuiTest):
             dialog.accept()
 
         place = table.visualItemRect(cell).center()
-        with_dialog(QtGui.QColorDialog, choose_colour, lambda: (
-            QTest.mouseClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place),
-            QTest.mouseDClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place)))
+        with_dialog(
+            QtGui.QColorDialog,
+            choose_colour,
+            lambda: (
+                QTest.mouseClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place),
+                QTest.mouseDClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place),
+            ),
+        )
         self.assertEqual(cell.background().color().getRgb()[:3], (10, 200, 30))
-        drawn = [tuple(round(255 * c) for c in m.diffuseColor[0].getValue()) for m in shapes_in("FemScalpelShapeFaces", coin.SoMaterial)]
+        drawn = [
+            tuple(round(255 * c) for c in m.diffuseColor[0].getValue())
+            for m in shapes_in("FemScalpelShapeFaces", coin.SoMaterial)
+        ]
         self.assertIn((10, 200, 30), drawn)
         press_button(QtGui.QDialogButtonBox.Close)
         self.open_panel()
@@ -143,8 +153,11 @@ class MeshQuality(GuiTest):
         before = traces(self.doc)
         self.run_command("FemScalpel_MeshQuality")
         wait_until(lambda: widget("worst").rowCount() > 0, "the worst elements")
-        for measure, function in (("mean ratio", fs.mean_ratio), ("smallest angle", fs.smallest_angle),
-                                  ("scaled Jacobian", fs.scaled_jacobian)):
+        for measure, function in (
+            ("mean ratio", fs.mean_ratio),
+            ("smallest angle", fs.smallest_angle),
+            ("scaled Jacobian", fs.scaled_jacobian),
+        ):
             with self.subTest(measure=measure):
                 choose("measure", measure)
                 values = function(mesh)["tetra"]
@@ -156,7 +169,12 @@ class MeshQuality(GuiTest):
                 screenshot("quality_" + measure.replace(" ", "_"))
         table = widget("worst")
         height = view().getCameraNode().height.getValue()
-        QTest.mouseClick(table.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, table.visualItemRect(table.item(0, 0)).center())
+        QTest.mouseClick(
+            table.viewport(),
+            QtCore.Qt.LeftButton,
+            QtCore.Qt.NoModifier,
+            table.visualItemRect(table.item(0, 0)).center(),
+        )
         spin(0.1)
         self.assertLess(view().getCameraNode().height.getValue(), height)
         self.assertTrue(widget("onlyBad").isChecked())

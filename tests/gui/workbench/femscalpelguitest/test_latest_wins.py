@@ -15,8 +15,10 @@ from .gui_testing import spin, wait_until
 class LatestWinsTest(unittest.TestCase):
     def setUp(self):
         self.arrived = []
-        self.worker = latest_wins.LatestWins(lambda ticket, value: self.arrived.append((ticket, value)),
-                                             lambda ticket, error: self.arrived.append((ticket, error)))
+        self.worker = latest_wins.LatestWins(
+            lambda ticket, value: self.arrived.append((ticket, value)),
+            lambda ticket, error: self.arrived.append((ticket, error)),
+        )
         self.addCleanup(self.worker.close)
 
     @staticmethod

@@ -32,6 +32,7 @@ with open({out!r}, "w") as file:
 class Macro(GuiTest):
     def record(self, folder, name):
         """Starts FreeCAD's macro recorder through its dialog."""
+
         def fill():
             dialog = QtGui.QApplication.activeModalWidget()
             if dialog is not None:
@@ -83,7 +84,13 @@ class Macro(GuiTest):
             FreeCADGui.Selection.addSelection(self.doc.Name, "CylindricalCrack")
             self.run_command("FemScalpel_Drill")
             wait_until(lambda: "…" not in widget("status").text(), "the panel")
-            for name, text in (("originX", "7.2"), ("originY", "2.4"), ("normalX", "0"), ("normalZ", "-1"), ("radius", "0.9")):
+            for name, text in (
+                ("originX", "7.2"),
+                ("originY", "2.4"),
+                ("normalX", "0"),
+                ("normalZ", "-1"),
+                ("radius", "0.9"),
+            ):
                 type_into(name, text)
             self.wait_for_preview()
             press_ok()
@@ -115,17 +122,30 @@ class Macro(GuiTest):
             self.assertTrue(os.path.exists(macro), os.listdir(folder))
             with open(macro) as file:
                 text = file.read()
-            for line in ("import ObjectsFemScalpel", "ObjectsFemScalpel.renameGroup(", "ObjectsFemScalpel.makeCrack(",
-                         "ObjectsFemScalpel.makeCylindricalCrack(", "ObjectsFemScalpel.makeDrill(",
-                         "ObjectsFemScalpel.makeCut(", "ObjectsFemScalpel.makeRefine(", ".PlanePlacement = FreeCAD.Placement("):
+            for line in (
+                "import ObjectsFemScalpel",
+                "ObjectsFemScalpel.renameGroup(",
+                "ObjectsFemScalpel.makeCrack(",
+                "ObjectsFemScalpel.makeCylindricalCrack(",
+                "ObjectsFemScalpel.makeDrill(",
+                "ObjectsFemScalpel.makeCut(",
+                "ObjectsFemScalpel.makeRefine(",
+                ".PlanePlacement = FreeCAD.Placement(",
+            ):
                 self.assertIn(line, text)
             out = os.path.join(folder, "meshes.json")
             script = os.path.join(folder, "replay.py")
             with open(script, "w") as file:
                 file.write(_REPLAY.format(path=[p for p in sys.path if p], document=path, macro=macro, out=out))
-            done = subprocess.run([shutil.which("freecadcmd") or shutil.which("FreeCADCmd"), script], stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                                  env={**os.environ, "FREECAD_USER_HOME": folder})
+            done = subprocess.run(
+                [shutil.which("freecadcmd") or shutil.which("FreeCADCmd"), script],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                env={**os.environ, "FREECAD_USER_HOME": folder},
+            )
             self.assertTrue(os.path.exists(out), done.stdout)
             with open(out) as file:
                 there = json.load(file)

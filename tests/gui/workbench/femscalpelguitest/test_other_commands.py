@@ -27,7 +27,9 @@ class CylinderTest(GuiTest):
         self.mesh = self.add_mesh(long_box(self.PARTS))
 
     def enter_axis(self, origin, axis, radius):
-        for name, number in zip(("originX", "originY", "originZ", "normalX", "normalY", "normalZ", "radius"), (*origin, *axis, radius)):
+        for name, number in zip(
+            ("originX", "originY", "originZ", "normalX", "normalY", "normalZ", "radius"), (*origin, *axis, radius)
+        ):
             type_into(name, repr(number))
 
 
@@ -64,8 +66,10 @@ class CylindricalCrack(CylinderTest):
         self.wait_for_preview_or_message()
         nodes = {tuple(p): n for n, p in self.mesh.FemMesh.Nodes.items()}
         for obj, names, origin, axis, radius in (
-                (part, ["Face1"], (5, 2.5, -1), (0, 0, 1), 0.9), (part, [edges["Circle"]], (5, 2.5, 5), (0, 0, 1), 0.9),
-                (part, [edges["Line"]], None, (0, 0, 1), None)):
+            (part, ["Face1"], (5, 2.5, -1), (0, 0, 1), 0.9),
+            (part, [edges["Circle"]], (5, 2.5, 5), (0, 0, 1), 0.9),
+            (part, [edges["Line"]], None, (0, 0, 1), None),
+        ):
             with self.subTest(picked=names):
                 click("pickGeometry")
                 for name in names:
@@ -73,7 +77,9 @@ class CylindricalCrack(CylinderTest):
                 spin(0.05)
                 if origin is not None:
                     np.testing.assert_allclose([value("originX"), value("originY")], origin[:2], atol=0.006)
-                np.testing.assert_allclose(np.abs([value("normalX"), value("normalY"), value("normalZ")]), axis, atol=0.006)
+                np.testing.assert_allclose(
+                    np.abs([value("normalX"), value("normalY"), value("normalZ")]), axis, atol=0.006
+                )
                 if radius is not None:
                     self.assertAlmostEqual(value("radius"), radius)
         click("pickNodes")
@@ -100,7 +106,9 @@ class CylindricalCrack(CylinderTest):
         click("pickGeometry")
         # The side that faces the isometric view.
         click_at(np.array((5, -2.5, 1.0)) + 0.9 * np.array((0.5**0.5, -(0.5**0.5), 0)))
-        np.testing.assert_allclose([value("originX"), value("originY"), abs(value("normalZ")), value("radius")], (5, -2.5, 1, 0.9), atol=0.006)
+        np.testing.assert_allclose(
+            [value("originX"), value("originY"), abs(value("normalZ")), value("radius")], (5, -2.5, 1, 0.9), atol=0.006
+        )
         self.assertFalse(widget("pickGeometry").isChecked())
 
     def test_axis_along_the_view(self):
@@ -192,13 +200,17 @@ class Patches(CylinderTest):
         np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre, atol=1e-9)
         across = np.array((0.5**0.5, 0.5**0.5, 0))
         drag(centre + 0.12 * size * across, centre + (0.12 * size + 0.6) * across)
-        np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1)
+        np.testing.assert_allclose(
+            [value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1
+        )
         self.assertAlmostEqual(value("originZ"), 2, places=5)
         self.assertAlmostEqual(value("patchRadius"), 1.7, delta=0.1)
         self.wait_for_preview()
         choose("patch", "Whole")
         drag(centre + (0.12 * size + 0.6) * across, centre + (0.12 * size + 1.2) * across)  # nothing to drag any more
-        np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1)
+        np.testing.assert_allclose(
+            [value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1
+        )
 
     def sketch(self, *lines):
         """A sketch in the plane x = 6.1, its axes along y and z, its origin at (6.1, 2, 2)."""
@@ -247,8 +259,16 @@ class Patches(CylinderTest):
         self.open_crack()
         self.pick_sketch()
         self.assertEqual(widget("patch").currentData(), "Ellipse")
-        np.testing.assert_allclose([value("originY"), value("originZ"), value("patchRadius"), value("patchSecondRadius")], (2.3, 2.1, 1.5, 0.7), atol=0.006)
-        self.shown(fs.crack(source, fs.Plane((6.1, 2.3, 2.1), (1, 0, 0)), within=fs.Ellipse((6.1, 2.3, 2.1), (1.5, 0.7), (0, 0, 1))))
+        np.testing.assert_allclose(
+            [value("originY"), value("originZ"), value("patchRadius"), value("patchSecondRadius")],
+            (2.3, 2.1, 1.5, 0.7),
+            atol=0.006,
+        )
+        self.shown(
+            fs.crack(
+                source, fs.Plane((6.1, 2.3, 2.1), (1, 0, 0)), within=fs.Ellipse((6.1, 2.3, 2.1), (1.5, 0.7), (0, 0, 1))
+            )
+        )
         self.doc.Outline.delGeometry(0)
         self.doc.Outline.addGeometry(Part.Circle(FreeCAD.Vector(0.1, 0.2, 0), FreeCAD.Vector(0, 0, 1), 1.1))
         self.doc.recompute()
@@ -258,7 +278,10 @@ class Patches(CylinderTest):
         press_cancel()
 
     def test_sketch_without_an_outline(self):
-        self.sketch(Part.LineSegment(FreeCAD.Vector(-1, 0, 0), FreeCAD.Vector(1, 0, 0)), Part.LineSegment(FreeCAD.Vector(1, 0, 0), FreeCAD.Vector(1, 1, 0)))
+        self.sketch(
+            Part.LineSegment(FreeCAD.Vector(-1, 0, 0), FreeCAD.Vector(1, 0, 0)),
+            Part.LineSegment(FreeCAD.Vector(1, 0, 0), FreeCAD.Vector(1, 1, 0)),
+        )
         self.open_crack()
         self.pick_sketch()
         self.assertEqual(widget("patch").currentData(), "Whole")
@@ -328,11 +351,20 @@ class Patches(CylinderTest):
         type_into("partEnd", "10 deg")
         wait_until(lambda: is_shown("geometryError") and "angle" in widget("geometryError").text(), "the error")
         type_into("partEnd", "200 deg")
-        self.shown(fs.crack(source, fs.Cylinder((7.1, 2.4, 2), (0, 0, 1), 1.3), within=fs.CylinderPart((-1, 0.9), (20, 200), (1, 0, 0))))
+        self.shown(
+            fs.crack(
+                source,
+                fs.Cylinder((7.1, 2.4, 2), (0, 0, 1), 1.3),
+                within=fs.CylinderPart((-1, 0.9), (20, 200), (1, 0, 0)),
+            )
+        )
         screenshot("cylinder_part_angles")
         press_ok()
         crack = self.doc.CylindricalCrack
-        self.assertEqual((crack.Bounded, crack.Low.Value, crack.High.Value, crack.StartAngle.Value, crack.EndAngle.Value), (True, -1, 0.9, 20, 200))
+        self.assertEqual(
+            (crack.Bounded, crack.Low.Value, crack.High.Value, crack.StartAngle.Value, crack.EndAngle.Value),
+            (True, -1, 0.9, 20, 200),
+        )
         made = content_of(crack)
         crack.ViewObject.doubleClicked()
         self.wait_for_preview()
@@ -384,7 +416,9 @@ class Incision(CylinderTest):
         self.assertFalse(is_shown("slotTurn"))
         choose("slotEnd", "Point")
         type_into("slotTurn", "180 deg")
-        expected = fs.cut(source, fs.Plane((6.1, 2.5, 1.7), (1, 0, 0)), width=0.8, bottom=fs.Plane((6.1, 2.5, 1.7), (0, 0, -1)))
+        expected = fs.cut(
+            source, fs.Plane((6.1, 2.5, 1.7), (1, 0, 0)), width=0.8, bottom=fs.Plane((6.1, 2.5, 1.7), (0, 0, -1))
+        )
         wait_until(lambda: f" {expected.report.elements_removed} removed" in widget("status").text(), "the preview")
         screenshot("incision_down_to_the_point")
         click("flip")  # the sides change places, the slot stays
@@ -393,7 +427,9 @@ class Incision(CylinderTest):
         press_ok()
         cut = self.doc.Cut
         self.assertFalse(cut.Through)
-        np.testing.assert_allclose(cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), (0, 0, -1), atol=1e-12)
+        np.testing.assert_allclose(
+            cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), (0, 0, -1), atol=1e-12
+        )
         self.assertEqual(cut.FemMesh.NodeCount, expected.mesh.node_count)
         made = content_of(cut)
         cut.ViewObject.doubleClicked()
@@ -410,8 +446,11 @@ class Incision(CylinderTest):
 
     def test_bottom_of_the_object_is_kept(self):
         import ObjectsFemScalpel
+
         bottom = FreeCAD.Placement(FreeCAD.Vector(0, 0, 1.7), FreeCAD.Rotation(FreeCAD.Vector(1, 0, 0), 180))
-        cut = ObjectsFemScalpel.makeCut(self.doc, self.mesh, origin=(6.1, 2.5, 2), normal=(1, 0, 0), width=0.8, bottom=bottom)
+        cut = ObjectsFemScalpel.makeCut(
+            self.doc, self.mesh, origin=(6.1, 2.5, 2), normal=(1, 0, 0), width=0.8, bottom=bottom
+        )
         self.doc.recompute()
         made = content_of(cut)
         cut.ViewObject.doubleClicked()
@@ -432,13 +471,20 @@ class Drill(CylinderTest):
         self.run_command("FemScalpel_Drill")
         spin(0.2)
         self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 1.3)
-        expected = fs.drill(femmesh_bridge.from_femmesh(coarse.FemMesh), fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3)).report
+        expected = fs.drill(
+            femmesh_bridge.from_femmesh(coarse.FemMesh), fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3)
+        ).report
         self.assertGreater(expected.elements_added, 100)
         wait_until(lambda: f" {expected.elements_added} " in widget("status").text(), "the preview")
         screenshot("drill_coarse")
         self.enter_axis((7.1, 2.4, 4.0), (0.0, 0.0, -1.0), 0.25)
-        fine = fs.drill(femmesh_bridge.from_femmesh(coarse.FemMesh), fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 0.25)).report.refinement
-        wait_until(lambda: f"from {fine.elements_before} to {fine.elements_after} elements" in widget("status").text(), "what refining makes of the mesh")
+        fine = fs.drill(
+            femmesh_bridge.from_femmesh(coarse.FemMesh), fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 0.25)
+        ).report.refinement
+        wait_until(
+            lambda: f"from {fine.elements_before} to {fine.elements_after} elements" in widget("status").text(),
+            "what refining makes of the mesh",
+        )
 
     def test_through_then_blind(self):
         self.run_command("FemScalpel_Drill")
@@ -464,7 +510,9 @@ class Drill(CylinderTest):
         type_into("holeDepth", "2 mm")
         self.wait_for_preview()
         blind = fs.drill(source, fs.Cylinder((7.1, 2.4, 4), (0, 0, -1), 1.3), depth=2)
-        wait_until(lambda: f" {blind.report.elements_removed} " in widget("status").text(), "the preview of the blind hole")
+        wait_until(
+            lambda: f" {blind.report.elements_removed} " in widget("status").text(), "the preview of the blind hole"
+        )
         names = [widget("groups").item(row, 0).text() for row in range(widget("groups").rowCount())]
         self.assertIn("HOLE_BOTTOM", names)
         screenshot("drill_blind")
@@ -477,6 +525,7 @@ class Drill(CylinderTest):
 
     def test_chain_of_crack_and_drill(self):
         import ObjectsFemScalpel
+
         crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(3.1, 2.5, 2), normal=(1, 0.1, 0))
         self.doc.recompute()
         FreeCADGui.Selection.addSelection(self.doc.Name, crack.Name)
@@ -497,7 +546,9 @@ class Drill(CylinderTest):
         self.assertEqual(self.doc.Drill.FemMesh.NodeCount, 0)
         spin(0.3)
         # In one line: tearDown() looks for tracebacks.
-        self.assertRegex(report_view()[self.reported:], r"FemScalpel: Drill: Source is not set; choose the FEM mesh to work on\n")
+        self.assertRegex(
+            report_view()[self.reported :], r"FemScalpel: Drill: Source is not set; choose the FEM mesh to work on\n"
+        )
 
 
 class Refine(CylinderTest):
@@ -506,7 +557,9 @@ class Refine(CylinderTest):
         spin(0.2)
         self.enter_axis((7.0, 2.5, 4.0), (0.0, 0.0, 1.0), 1.0)
         type_into("edgeSize", "0.7")
-        expected = fs.refine(femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Cylinder((7, 2.5, 4), (0, 0, 1), 1), 0.7)
+        expected = fs.refine(
+            femmesh_bridge.from_femmesh(self.mesh.FemMesh), fs.Cylinder((7, 2.5, 4), (0, 0, 1), 1), 0.7
+        )
         wait_until(lambda: f" {expected.report.elements_added} " in widget("status").text(), "the preview")
         screenshot("refine_preview")
         press_ok()
@@ -527,6 +580,7 @@ class Export(GuiTest):
     def test_files(self):
         from femscalpelgui.commands.base import Unusable
         from femscalpelgui.commands.export import Export as Command
+
         mesh = self.add_mesh(long_box())
         with tempfile.TemporaryDirectory() as folder:
             for ending in ("med", "inp", "vtu"):
@@ -564,6 +618,7 @@ class Preferences(GuiTest):
         FreeCADGui.showPreferences("FemScalpel")
         self.assertEqual(seen, [0.2])
         from femscalpelgui import preferences
+
         self.assertEqual(preferences.method(), "deform")
         self.assertFalse(preferences.put_into_analysis())
         group = FreeCAD.ParamGet(preferences.GROUP)

@@ -21,7 +21,10 @@ class Tour(GuiTest):
         plane = (6.2, 2.5, 2.0), (1.0, 0.25, 0.15)
         enter_plane(*plane)
         moved = fs.crack(femmesh_bridge.from_femmesh(self.doc.Bracket.FemMesh), fs.Plane(*plane)).report.nodes_moved
-        wait_until(lambda: widget("status").text().startswith(f"{moved} ") and points_drawn("FemScalpelMoved") == moved, "the preview of the tilted plane")
+        wait_until(
+            lambda: widget("status").text().startswith(f"{moved} ") and points_drawn("FemScalpelMoved") == moved,
+            "the preview of the tilted plane",
+        )
         screenshot("tour_2_crack")
         choose("colouring", "groups")
         click_row("groups", "CORE")
@@ -32,7 +35,13 @@ class Tour(GuiTest):
         FreeCADGui.Selection.addSelection(self.doc.Name, "Crack")
         self.run_command("FemScalpel_Drill")
         spin(0.3)
-        for name, text in (("originX", "10.5"), ("originZ", "4"), ("normalX", "0"), ("normalZ", "-1"), ("radius", "1.2")):
+        for name, text in (
+            ("originX", "10.5"),
+            ("originZ", "4"),
+            ("normalX", "0"),
+            ("normalZ", "-1"),
+            ("radius", "1.2"),
+        ):
             type_into(name, text)
         wait_until(lambda: faces_drawn("FemScalpelRemoved") > 0, "the preview of the hole")
         spin(0.5)
