@@ -13,9 +13,9 @@
 #include <set>
 #include <sstream>
 
+#include "deck/deck_view.h"
 #include "io/inp.h"
 #include "operators/crack.h"
-#include "semantics/deck_view.h"
 #include "tools/plane.h"
 
 namespace femscalpel::deck_testing {

@@ -13,14 +13,14 @@
 #include <set>
 #include <sstream>
 
+#include "deck/card_content.h"
+#include "deck/carry_over.h"
+#include "deck/solver_element.h"
+#include "deck/solver_input.h"
 #include "deck_testing.h"
 #include "io/inp.h"
 #include "mesh/quality.h"
 #include "operators/crack.h"
-#include "semantics/card_content.h"
-#include "semantics/carry_over.h"
-#include "semantics/solver_element.h"
-#include "semantics/solver_input.h"
 #include "tools/plane.h"
 
 namespace femscalpel {

@@ -16,8 +16,8 @@
 #include <set>
 #include <sstream>
 
-#include "semantics/solver_element.h"
-#include "semantics/solver_input.h"
+#include "deck/solver_element.h"
+#include "deck/solver_input.h"
 
 namespace femscalpel {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Element sets that a deck has only to define a surface: their borders mean nothing, and they follow the surface.
-#include "semantics/surface_sets.h"
+#include "deck/surface_sets.h"
 
 #include <map>
 

@@ -9,10 +9,10 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/solver_element.h"
+#include "deck/solver_input.h"
+#include "deck/solver_sets.h"
 #include "io/inp.h"
-#include "semantics/solver_element.h"
-#include "semantics/solver_input.h"
-#include "semantics/solver_sets.h"
 
 namespace femscalpel {
 namespace {

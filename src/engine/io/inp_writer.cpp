@@ -10,11 +10,11 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/solver_element.h"
+#include "deck/solver_input.h"
+#include "deck/solver_sets.h"
 #include "io/atomic_file.h"
 #include "io/inp.h"
-#include "semantics/solver_element.h"
-#include "semantics/solver_input.h"
-#include "semantics/solver_sets.h"
 
 namespace femscalpel {
 namespace {

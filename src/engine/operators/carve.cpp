@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "cancel.h"
+#include "cutting/removal.h"
 #include "operators/refine_first.h"
-#include "operators/removal.h"
 #include "tools/cylinder.h"
 
 namespace femscalpel {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "cancel.h"
+#include "cutting/border.h"
+#include "cutting/no_cut.h"
 #include "deformation/relaxation.h"
-#include "operators/border.h"
-#include "operators/no_cut.h"
 #include "operators/refine_first.h"
 #include "tools/face.h"
 

@@ -10,10 +10,10 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "cutting/folded_input.h"
+#include "cutting/held_inside.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
-#include "operators/folded_input.h"
-#include "operators/held_inside.h"
 #include "operators/poor.h"
 #include "operators/refine_first.h"
 

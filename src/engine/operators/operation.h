@@ -10,16 +10,16 @@
 #include <span>
 #include <string>
 
+#include "cutting/locate.h"
+#include "cutting/opening.h"
+#include "cutting/rebuild.h"
+#include "cutting/workpiece.h"
+#include "deck/carry_over.h"
 #include "groups/group_report.h"
 #include "groups/preserve.h"
 #include "mesh/crop.h"
-#include "operators/interface.h"
-#include "operators/lips.h"
-#include "operators/locate.h"
-#include "operators/rebuild.h"
+#include "mesh/stopwatch.h"
 #include "operators/report.h"
-#include "operators/stopwatch.h"
-#include "semantics/carry_over.h"
 
 namespace femscalpel {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "operators/interface.h"
+#include "cutting/workpiece.h"
 #include "operators/report.h"
 
 namespace femscalpel {

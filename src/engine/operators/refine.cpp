@@ -11,16 +11,16 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "cutting/folded_input.h"
+#include "cutting/locate.h"
+#include "cutting/mend_curved.h"
+#include "cutting/opening.h"
+#include "cutting/rebuild.h"
+#include "cutting/workpiece.h"
+#include "deck/carry_over.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
-#include "operators/folded_input.h"
-#include "operators/interface.h"
-#include "operators/lips.h"
-#include "operators/locate.h"
-#include "operators/mend_curved.h"
-#include "operators/rebuild.h"
-#include "operators/stopwatch.h"
-#include "semantics/carry_over.h"
+#include "mesh/stopwatch.h"
 
 namespace femscalpel {
 namespace {

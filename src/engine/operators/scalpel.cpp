@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/scalpel.h"
 
-#include "operators/locate.h"
+#include "cutting/locate.h"
 
 namespace femscalpel {
 

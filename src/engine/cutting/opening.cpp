@@ -1,0 +1,491 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/opening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "cancel.h"
+
+namespace femscalpel {
+namespace {
+
+/// Sine of the angle between a triangle and the tool up to which the triangle lies along it.
+constexpr double along_tool = 0.5;
+
+constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+class Opener {
+public:
+    explicit Opener(const Interface& f)
+        : f_(f),
+          band_(f.d.band),
+          is_interface_(static_cast<std::size_t>(band_.size()), 0),
+          doubled_(is_interface_.size(), 0),
+          first_item_(3 * is_interface_.size()) {}
+
+    Lips open() {
+        out_.tetras.resize(static_cast<std::size_t>(band_.tetras.size()));
+        for (int t = 0; t < band_.tetras.size(); ++t) out_.tetras[t] = band_.tetras[t];
+        out_.triangles.resize(static_cast<std::size_t>(band_.triangles.size()));
+        for (int t = 0; t < band_.triangles.size(); ++t) out_.triangles[t] = band_.triangles[t];
+        out_.lines.resize(static_cast<std::size_t>(band_.lines.size()));
+        for (int l = 0; l < band_.lines.size(); ++l) out_.lines[l] = band_.lines[l];
+        out_.vertices.resize(static_cast<std::size_t>(band_.vertices.size()));
+        for (int p = 0; p < band_.vertices.size(); ++p) out_.vertices[p] = band_.vertices[p];
+        find_open_faces();
+        place_flat_shells();
+        find_open_edges();
+        for (const int v : out_.interface_nodes) part_node(v);
+        place_attached();
+        make_lips();
+        if (f_.patched) chain_front();
+        return std::move(out_);
+    }
+
+private:
+    bool on_tool(int v) const { return static_cast<bool>(f_.d.contact[v]); }
+
+    template <std::size_t N>
+    int side(const std::array<int, N>& nodes) const {
+        // A node off the interface can still lie in its plane, beyond the front, or beside that by rounding: the
+        // farthest tells.
+        double farthest = 0;
+        for (const int v : nodes)
+            if (!on_tool(v) && std::abs(f_.distance[v]) > std::abs(farthest)) farthest = f_.distance[v];
+        if (std::abs(farthest) > f_.d.rounding) return farthest > 0 ? 1 : -1;
+        if constexpr (N < 3) return 0;
+        // All corners lie on a curved tool: the element fills a bulge of it, and its middle tells on which side. A
+        // triangle may also lie along the tool.
+        Vec3 middle = Vec3::Zero();
+        for (const int v : nodes) middle += band_.nodes[v].at / static_cast<double>(N);
+        const double distance = f_.tool->distance(middle);
+        if (std::abs(distance) <= f_.tolerance) return 0;
+        if constexpr (N == 3) {
+            const Vec3 &a = band_.nodes[nodes[0]].at, &b = band_.nodes[nodes[1]].at, &c = band_.nodes[nodes[2]].at;
+            if ((b - a).cross(c - a).normalized().cross(f_.tool->normal(middle)).norm() < along_tool) return 0;
+        }
+        return distance > 0 ? 1 : -1;
+    }
+
+    void find_open_faces() {
+        struct Seen {
+            std::array<int, 3> key;  // sorted
+            int tetra;
+            std::array<int, 3> nodes;
+        };
+        std::vector<Seen> faces;
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!on_tool(v)) continue;
+            for (const int t : band_.tetras.around(v)) {
+                const auto& n = band_.tetras[t];
+                for (const auto& f : outward_faces) {
+                    const std::array<int, 3> nodes{n[f[0]], n[f[1]], n[f[2]]};
+                    if (!std::ranges::all_of(nodes, [&](int w) { return on_tool(w); })) continue;
+                    std::array<int, 3> key = nodes;
+                    std::ranges::sort(key);
+                    if (key[0] != v) continue;  // each face once, from its smallest node
+                    faces.push_back({key, t, nodes});
+                }
+            }
+        }
+        std::ranges::stable_sort(faces, {}, &Seen::key);
+        std::unordered_map<std::uint64_t, int> faces_at;
+        for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
+            const Seen &one = faces[i], &other = faces[i + 1];
+            if (one.key != other.key || side(band_.tetras[one.tetra]) * side(band_.tetras[other.tetra]) >= 0) continue;
+            if (f_.patched && band_.cut_faces.find(one.key) < 0) continue;
+            for (const Seen* s : {&one, &other}) open_faces_.push_back({s->nodes, s->tetra});
+            for (int k = 0; k < 3; ++k) ++faces_at[edge_key(one.key[k], one.key[(k + 1) % 3])];
+            face_keys_.push_back(one.key);
+            for (const int v : one.key) is_interface_[v] = 1;
+        }
+        // Around an edge of the front the elements hang together, on the far side of it.
+        for (const auto& [edge, count] : faces_at) {
+            const int a = static_cast<int>(edge >> 32), b = static_cast<int>(edge & 0xffffffffu);
+            if (!f_.patched || count > 1 || f_.d.constraints.is_skin_edge(band_, a, b)) open_edges_.insert(edge);
+        }
+    }
+
+    /// The shells that lie in the tool's surface belong to one side, a sheet of them at a time: the negative, or the
+    /// positive if others hang on it only on the negative, so that a crack parts a plate from what stands on it.
+    void place_flat_shells() {
+        flat_side_.assign(static_cast<std::size_t>(band_.triangles.size()), 0);
+        hangs_between_.assign(flat_side_.size(), 0);
+        const auto is_flat = [&](int t) { return is_shell(t) && side(band_.triangles[t]) == 0; };
+        for (int start = 0; start < band_.triangles.size(); ++start) {
+            if (!band_.triangles.alive(start) || flat_side_[start] != 0 || !is_flat(start)) continue;
+            std::vector<int> sheet{start};
+            flat_side_[start] = -1;
+            bool positive = false, negative = false;
+            for (std::size_t k = 0; k < sheet.size(); ++k) {
+                const auto& n = band_.triangles[sheet[k]];
+                for (int e = 0; e < 3; ++e)
+                    for (const int t : band_.triangles.around(n[e])) {
+                        if (t == sheet[k] || !is_shell(t) || !holds(band_.triangles[t], n[(e + 1) % 3])) continue;
+                        const int s = side(band_.triangles[t]);
+                        positive = positive || s > 0;
+                        negative = negative || s < 0;
+                        if (s != 0 || flat_side_[t] != 0) continue;
+                        flat_side_[t] = -1;
+                        sheet.push_back(t);
+                    }
+            }
+            for (const int t : sheet) {
+                hangs_between_[t] = positive && negative;
+                if (negative && !positive) flat_side_[t] = 1;
+            }
+        }
+    }
+
+    static bool holds(const auto& nodes, int v) { return std::ranges::find(nodes, v) != nodes.end(); }
+
+    /// The side a shell belongs to; 0 for none.
+    int shell_side(int t) const { return flat_side_[t] != 0 ? flat_side_[t] : side(band_.triangles[t]); }
+
+    /// Whether a shell off the tool stands on it, rather than runs into it smoothly.
+    bool stands(int t) const {
+        if (flat_side_[t] != 0) return false;
+        Vec3 middle = Vec3::Zero();
+        for (const int v : band_.triangles[t]) middle += band_.nodes[v].at / 3;
+        const Vec3 &a = band_.nodes[band_.triangles[t][0]].at, &b = band_.nodes[band_.triangles[t][1]].at,
+                   &c = band_.nodes[band_.triangles[t][2]].at;
+        return (b - a).cross(c - a).normalized().cross(f_.tool->normal(middle)).norm() >= along_tool;
+    }
+
+    void find_open_edges() {
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!on_tool(v)) continue;
+            std::map<int, std::vector<int>> edges;  // other end -> shells
+            for (const int t : band_.triangles.around(v))
+                if (is_shell(t))
+                    for (const int w : band_.triangles[t])
+                        if (w > v && on_tool(w)) edges[w].push_back(t);
+            for (const auto& [w, shells] : edges) {
+                bool positive = false, negative = false;
+                const bool junction = std::ranges::any_of(shells, [&](int t) { return stands(t); });
+                for (const int t : shells) {
+                    if (flat_side_[t] != 0 && !hangs_between_[t] && !junction) continue;
+                    positive = positive || shell_side(t) > 0;
+                    negative = negative || shell_side(t) < 0;
+                }
+                if (!positive || !negative || (f_.patched && band_.cut_edges.find({v, w}) < 0)) continue;
+                open_edges_.insert(edge_key(v, w));
+                shell_edges_.push_back({v, w});
+                is_interface_[v] = is_interface_[w] = 1;
+            }
+        }
+        for (int v = 0; v < band_.size(); ++v)
+            if (is_interface_[v]) out_.interface_nodes.push_back(v);
+    }
+
+    bool is_shell(int t) const { return f_.d.constraints.is_shell(band_.triangles.origin(t)); }
+
+    /// Parts of the elements around an interface node; gives all but one a copy.
+    void part_node(int v) {
+        // Items: tetrahedra first, then shells.
+        std::vector<int> items;
+        const auto& tetras = band_.tetras.around(v);
+        items.insert(items.end(), tetras.begin(), tetras.end());
+        const int shells_from = static_cast<int>(items.size());
+        for (const int t : band_.triangles.around(v))
+            if (is_shell(t)) items.push_back(t);
+        const int count = static_cast<int>(items.size());
+        std::vector<int> part(static_cast<std::size_t>(count)), item_side(static_cast<std::size_t>(count));
+        std::iota(part.begin(), part.end(), 0);
+        const auto find = [&](int i) {
+            while (part[i] != i) i = part[i] = part[part[i]];
+            return i;
+        };
+        std::vector<char> touches(static_cast<std::size_t>(count), 0);
+        for (int i = 0; i < count; ++i) {
+            const auto visit = [&](const auto& nodes, int where) {
+                item_side[i] = where > 0 ? 1 : -1;
+                for (const int w : nodes) {
+                    if (w == v) continue;
+                    // Elements that share an edge belong together, unless the edge is open and they
+                    // are on different sides of it.
+                    const bool open = on_tool(w) && open_edges_.contains(edge_key(v, w));
+                    if (open) touches[i] = 1;
+                    // First item met with this neighbour, on this side if the edge is open.
+                    FirstItem& first = first_item_[3 * static_cast<std::size_t>(w) + (open ? item_side[i] + 1 : 1)];
+                    if (first.around != v) {
+                        first = {v, i};
+                    } else {
+                        const int a = find(i), b = find(first.item);
+                        part[std::max(a, b)] = std::min(a, b);
+                    }
+                }
+            };
+            if (i < shells_from)
+                visit(band_.tetras[items[i]], side(band_.tetras[items[i]]));
+            else
+                visit(band_.triangles[items[i]], shell_side(items[i]));
+        }
+        struct Part {
+            int size = 0, side = 0;
+            bool touches = false;
+        };
+        std::map<int, Part> parts;
+        for (int i = 0; i < count; ++i) {
+            Part& p = parts[find(i)];
+            ++p.size;
+            p.side += item_side[i];
+            p.touches = p.touches || touches[i];
+        }
+        // Parts that hang on in this node alone go with the largest part of their side.
+        std::map<int, int> goes_to;
+        const auto largest = [&](std::optional<bool> positive) {
+            int best = -1;
+            for (const auto& [root, p] : parts)
+                if (p.touches && (!positive || (p.side > 0) == *positive) && (best < 0 || p.size > parts[best].size))
+                    best = root;
+            return best;
+        };
+        for (const auto& [root, p] : parts) {
+            goes_to[root] = root;
+            if (p.touches) continue;
+            const int with = largest(p.side > 0);
+            goes_to[root] = with >= 0 ? with : largest({});
+        }
+        int keeps = largest(false);
+        if (keeps < 0) keeps = largest({});
+        std::map<int, int> copy;
+        for (const auto& [root, p] : parts)
+            if (p.touches && root != keeps) {
+                copy[root] = band_.size() + static_cast<int>(out_.copy_of.size());
+                out_.copy_of.push_back(v);
+                if (p.side > 0) positive_copy_.emplace(v, copy[root]);
+            }
+        if (copy.empty()) {
+            out_.front_nodes.push_back(v);
+            return;
+        }
+        doubled_[v] = 1;
+        for (int i = 0; i < count; ++i) {
+            const auto it = copy.find(goes_to[find(i)]);
+            if (it == copy.end()) continue;
+            if (i < shells_from)
+                std::ranges::replace(out_.tetras[items[i]], v, it->second);
+            else
+                std::ranges::replace(out_.triangles[items[i]], v, it->second);
+        }
+    }
+
+    /// The nodes, copies in place, that the hosts of an attached element give it: one entry per side.
+    template <std::size_t N>
+    std::vector<std::array<int, N>> images(const std::array<int, N>& nodes) const {
+        std::vector<std::array<int, N>> out;
+        const auto look = [&](const auto& list, const auto& placed, auto skip) {
+            for (const int s : list.around(nodes[0])) {
+                if (skip(s)) continue;
+                std::array<int, N> image;
+                bool host = true;
+                for (std::size_t k = 0; k < N; ++k) {
+                    const auto at = std::ranges::find(list[s], nodes[k]);
+                    host = host && at != list[s].end();
+                    if (host) image[k] = placed[s][at - list[s].begin()];
+                }
+                if (host && std::ranges::find(out, image) == out.end()) out.push_back(image);
+            }
+        };
+        look(band_.tetras, out_.tetras, [](int) { return false; });
+        look(band_.triangles, out_.triangles, [&](int s) { return !is_shell(s); });
+        // The original nodes first.
+        std::ranges::stable_sort(out, {}, [&](const auto& image) { return image != nodes; });
+        return out;
+    }
+
+    template <std::size_t N>
+    bool any_doubled(const std::array<int, N>& nodes) const {
+        return std::ranges::any_of(nodes, [&](int v) { return doubled_[v] != 0; });
+    }
+
+    /// Number of elements at a node on the positive side less those on the negative.
+    int balance(int v) const {
+        int sum = 0;
+        for (const int t : band_.tetras.around(v)) sum += side(band_.tetras[t]);
+        for (const int t : band_.triangles.around(v))
+            if (is_shell(t)) sum += shell_side(t);
+        return sum;
+    }
+
+    void move_to_positive(auto& nodes) const {
+        for (int& v : nodes)
+            if (const auto copy = positive_copy_.find(v); copy != positive_copy_.end()) v = copy->second;
+    }
+
+    void place_attached() {
+        check_cancelled();
+        for (int t = 0; t < band_.triangles.size(); ++t) {
+            if (!band_.triangles.alive(t) || is_shell(t) || !any_doubled(band_.triangles[t])) continue;
+            const auto found = images(band_.triangles[t]);
+            if (found.empty()) continue;
+            out_.triangles[t] = found[0];
+            for (std::size_t k = 1; k < found.size(); ++k) out_.triangle_twins.push_back({t, found[k]});
+        }
+        int loose = 0, points = 0, points_positive = 0;
+        for (int l = 0; l < band_.lines.size(); ++l) {
+            if (!band_.lines.alive(l) || !any_doubled(band_.lines[l])) continue;
+            if (f_.d.constraints.is_loose(band_.lines.origin(l))) {
+                // A beam or spring follows its other end's side.
+                int where = side(band_.lines[l]);
+                if (where == 0)
+                    for (const int v : band_.lines[l]) where += balance(v);
+                if (where > 0) move_to_positive(out_.lines[l]);
+                ++loose;
+                continue;
+            }
+            const auto found = images(band_.lines[l]);
+            if (found.empty()) continue;
+            out_.lines[l] = found[0];
+            for (std::size_t k = 1; k < found.size(); ++k) out_.line_twins.push_back({l, found[k]});
+        }
+        for (int p = 0; p < band_.vertices.size(); ++p) {
+            if (!band_.vertices.alive(p) || !any_doubled(band_.vertices[p])) continue;
+            const bool positive = balance(band_.vertices[p][0]) > 0;
+            if (positive) move_to_positive(out_.vertices[p]);
+            ++points;
+            points_positive += positive;
+        }
+        if (loose > 0)
+            out_.warnings.push_back(
+                std::to_string(loose) +
+                " segment element(s) (beam, spring) end on doubled nodes; each stays on the side it lies on");
+        if (points > 0)
+            out_.warnings.push_back(std::to_string(points) +
+                                    " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole "
+                                    "on the side with more elements there: " +
+                                    std::to_string(points - points_positive) + " on the negative side, " +
+                                    std::to_string(points_positive) + " on the positive");
+        for (const int where : {-1, 1})
+            if (const auto flat = std::ranges::count(flat_side_, where); flat > 0)
+                out_.warnings.push_back(std::to_string(flat) +
+                                        " shell element(s) lie in the tool's surface; they stay on the " +
+                                        (where < 0 ? "negative" : "positive") + " side");
+    }
+
+    void make_lips() {
+        // Elements that already lie on a lip join its group; the first one met per place.
+        std::map<std::array<int, 3>, int> triangle_at;
+        for (int t = 0; t < band_.triangles.size(); ++t)
+            if (band_.triangles.alive(t) && std::ranges::binary_search(face_keys_, sorted(band_.triangles[t])))
+                triangle_at.emplace(sorted(out_.triangles[t]), t);
+        for (std::size_t k = 0; k < out_.triangle_twins.size(); ++k)
+            triangle_at.emplace(sorted(out_.triangle_twins[k].nodes), -1 - static_cast<int>(k));
+        SparseCheck check;
+        for (const auto& [nodes, tetra] : open_faces_) {
+            check();
+            std::array<int, 3> image;
+            for (int k = 0; k < 3; ++k)
+                image[k] =
+                    out_.tetras[tetra][std::ranges::find(band_.tetras[tetra], nodes[k]) - band_.tetras[tetra].begin()];
+            const auto at = triangle_at.find(sorted(image));
+            out_.faces.push_back({image, side(band_.tetras[tetra]) > 0,
+                                  at == triangle_at.end() ? Lips::fresh : at->second,
+                                  band_.tetra_cells[band_.tetras.origin(tetra)].type == CellType::tetra10});
+        }
+        const auto closed = std::ranges::count_if(open_faces_, [&](const auto& f) {
+            return side(band_.tetras[f.second]) > 0 &&
+                   std::ranges::none_of(f.first, [&](int v) { return doubled_[v] != 0; });
+        });
+        if (closed > 0)
+            out_.warnings.push_back(
+                std::to_string(closed) +
+                " face(s) of the crack have all their nodes on its front and cannot open: refine the mesh there");
+        std::map<std::array<int, 2>, int> line_at;
+        for (int l = 0; l < band_.lines.size(); ++l)
+            if (band_.lines.alive(l)) line_at.emplace(sorted(out_.lines[l]), l);
+        for (std::size_t k = 0; k < out_.line_twins.size(); ++k)
+            line_at.emplace(sorted(out_.line_twins[k].nodes), -1 - static_cast<int>(k));
+        for (const auto& edge : shell_edges_) {
+            std::set<std::array<int, 2>> seen;
+            for (const int t : band_.triangles.around(edge[0])) {
+                if (!is_shell(t) || std::ranges::find(band_.triangles[t], edge[1]) == band_.triangles[t].end())
+                    continue;
+                const int s = shell_side(t);
+                std::array<int, 2> image;
+                for (int k = 0; k < 2; ++k)
+                    image[k] =
+                        out_.triangles[t][std::ranges::find(band_.triangles[t], edge[k]) - band_.triangles[t].begin()];
+                if (!seen.insert(image).second) continue;
+                const auto at = line_at.find(sorted(image));
+                out_.edges.push_back({image, s > 0, at == line_at.end() ? Lips::fresh : at->second,
+                                      band_.triangle_cells[band_.triangles.origin(t)].type == CellType::triangle6});
+            }
+        }
+    }
+
+    /// Edges of one open face only, but for those in the skin, put in order.
+    void chain_front() {
+        check_cancelled();
+        std::map<std::array<int, 2>, int> faces_at;
+        for (const auto& key : face_keys_)
+            for (int k = 0; k < 3; ++k) ++faces_at[sorted(std::array{key[k], key[(k + 1) % 3]})];
+        std::map<int, std::vector<int>> next;
+        for (const auto& [edge, faces] : faces_at) {
+            if (faces != 1 || f_.d.constraints.is_skin_edge(band_, edge[0], edge[1])) continue;
+            next[edge[0]].push_back(edge[1]);
+            next[edge[1]].push_back(edge[0]);
+        }
+        const auto walk = [&](int from) {
+            std::vector<int> chain{from};
+            while (!next[chain.back()].empty()) {
+                const int v = chain.back(), w = next[v].front();
+                next[v].erase(next[v].begin());
+                std::erase(next[w], v);
+                chain.push_back(w);
+            }
+            out_.front_chains.push_back(std::move(chain));
+        };
+        // Open chains from their ends, then closed ones.
+        std::vector<int> nodes;
+        for (const auto& [v, neighbours] : next) nodes.push_back(v);
+        for (const int v : nodes)
+            if (next[v].size() % 2 == 1) walk(v);
+        for (const int v : nodes)
+            if (!next[v].empty()) walk(v);
+    }
+
+    template <std::size_t N>
+    static std::array<int, N> sorted(std::array<int, N> nodes) {
+        std::ranges::sort(nodes);
+        return nodes;
+    }
+
+    const Interface& f_;
+    const BandMesh& band_;
+    Lips out_;
+    std::vector<std::pair<std::array<int, 3>, int>> open_faces_;  // both sides of each: nodes outwards, tetrahedron
+    std::vector<std::array<int, 2>> shell_edges_;
+    std::unordered_set<std::uint64_t> open_edges_;
+    std::vector<std::array<int, 3>> face_keys_;  // ascending
+    std::vector<char> is_interface_, doubled_;   // by node
+    std::vector<signed char> flat_side_;         // by triangle: side of a shell in the tool's surface, 0 for others
+    std::vector<char> hangs_between_;            // of them: with shells on both sides of its sheet
+    struct FirstItem {
+        int around = -1;
+        int item = -1;
+    };
+    std::vector<FirstItem> first_item_;  // of part_node(), by neighbour and side
+    std::unordered_map<int, int> positive_copy_;
+};
+
+}  // namespace
+
+Lips open_lips(const Interface& interface) { return Opener(interface).open(); }
+
+Lips closed_lips(const BandMesh& band) {
+    Lips lips;
+    for (int t = 0; t < band.tetras.size(); ++t) lips.tetras.push_back(band.tetras[t]);
+    for (int t = 0; t < band.triangles.size(); ++t) lips.triangles.push_back(band.triangles[t]);
+    for (int l = 0; l < band.lines.size(); ++l) lips.lines.push_back(band.lines[l]);
+    return lips;
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deck/node_origins.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "cancel.h"
+
+namespace femscalpel {
+namespace {
+
+/// A point farther outside an element than this, in barycentric coordinates, is not said to be in it.
+constexpr double outside = -0.25;
+/// Smaller shares are rounding.
+constexpr double smallest_share = 1e-7;
+
+/// Barycentric coordinates of `x`, or of its foot on a triangle or segment.
+std::vector<double> barycentric(const Mesh& mesh, std::span<const Index> nodes, int corners, const Vec3& x) {
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, corners - 1);
+    for (int k = 1; k < corners; ++k) edges.col(k - 1) = mesh.points[nodes[k]] - mesh.points[nodes[0]];
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along =
+        edges.colPivHouseholderQr().solve(x - mesh.points[nodes[0]]);
+    std::vector<double> out{1 - along.sum()};
+    out.insert(out.end(), along.data(), along.data() + along.size());
+    return out;
+}
+
+}  // namespace
+
+NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, const Mesh& after,
+                         const NumberIndex& after_numbers, const Changes& changes)
+    : before_(before), before_numbers_(before_numbers) {
+    for (Index n = 0; n < before.node_count(); ++n) {
+        const Index number = before.node_ids[n];
+        // An operator keeps the order of the nodes that stay; then no look-up is needed.
+        const bool in_place = n < after.node_count() && after.node_ids[n] == number;
+        const auto now = in_place ? std::optional(n) : after_numbers.node(number);
+        if (!now || after.points[*now] == before.points[n]) continue;
+        const double moved = (after.points[*now] - before.points[n]).norm();
+        moved_.emplace(number, moved);
+        nodes_.push_back({number, {number}, false, moved, after.points[*now]});
+    }
+    std::unordered_map<Index, const std::vector<Index>*> born;
+    for (const Changes::Born& b : changes.born) {
+        born.emplace(b.node, &b.ancestors);
+        if (const auto now = after_numbers.node(b.node))
+            nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
+    }
+    for (const Changes::Copy& c : changes.copies) {
+        copies_[c.source].push_back(c.node);
+        const auto now = after_numbers.node(c.node);
+        if (!now) continue;
+        const auto source = born.find(c.source);
+        nodes_.push_back({c.node, source == born.end() ? std::vector<Index>{c.source} : *source->second, true, 0,
+                          after.points[*now]});
+    }
+    shares_.resize(nodes_.size());
+}
+
+const std::vector<NodeOrigins::Share>& NodeOrigins::shares(std::size_t k) const {
+    if (!shares_[k]) {
+        if (elements_.empty()) find_elements();
+        shares_[k] = find_shares(nodes_[k]);
+    }
+    return *shares_[k];
+}
+
+void NodeOrigins::find_elements() const {
+    std::vector<char> wanted(static_cast<std::size_t>(before_.node_count()), 0);
+    for (const Node& n : nodes_)
+        for (const Index a : n.ancestors)
+            if (const auto index = before_numbers_.node(a)) wanted[*index] = 1;
+    const int dimension = before_.dimension();
+    for (const CellBlock& b : before_.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (!t.simplex || t.dimension == 0 || (t.dimension == 1 && dimension > 1)) continue;
+        SparseCheck check(1 << 12);
+        for (Index c = 0; c < b.size(); ++c, check())
+            for (const Index n : b.nodes(c))
+                if (wanted[n]) elements_[n].push_back({b.type, c});
+    }
+}
+
+std::vector<NodeOrigins::Share> NodeOrigins::find_shares(const Node& node) const {
+    std::vector<Share> shares;
+    double best = outside;
+    int best_dimension = 0;
+    for (const Index a : node.ancestors) {
+        const auto index = before_numbers_.node(a);
+        const auto around = index ? elements_.find(*index) : elements_.end();
+        if (around == elements_.end()) continue;
+        for (const CellRef& cell : around->second) {
+            const CellTraits& t = traits(cell.type);
+            if (t.dimension < best_dimension) continue;
+            const auto n = before_.block(cell.type).nodes(cell.cell);
+            std::vector<double> l = barycentric(before_, n, t.corners, node.place);
+            const double inside = *std::ranges::min_element(l);
+            if (!(inside > best) && !(inside > outside && t.dimension > best_dimension)) continue;
+            best = inside;
+            best_dimension = t.dimension;
+            double sum = 0;
+            for (double& w : l) sum += (w = std::max(w, 0.0));
+            for (double& w : l) w /= sum;
+            shares.clear();
+            const auto add = [&](Index n_share, double weight) {
+                if (std::abs(weight) > smallest_share) shares.push_back({before_.node_ids[n_share], weight});
+            };
+            for (int i = 0; i < t.corners; ++i) add(n[i], t.quadratic ? l[i] * (2 * l[i] - 1) : l[i]);
+            if (t.quadratic)
+                for (std::size_t e = 0; e < t.edges.size(); ++e)
+                    add(n[static_cast<std::size_t>(t.corners) + e], 4 * l[t.edges[e][0]] * l[t.edges[e][1]]);
+        }
+    }
+    return shares;
+}
+
+const std::vector<Index>& NodeOrigins::copies_of(Index node) const {
+    static const std::vector<Index> none;
+    const auto it = copies_.find(node);
+    return it == copies_.end() ? none : it->second;
+}
+
+double NodeOrigins::moved(Index node) const {
+    const auto it = moved_.find(node);
+    return it == moved_.end() ? 0 : it->second;
+}
+
+}  // namespace femscalpel
