@@ -14,14 +14,14 @@ struct PoorTest : testing::Test {
     Mesh mesh = checks::grid(4, 4, 4);
     Plane plane{{2, 2, 2.5}, {0, 0, 1}};
 
-    Interface interface() const {
+    Workpiece interface() const {
         const std::vector<std::int8_t> level(mesh.points.size(), 0);
-        Interface f{.d = Deformable(extract_band(mesh, level), mesh, {}), .tool = &plane, .tolerance = 1e-9};
+        Workpiece f{.d = Deformable(extract_band(mesh, level), mesh, {}), .tool = &plane, .tolerance = 1e-9};
         f.distance.assign(static_cast<std::size_t>(f.d.band.size()), 1);
         return f;
     }
 
-    static int node_at(const Interface& f, const Vec3& x) {
+    static int node_at(const Workpiece& f, const Vec3& x) {
         for (int v = 0; v < f.d.band.size(); ++v)
             if ((f.d.band.nodes[v].at - x).norm() < 1e-9) return v;
         return -1;
@@ -29,7 +29,7 @@ struct PoorTest : testing::Test {
 };
 
 TEST_F(PoorTest, NothingIsSaidOfGoodElements) {
-    Interface f = interface();
+    Workpiece f = interface();
     EXPECT_TRUE(find_poor_places(f, mesh, 1).empty());
     EXPECT_TRUE(f.warnings.empty());
 }
@@ -42,7 +42,7 @@ TEST_F(PoorTest, WhatHoldsIsNamed) {
         if (z > 3)
             mesh.block(CellType::tetra).families[c] = mesh.families.with(mesh.block(CellType::tetra).families[c], top);
     }
-    Interface f = interface();
+    Workpiece f = interface();
     // Nearly onto the border of TOP, which is at z = 3.
     f.d.band.nodes[node_at(f, {2, 2, 2})].at.z() = 3 - 1e-4;
     const std::vector<PoorPlace> places = find_poor_places(f, mesh, 0.7);
@@ -58,20 +58,20 @@ TEST_F(PoorTest, WhatHoldsIsNamed) {
 }
 
 TEST_F(PoorTest, ATenthOfTheInputsWorstIsAllowed) {
-    Interface f = interface();
+    Workpiece f = interface();
     f.d.band.nodes[node_at(f, {2, 2, 2})].at.z() = 3 - 1e-3;
     EXPECT_TRUE(find_poor_places(f, mesh, 1e-4).empty());
 }
 
 TEST_F(PoorTest, WhereNothingHoldsItIsAnError) {
     mesh = checks::grid(6, 6, 6);
-    Interface f = interface();
+    Workpiece f = interface();
     f.d.band.nodes[node_at(f, {3, 3, 3})].at.z() = 4 - 1e-4;
     EXPECT_THROW(find_poor_places(f, mesh, 0.7), QualityError);
 }
 
 TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
-    Interface f = interface();
+    Workpiece f = interface();
     EXPECT_EQ(find_held_nodes(f, mesh).count, 0);
     f.d.hold_beside(node_at(f, {0, 2, 2}), &plane);
     const HeldNodes held = find_held_nodes(f, mesh);

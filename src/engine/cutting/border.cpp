@@ -25,7 +25,7 @@ constexpr double deepest_sag = 0.2;
 
 class BorderCutter {
 public:
-    BorderCutter(Interface& f, const Patch& patch) : f_(f), d_(f.d), band_(f.d.band), patch_(patch) {}
+    BorderCutter(Workpiece& f, const Patch& patch) : f_(f), d_(f.d), band_(f.d.band), patch_(patch) {}
 
     void run() {
         for (const Patch::Corner& c : patch_.corners) place_corner(c);
@@ -278,7 +278,7 @@ private:
         throw QualityError(message.str());
     }
 
-    Interface& f_;
+    Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
     const Patch& patch_;
@@ -286,7 +286,7 @@ private:
 };
 
 /// Inside the patch: its node farthest from the border is, or its middle when all are on it.
-bool is_inside(const Interface& f, const Patch& patch, const auto& nodes) {
+bool is_inside(const Workpiece& f, const Patch& patch, const auto& nodes) {
     double furthest = 0;
     Vec3 middle = Vec3::Zero();
     for (const int v : nodes) {
@@ -323,7 +323,7 @@ bool meets_material(const BandMesh& band, const Patch& patch) {
 
 /// Nodes that were moved onto the tool where it is not wanted after all go back to where they were, if elements allow
 /// it; the others are relaxed with the crack's.
-void send_home(Interface& f, std::vector<int> nodes) {
+void send_home(Workpiece& f, std::vector<int> nodes) {
     for (bool any = true; any;) {
         any = false;
         for (int& v : nodes) {
@@ -343,7 +343,7 @@ void send_home(Interface& f, std::vector<int> nodes) {
 
 }  // namespace
 
-bool part_closed_faces(Interface& f, const Patch& patch) {
+bool part_closed_faces(Workpiece& f, const Patch& patch) {
     const int before = f.d.band.size();
     BandMesh& band = f.d.band;
     const auto on_front = [&](int v) {
@@ -387,13 +387,13 @@ bool part_closed_faces(Interface& f, const Patch& patch) {
     return f.d.band.size() > before;
 }
 
-void cut_border(Interface& f, const Patch& patch) {
+void cut_border(Workpiece& f, const Patch& patch) {
     Stopwatch watch(f.seconds);
     BorderCutter(f, patch).run();
     watch.lap("front");
 }
 
-void keep_patch(Interface& f, const Patch& patch) {
+void keep_patch(Workpiece& f, const Patch& patch) {
     BandMesh& band = f.d.band;
     const auto too_coarse = [&](const std::string& why) {
         throw ToolError("the mesh is too coarse for the crack: " + why +

@@ -11,6 +11,7 @@
 #include "cutting/mend_curved.h"
 #include "cutting/workpiece.h"
 #include "deformation/bar_network.h"
+#include "deformation/relaxation.h"
 #include "mesh/stopwatch.h"
 
 namespace femscalpel {
@@ -201,13 +202,13 @@ private:
 
     void gather(int node, double delta) {
         terms_.clear();
-        constexpr int opposite[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
         const Vec3 origin = band_.nodes[node].at;
         for (const int t : band_.tetras.around(node)) {
             const auto& v = band_.tetras[t];
             const int k = static_cast<int>(std::ranges::find(v, node) - v.begin());
-            const Vec3 a = band_.nodes[v[opposite[k][0]]].at - origin, b = band_.nodes[v[opposite[k][1]]].at - origin,
-                       c = band_.nodes[v[opposite[k][2]]].at - origin;
+            const Vec3 a = band_.nodes[v[opposite_face[k][0]]].at - origin,
+                       b = band_.nodes[v[opposite_face[k][1]]].at - origin,
+                       c = band_.nodes[v[opposite_face[k][2]]].at - origin;
             const Vec3 gradient = (b - a).cross(c - a) / 6;
             terms_.push_back({gradient, -gradient.dot(a), a + b + c,
                               a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + (b - a).squaredNorm() +
@@ -306,7 +307,7 @@ struct Lessons {
 
 class Deformer {
 public:
-    Deformer(Interface& f, const Tool& tool, const Mesh& mesh, Lessons& lessons)
+    Deformer(Workpiece& f, const Tool& tool, const Mesh& mesh, Lessons& lessons)
         : f_(f), d_(f.d), band_(f.d.band), tool_(tool), mesh_(mesh), lessons_(lessons) {}
 
     /// 3.1.1: the interface nodes, with Figure 4's splits. False when fixed nodes leave none.
@@ -618,7 +619,7 @@ private:
         lessons_.penalty[v] = std::min(lessons_.penalty[v] * factor, largest_penalty);
     }
 
-    Interface& f_;
+    Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
     const Tool& tool_;
@@ -635,7 +636,7 @@ private:
 
 }  // namespace
 
-void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
+void deform_to_tool(Workpiece& f, const Tool& tool, const Mesh& mesh) {
     Stopwatch watch(f.seconds);
     const auto count = static_cast<std::size_t>(f.d.band.size());
     Lessons lessons{std::vector<double>(count, 1), std::vector<char>(count, 0)};
@@ -644,11 +645,11 @@ void deform_to_tool(Interface& f, const Tool& tool, const Mesh& mesh) {
     for (int t = 0; t < f.d.band.triangles.size(); ++t)
         if (f.d.constraints.is_shell(f.d.band.triangles.origin(t))) worst = std::min(worst, shell_quality(f.d, t));
     const double enough = std::min(good_enough, worst / 2);
-    std::optional<Interface> best;
+    std::optional<Workpiece> best;
     double best_quality = acceptable;
     for (int k = 0; k < attempts; ++k) {
         check_cancelled();
-        Interface g = f;
+        Workpiece g = f;
         Deformer deformer(g, tool, mesh, lessons);
         if (!deformer.classify()) {
             if (best) break;

@@ -20,7 +20,7 @@ constexpr std::size_t most_straightened = 100;
 /// Numbers of elements (nodes) a message has at most.
 constexpr std::size_t most_named = 40;
 
-const Interface::FoldedElement* folded_origin(const Interface& f, BandElement e) {
+const Workpiece::FoldedElement* folded_origin(const Workpiece& f, BandElement e) {
     const auto found = f.folded_input.find({e.triangle, e.origin(f.d.band)});
     return found == f.folded_input.end() ? nullptr : &found->second;
 }
@@ -213,7 +213,7 @@ private:
 
 }  // namespace
 
-void find_folded_input(Interface& f, const Mesh& mesh) {
+void find_folded_input(Workpiece& f, const Mesh& mesh) {
     const BandMesh& band = f.d.band;
     std::vector<Index> at_integration_points;
     for (const bool triangle : {false, true})
@@ -240,7 +240,7 @@ void find_folded_input(Interface& f, const Mesh& mesh) {
         ") where solvers integrate: move their mid-side nodes nearer to the middle of their edges first");
 }
 
-void mend_folded_input(Interface& f) {
+void mend_folded_input(Workpiece& f) {
     Unfolder unfolder(f.d);
     const auto is_bad = [&](const auto& key) { return curved_shape(f.d, {key.first, key.second}) < goal; };
     bool any = true;
@@ -257,7 +257,7 @@ void mend_folded_input(Interface& f) {
         folded.mended = curved_shape(f.d, {key.first, key.second}) >= least_curved;
 }
 
-void put_back_middles(Interface& f, const Mesh& mesh) {
+void put_back_middles(Workpiece& f, const Mesh& mesh) {
     if (f.folded_input.empty()) return;
     MiddleChooser(f.d).run();
     std::vector<Index> moved;
@@ -288,7 +288,7 @@ void put_back_middles(Interface& f, const Mesh& mesh) {
     f.warnings.push_back(text.str());
 }
 
-std::vector<BandElement> newly_folded(const Interface& f, std::vector<BandElement> elements) {
+std::vector<BandElement> newly_folded(const Workpiece& f, std::vector<BandElement> elements) {
     if (f.folded_input.empty()) return elements;
     constexpr double rounding = 1e-9;
     std::erase_if(elements, [&](BandElement e) {
@@ -299,7 +299,7 @@ std::vector<BandElement> newly_folded(const Interface& f, std::vector<BandElemen
     return elements;
 }
 
-void check_folded_input(const Interface& f, std::span<const BandElement> elements) {
+void check_folded_input(const Workpiece& f, std::span<const BandElement> elements) {
     std::set<Index> numbers;
     for (const BandElement e : elements)
         if (const auto* folded = folded_origin(f, e); folded && !folded->mended) numbers.insert(folded->id);

@@ -3,7 +3,7 @@
 
 namespace femscalpel {
 
-HeldInside held_inside(const Interface& f) {
+HeldInside held_inside(const Workpiece& f) {
     HeldInside out;
     for (const auto* set : {&f.nodes, &f.transition})
         for (const int v : *set) {

@@ -21,6 +21,6 @@ struct HeldInside {
 };
 
 /// Of the interface and transition nodes of `f`.
-HeldInside held_inside(const Interface& f);
+HeldInside held_inside(const Workpiece& f);
 
 }  // namespace femscalpel

@@ -18,7 +18,7 @@ constexpr int split_rounds = 8;
 
 class Improver {
 public:
-    Improver(Interface& f, const Tool& tool) : f_(f), d_(f.d), band_(f.d.band), tool_(tool) {}
+    Improver(Workpiece& f, const Tool& tool) : f_(f), d_(f.d), band_(f.d.band), tool_(tool) {}
 
     /// Merges new nodes of bad elements away; true if any was.
     bool merge_nodes(double goal) {
@@ -230,7 +230,7 @@ private:
         return target;
     }
 
-    Interface& f_;
+    Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
     const Tool& tool_;
@@ -240,7 +240,7 @@ private:
 
 }  // namespace
 
-void improve(Interface& f, const Tool& tool, double goal) {
+void improve(Workpiece& f, const Tool& tool, double goal) {
     Improver improver(f, tool);
     // Where borders are everywhere, or the mesh is thin in one direction, most elements are too poor ever to be left
     // alone: only what changed can gain.

@@ -13,6 +13,6 @@ namespace femscalpel {
 /// Follows the schedule of Freitag and Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and
 /// smoothing", Int. J. Numer. Meth. Engng. 40 (1997): a change is kept only if the worst element around
 /// it gets better.
-void improve(Interface& interface, const Tool& tool, double goal);
+void improve(Workpiece& workpiece, const Tool& tool, double goal);
 
 }  // namespace femscalpel

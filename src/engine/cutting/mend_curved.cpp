@@ -17,7 +17,7 @@ constexpr double far_bulge = 0.04;
 
 class Mender {
 public:
-    Mender(Interface& f, const Tool& tool, bool may_split)
+    Mender(Workpiece& f, const Tool& tool, bool may_split)
         : f_(f), d_(f.d), band_(f.d.band), tool_(tool), may_split_(may_split) {}
 
     void run() {
@@ -115,7 +115,7 @@ private:
         f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(point.at));
     }
 
-    Interface& f_;
+    Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
     const Tool& tool_;
@@ -124,7 +124,7 @@ private:
 
 }  // namespace
 
-std::vector<BandElement> folded_elements(const Interface& f, double limit) {
+std::vector<BandElement> folded_elements(const Workpiece& f, double limit) {
     const BandMesh& band = f.d.band;
     std::vector<std::tuple<double, bool, int>> found;
     if (!f.d.mids.any()) return {};
@@ -144,7 +144,7 @@ std::vector<BandElement> folded_elements(const Interface& f, double limit) {
     return out;
 }
 
-void mend_curved(Interface& f, const Tool& tool, bool may_split) {
+void mend_curved(Workpiece& f, const Tool& tool, bool may_split) {
     if (f.d.mids.any()) Mender(f, tool, may_split).run();
 }
 

@@ -177,7 +177,7 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
     return message.str();
 }
 
-std::string why_nothing_parts(const Interface& f, const Blade& blade, const std::string& otherwise) {
+std::string why_nothing_parts(const Workpiece& f, const Blade& blade, const std::string& otherwise) {
     const BandMesh& band = f.d.band;
     std::vector<Vec3> behind, before;  // nodes of faces, and edges of shells, on the tool
     int shells = 0;

@@ -18,6 +18,6 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
 /// Why nothing comes apart on a blade along which nodes lie, as a message: what lies on it is open already (a contact,
 /// an earlier crack), is the outside of the mesh, or is shells on which nothing stands. `otherwise`, when no face nor
 /// edge of a shell lies on it.
-std::string why_nothing_parts(const Interface& interface, const Blade& blade, const std::string& otherwise);
+std::string why_nothing_parts(const Workpiece& workpiece, const Blade& blade, const std::string& otherwise);
 
 }  // namespace femscalpel

@@ -18,18 +18,16 @@ namespace {
 /// Sine of the angle between a triangle and the tool up to which the triangle lies along it.
 constexpr double along_tool = 0.5;
 
-constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-
 class Opener {
 public:
-    explicit Opener(const Interface& f)
+    explicit Opener(const Workpiece& f)
         : f_(f),
           band_(f.d.band),
           is_interface_(static_cast<std::size_t>(band_.size()), 0),
           doubled_(is_interface_.size(), 0),
           first_item_(3 * is_interface_.size()) {}
 
-    Lips open() {
+    Opening open() {
         out_.tetras.resize(static_cast<std::size_t>(band_.tetras.size()));
         for (int t = 0; t < band_.tetras.size(); ++t) out_.tetras[t] = band_.tetras[t];
         out_.triangles.resize(static_cast<std::size_t>(band_.triangles.size()));
@@ -387,7 +385,7 @@ private:
                     out_.tetras[tetra][std::ranges::find(band_.tetras[tetra], nodes[k]) - band_.tetras[tetra].begin()];
             const auto at = triangle_at.find(sorted(image));
             out_.faces.push_back({image, side(band_.tetras[tetra]) > 0,
-                                  at == triangle_at.end() ? Lips::fresh : at->second,
+                                  at == triangle_at.end() ? Opening::fresh : at->second,
                                   band_.tetra_cells[band_.tetras.origin(tetra)].type == CellType::tetra10});
         }
         const auto closed = std::ranges::count_if(open_faces_, [&](const auto& f) {
@@ -415,7 +413,7 @@ private:
                         out_.triangles[t][std::ranges::find(band_.triangles[t], edge[k]) - band_.triangles[t].begin()];
                 if (!seen.insert(image).second) continue;
                 const auto at = line_at.find(sorted(image));
-                out_.edges.push_back({image, s > 0, at == line_at.end() ? Lips::fresh : at->second,
+                out_.edges.push_back({image, s > 0, at == line_at.end() ? Opening::fresh : at->second,
                                       band_.triangle_cells[band_.triangles.origin(t)].type == CellType::triangle6});
             }
         }
@@ -458,9 +456,9 @@ private:
         return nodes;
     }
 
-    const Interface& f_;
+    const Workpiece& f_;
     const BandMesh& band_;
-    Lips out_;
+    Opening out_;
     std::vector<std::pair<std::array<int, 3>, int>> open_faces_;  // both sides of each: nodes outwards, tetrahedron
     std::vector<std::array<int, 2>> shell_edges_;
     std::unordered_set<std::uint64_t> open_edges_;
@@ -478,14 +476,14 @@ private:
 
 }  // namespace
 
-Lips open_lips(const Interface& interface) { return Opener(interface).open(); }
+Opening open_lips(const Workpiece& workpiece) { return Opener(workpiece).open(); }
 
-Lips closed_lips(const BandMesh& band) {
-    Lips lips;
-    for (int t = 0; t < band.tetras.size(); ++t) lips.tetras.push_back(band.tetras[t]);
-    for (int t = 0; t < band.triangles.size(); ++t) lips.triangles.push_back(band.triangles[t]);
-    for (int l = 0; l < band.lines.size(); ++l) lips.lines.push_back(band.lines[l]);
-    return lips;
+Opening no_opening(const BandMesh& band) {
+    Opening opening;
+    for (int t = 0; t < band.tetras.size(); ++t) opening.tetras.push_back(band.tetras[t]);
+    for (int t = 0; t < band.triangles.size(); ++t) opening.triangles.push_back(band.triangles[t]);
+    for (int l = 0; l < band.lines.size(); ++l) opening.lines.push_back(band.lines[l]);
+    return opening;
 }
 
 }  // namespace femscalpel

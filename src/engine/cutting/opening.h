@@ -11,7 +11,7 @@ namespace femscalpel {
 
 /// A band taken apart along its interface (DESIGN 3, step 6; paper, 3.1.3): which elements get copies of
 /// which nodes, and the two lips. Node numbers from BandMesh::size() on are copies.
-struct Lips {
+struct Opening {
     std::vector<int> copy_of;  ///< source of each copied node
 
     /// Corner nodes of each element by slot, copies in place; elements not listed keep theirs.
@@ -59,9 +59,9 @@ struct Lips {
 /// Discrete elements that end on a doubled node stay whole, on one side, and a warning says so: a beam or spring on
 /// the side its other end is on, a mass or spring to ground, and what has all its nodes on the tool, on the side with
 /// most elements there, the negative one if they are as many.
-Lips open_lips(const Interface& interface);
+Opening open_lips(const Workpiece& workpiece);
 
 /// The band as it is, nothing opened.
-Lips closed_lips(const BandMesh& band);
+Opening no_opening(const BandMesh& band);
 
 }  // namespace femscalpel

@@ -13,8 +13,13 @@ namespace {
 
 class Rebuilder {
 public:
-    Rebuilder(const Mesh& input, Mesh copy, const Interface& f, const Lips& lips, const Numbering& numbering)
-        : input_(input), f_(f), band_(f.d.band), lips_(lips), next_node_(numbering.node), next_cell_(numbering.cell) {
+    Rebuilder(const Mesh& input, Mesh copy, const Workpiece& f, const Opening& opening, const Numbering& numbering)
+        : input_(input),
+          f_(f),
+          band_(f.d.band),
+          opening_(opening),
+          next_node_(numbering.node),
+          next_cell_(numbering.cell) {
         out_.mesh = std::move(copy);
     }
 
@@ -22,14 +27,15 @@ public:
         Mesh& mesh = out_.mesh;
         write_nodes();
         find_mid_owners();
-        write_cells(band_.tetras, lips_.tetras, band_.tetra_cells, tetra_cell_);
-        write_cells(band_.triangles, lips_.triangles, band_.triangle_cells, triangle_cell_);
-        write_cells(band_.lines, lips_.lines, band_.line_cells, line_cell_);
-        if (!lips_.vertices.empty()) write_cells(band_.vertices, lips_.vertices, band_.vertex_cells, vertex_cell_);
-        write_twins(lips_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
-        write_twins(lips_.line_twins, band_.lines, band_.line_cells, line_twin_);
+        write_cells(band_.tetras, opening_.tetras, band_.tetra_cells, tetra_cell_);
+        write_cells(band_.triangles, opening_.triangles, band_.triangle_cells, triangle_cell_);
+        write_cells(band_.lines, opening_.lines, band_.line_cells, line_cell_);
+        if (!opening_.vertices.empty())
+            write_cells(band_.vertices, opening_.vertices, band_.vertex_cells, vertex_cell_);
+        write_twins(opening_.triangle_twins, band_.triangles, band_.triangle_cells, triangle_twin_);
+        write_twins(opening_.line_twins, band_.lines, band_.line_cells, line_twin_);
         write_lips(groups);
-        if (!lips_.front_chains.empty()) write_front(front);
+        if (!opening_.front_chains.empty()) write_front(front);
         write_facets();
         for (const CellRef& c : f_.deep_inside) note_removed(c);
         remove_cells();
@@ -53,7 +59,7 @@ private:
 
     void write_nodes() {
         Mesh& mesh = out_.mesh;
-        out_.node.assign(static_cast<std::size_t>(band_.size()) + lips_.copy_of.size(), -1);
+        out_.node.assign(static_cast<std::size_t>(band_.size()) + opening_.copy_of.size(), -1);
         for (int v = 0; v < band_.size(); ++v) {
             check_();
             const BandNode& n = band_.nodes[v];
@@ -68,8 +74,8 @@ private:
             out_.node[v] = mesh.add_node(n.at, next_node_++, mesh.families.intersect(family(a), family(b)));
             ++out_.nodes_split;
         }
-        for (std::size_t k = 0; k < lips_.copy_of.size(); ++k) {
-            const Index source = out_.node[lips_.copy_of[k]];
+        for (std::size_t k = 0; k < opening_.copy_of.size(); ++k) {
+            const Index source = out_.node[opening_.copy_of[k]];
             out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
             out_.node[band_.size() + static_cast<int>(k)] =
                 mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
@@ -132,13 +138,13 @@ private:
         };
         for (int t = 0; t < band_.tetras.size(); ++t)
             if (band_.tetras.alive(t))
-                look(band_.tetras[t], lips_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)].type);
+                look(band_.tetras[t], opening_.tetras[t], band_.tetra_cells[band_.tetras.origin(t)].type);
         for (int t = 0; t < band_.triangles.size(); ++t)
             if (band_.triangles.alive(t))
-                look(band_.triangles[t], lips_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)].type);
+                look(band_.triangles[t], opening_.triangles[t], band_.triangle_cells[band_.triangles.origin(t)].type);
         for (int l = 0; l < band_.lines.size(); ++l)
             if (band_.lines.alive(l))
-                look(band_.lines[l], lips_.lines[l], band_.line_cells[band_.lines.origin(l)].type);
+                look(band_.lines[l], opening_.lines[l], band_.line_cells[band_.lines.origin(l)].type);
     }
 
     Index make_mid_node(int a, int b) {
@@ -232,7 +238,7 @@ private:
     }
 
     template <std::size_t N>
-    void write_twins(const std::vector<Lips::Twin<N>>& twins, const SimplexList<N>& list,
+    void write_twins(const std::vector<Opening::Twin<N>>& twins, const SimplexList<N>& list,
                      const std::vector<CellRef>& cells, std::vector<CellRef>& written) {
         for (const auto& twin : twins) {
             const CellRef& cell = cells[list.origin(twin.slot)];
@@ -273,13 +279,13 @@ private:
             FamilyIndex& family = mesh.block(type).families[cell];
             family = with_groups(family, face_group);
         };
-        const auto write = [&](const auto& lips, const auto& cells, const auto& written, const auto& twins,
+        const auto write = [&](const auto& faces, const auto& cells, const auto& written, const auto& twins,
                                CellType linear, CellType quadratic) {
-            for (const auto& lip : lips) {
-                if (lip.element == Lips::fresh) {
+            for (const auto& lip : faces) {
+                if (lip.element == Opening::fresh) {
                     auto corners = lip.nodes;
                     for (int& v : corners)
-                        if (v >= band_.size()) v = lips_.copy_of[v - band_.size()];
+                        if (v >= band_.size()) v = opening_.copy_of[v - band_.size()];
                     const CellType type = lip.second_order ? quadratic : linear;
                     const Index made = mesh.add_cell(type, connectivity(type, corners, lip.nodes), next_cell_++,
                                                      with_groups(0, lip.group));
@@ -294,10 +300,10 @@ private:
             }
         };
         write(
-            lips_.faces, [&](int s) { return band_.triangle_cells[band_.triangles.origin(s)]; }, triangle_cell_,
+            opening_.faces, [&](int s) { return band_.triangle_cells[band_.triangles.origin(s)]; }, triangle_cell_,
             triangle_twin_, CellType::triangle, CellType::triangle6);
         write(
-            lips_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_,
+            opening_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_,
             CellType::line, CellType::line3);
     }
 
@@ -305,7 +311,7 @@ private:
     void write_front(const std::string& name) {
         Mesh& mesh = out_.mesh;
         const GroupIndex group = mesh.add_group(name, GroupKind::element);
-        for (const std::vector<int>& chain : lips_.front_chains)
+        for (const std::vector<int>& chain : opening_.front_chains)
             for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
                 const std::array<int, 2> ends{chain[k], chain[k + 1]};
                 if (const int old = band_.lines.find(ends); old >= 0) {
@@ -407,7 +413,7 @@ private:
 
     /// Drops the nodes that only removed elements had.
     void remove_nodes() {
-        if (!lips_.removes) return;
+        if (!opening_.removes) return;
         check_cancelled();
         Mesh& mesh = out_.mesh;
         std::vector<char> orphan(mesh.points.size(), 0);
@@ -440,9 +446,9 @@ private:
     }
 
     const Mesh& input_;
-    const Interface& f_;
+    const Workpiece& f_;
     const BandMesh& band_;
-    const Lips& lips_;
+    const Opening& opening_;
     Rebuilt out_;
     Index next_node_, next_cell_;
     SparseCheck check_;
@@ -465,10 +471,10 @@ Numbering next_numbers(const Mesh& mesh) {
     return next;
 }
 
-Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Workpiece& workpiece, const Opening& opening,
                 const std::vector<std::vector<std::string>>& groups, const Numbering& numbering,
                 const std::string& front) {
-    return Rebuilder(input, std::move(copy), interface, lips, numbering).run(groups, front);
+    return Rebuilder(input, std::move(copy), workpiece, opening, numbering).run(groups, front);
 }
 
 }  // namespace femscalpel

@@ -37,15 +37,15 @@ struct Numbering {
 Numbering next_numbers(const Mesh& mesh);
 
 /// Puts the band's changes into `copy`, a copy of `input`: moved nodes, split elements, doubled nodes, lip elements in
-/// all groups of `groups[Lips::Face::group]` (appended to the mesh's groups, in that order), removed elements and the
-/// nodes that only they had. Everything else is the input's, bit for bit. Children inherit the groups of their parent;
-/// a node born on an edge is in the node groups of both ends; a copied node is in all groups of its original. New nodes
-/// and elements are numbered from `numbering` on.
+/// all groups of `groups[Opening::Face::group]` (appended to the mesh's groups, in that order), removed elements and
+/// the nodes that only they had. Everything else is the input's, bit for bit. Children inherit the groups of their
+/// parent; a node born on an edge is in the node groups of both ends; a copied node is in all groups of its original.
+/// New nodes and elements are numbered from `numbering` on.
 ///
-/// The segments of Lips::front_chains go to the element group `front`, in their order.
+/// The segments of Opening::front_chains go to the element group `front`, in their order.
 ///
-/// Mid-side nodes follow their edges in the band, see mid_side(); or lie where Interface::mid_side says.
-Rebuilt rebuild(const Mesh& input, Mesh copy, const Interface& interface, const Lips& lips,
+/// Mid-side nodes follow their edges in the band, see mid_side(); or lie where Workpiece::mid_side says.
+Rebuilt rebuild(const Mesh& input, Mesh copy, const Workpiece& workpiece, const Opening& opening,
                 const std::vector<std::vector<std::string>>& groups, const Numbering& numbering,
                 const std::string& front = {});
 

@@ -16,8 +16,6 @@
 namespace femscalpel {
 namespace {
 
-constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
 /// Area or volume of a triangle or tetrahedron of the band as it is.
@@ -32,7 +30,7 @@ double measure_now(const Deformable& d, const auto& corners, CellType type) {
 
 class Remover {
 public:
-    Remover(Interface& f, std::span<const Tool* const> tools, int first_tag)
+    Remover(Workpiece& f, std::span<const Tool* const> tools, int first_tag)
         : f_(f), band_(f.d.band), tools_(tools), first_tag_(first_tag) {
         value_.resize(tools.size());
         for (std::size_t k = 0; k < tools.size(); ++k)
@@ -212,7 +210,7 @@ private:
         });
     }
 
-    Interface& f_;
+    Workpiece& f_;
     BandMesh& band_;
     std::span<const Tool* const> tools_;
     int first_tag_;
@@ -228,7 +226,7 @@ std::array<int, N> sorted(std::array<int, N> nodes) {
 
 }  // namespace
 
-void note_slivers(Interface& f, std::span<const Tool* const> tool_of_tag, int sign) {
+void note_slivers(Workpiece& f, std::span<const Tool* const> tool_of_tag, int sign) {
     const BandMesh& band = f.d.band;
     const auto look = [&](const auto& walls, const auto& hosts, const std::vector<CellRef>& cells, auto size,
                           double share) {
@@ -261,11 +259,11 @@ void note_slivers(Interface& f, std::span<const Tool* const> tool_of_tag, int si
         [&](const auto& n) { return (at(n[1]) - at(n[0])).norm(); }, 2.0 / 3);
 }
 
-int remove_inside(Interface& f, std::span<const Tool* const> tools, int first_tag) {
+int remove_inside(Workpiece& f, std::span<const Tool* const> tools, int first_tag) {
     return Remover(f, tools, first_tag).run();
 }
 
-void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_tag) {
+void release_all_but_walls(Workpiece& f, std::span<const Tool* const> tool_of_tag) {
     const BandMesh& band = f.d.band;
     for (int v = 0; v < band.size(); ++v) {
         if (!f.d.contact[v]) continue;
@@ -281,10 +279,10 @@ void release_all_but_walls(Interface& f, std::span<const Tool* const> tool_of_ta
     }
 }
 
-Lips open_walls(const Interface& f) {
+Opening open_walls(const Workpiece& f) {
     check_cancelled();
     const BandMesh& band = f.d.band;
-    Lips out;
+    Opening out;
     out.removes = true;
     for (int t = 0; t < band.tetras.size(); ++t) out.tetras.push_back(band.tetras[t]);
     for (int t = 0; t < band.triangles.size(); ++t) out.triangles.push_back(band.triangles[t]);
@@ -316,7 +314,7 @@ Lips open_walls(const Interface& f) {
             if (sorted(outward) == sorted(face)) face = outward;
         }
         const auto at = triangle_at.find(sorted(face));
-        out.faces.push_back({face, band.cut_faces.tag(s), at == triangle_at.end() ? Lips::fresh : at->second,
+        out.faces.push_back({face, band.cut_faces.tag(s), at == triangle_at.end() ? Opening::fresh : at->second,
                              band.tetra_cells[band.tetras.origin(*host)].type == CellType::tetra10});
         nodes.insert(face.begin(), face.end());
     }
@@ -326,7 +324,7 @@ Lips open_walls(const Interface& f) {
         const auto around = band.triangles.around(edge[0]);
         const auto host = std::ranges::find_if(around, [&](int t) { return holds(band.triangles[t], edge[1]); });
         const auto at = line_at.find(sorted(edge));
-        out.edges.push_back({edge, band.cut_edges.tag(s), at == line_at.end() ? Lips::fresh : at->second,
+        out.edges.push_back({edge, band.cut_edges.tag(s), at == line_at.end() ? Opening::fresh : at->second,
                              band.triangle_cells[band.triangles.origin(*host)].type == CellType::triangle6});
         nodes.insert(edge.begin(), edge.end());
     }

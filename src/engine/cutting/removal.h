@@ -14,16 +14,16 @@ namespace femscalpel {
 /// become BandMesh::cut_faces (cut_edges), with tag `first_tag` plus the place of the tool they lie on.
 ///
 /// Elements must not reach to both sides: cut_along() all tools first. Returns the number of elements removed.
-int remove_inside(Interface& interface, std::span<const Tool* const> tools, int first_tag);
+int remove_inside(Workpiece& workpiece, std::span<const Tool* const> tools, int first_tag);
 
 /// Nodes keep contact only with the tools of the walls they are on.
-void release_all_but_walls(Interface& interface, std::span<const Tool* const> tool_of_tag);
+void release_all_but_walls(Workpiece& workpiece, std::span<const Tool* const> tool_of_tag);
 
-/// Adds what lies between flat wall faces and their curved tools to Interface::taken, times `sign`.
-void note_slivers(Interface& interface, std::span<const Tool* const> tool_of_tag, int sign);
+/// Adds what lies between flat wall faces and their curved tools to Workpiece::taken, times `sign`.
+void note_slivers(Workpiece& workpiece, std::span<const Tool* const> tool_of_tag, int sign);
 
 /// The walls as faces without copies; group: the tag.
-Lips open_walls(const Interface& interface);
+Opening open_walls(const Workpiece& workpiece);
 
 /// Elements of the mesh with no node in the band (level < 0) and all nodes inside one of the bodies, each given by
 /// its signed depth.

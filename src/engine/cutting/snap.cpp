@@ -13,6 +13,7 @@
 #include "cutting/workpiece.h"
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
+#include "deformation/relaxation.h"
 #include "mesh/quality.h"
 #include "mesh/stopwatch.h"
 
@@ -59,8 +60,8 @@ constexpr double degenerate_quality = 0.01;
 class Snapper {
 public:
     /// `value`: signed distances to the blade's tool by band node, exactly 0 in contact.
-    Snapper(Interface& interface, const Blade& blade, std::vector<double>& value)
-        : f_(interface), d_(interface.d), band_(interface.d.band), blade_(blade), tool_(*blade.tool), value_(value) {
+    Snapper(Workpiece& workpiece, const Blade& blade, std::vector<double>& value)
+        : f_(workpiece), d_(workpiece.d), band_(workpiece.d.band), blade_(blade), tool_(*blade.tool), value_(value) {
         find_region();
     }
 
@@ -130,7 +131,6 @@ public:
 
     /// Collects the faces, and edges of shells, that part elements on one side of the tool from those on the other.
     void collect_faces(int tag) {
-        constexpr int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
         const auto touches = [&](int v) { return d_.contact[v].has(&tool_); };
         std::map<std::array<int, 3>, int> sides;  // side of the first tetrahedron met
         struct Shells {
@@ -144,7 +144,7 @@ public:
             check();
             for (const int t : band_.tetras.around(v)) {
                 const auto& n = band_.tetras[t];
-                for (const auto& f : faces) {
+                for (const auto& f : outward_faces) {
                     std::array<int, 3> key{n[f[0]], n[f[1]], n[f[2]]};
                     if (!std::ranges::all_of(key, touches) || std::ranges::min(key) != v) continue;
                     std::ranges::sort(key);
@@ -374,7 +374,7 @@ private:
         return d_.constraints.project(NodeConstraint{}, tools, straight) ? straight : bent.at;
     }
 
-    Interface& f_;
+    Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
     const Blade& blade_;
@@ -387,7 +387,7 @@ private:
 
 /// Nodes born on a curved skin or tool where the curve would have spoiled an element lie on the chord at first. Now
 /// that the band is relaxed, brings them onto their surface or curve; those that moved.
-std::vector<int> fit_to_shapes(Interface& f) {
+std::vector<int> fit_to_shapes(Workpiece& f) {
     Deformable& d = f.d;
     std::vector<int> moved;
     for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
@@ -426,7 +426,7 @@ Vec3 middle_of(const BandMesh& band, const auto& nodes) {
 
 /// Those in which new nodes are off their tools or the curved skin they were born on, or parts came out as folded
 /// second-order elements.
-Slots misfits(const Interface& f) {
+Slots misfits(const Workpiece& f) {
     const BandMesh& band = f.d.band;
     Slots found;
     for (const BandElement e : newly_folded(f, folded_elements(f, least_curved))) {
@@ -449,7 +449,7 @@ Slots misfits(const Interface& f) {
 }
 
 /// The smallest mean ratio of the tetrahedra and shells that were changed, and those that have parts below `limit`.
-double poorest(const Interface& f, double limit, Slots& poor) {
+double poorest(const Workpiece& f, double limit, Slots& poor) {
     const BandMesh& band = f.d.band;
     double worst = 1;
     SparseCheck check;
@@ -490,7 +490,7 @@ int element_count(const BandMesh& band) { return band.tetras.size() + band.trian
 /// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves
 /// bulge a quarter as far, so that a tool finds room between a curved skin and its chords where it found none. The band
 /// grows to about `most_elements`.
-void refine(Interface& f, const Slots& slots, double most_elements) {
+void refine(Workpiece& f, const Slots& slots, double most_elements) {
     BandMesh& band = f.d.band;
     std::vector<std::tuple<double, int, int>> edges;
     for_parts(band, slots, [&](const auto& nodes) {
@@ -521,7 +521,7 @@ void refine(Interface& f, const Slots& slots, double most_elements) {
 }
 
 /// Lets the nodes of poor elements be held where the tool passed them by up to `part`; false if there are none.
-bool allow_to_hold(Interface& start, const Interface& cut, double part) {
+bool allow_to_hold(Workpiece& start, const Workpiece& cut, double part) {
     Slots poor;
     poorest(cut, poor_quality, poor);
     start.may_hold.assign(static_cast<std::size_t>(start.d.band.size()), 0);
@@ -537,7 +537,7 @@ bool allow_to_hold(Interface& start, const Interface& cut, double part) {
     return any;
 }
 
-[[noreturn]] void fail_at(const Interface& f, const Slots& slots) {
+[[noreturn]] void fail_at(const Workpiece& f, const Slots& slots) {
     std::optional<Vec3> place;
     bool skin = false;
     for_parts(f.d.band, slots, [&](const auto& nodes) {
@@ -556,7 +556,7 @@ bool allow_to_hold(Interface& start, const Interface& cut, double part) {
 
 }  // namespace
 
-void put_on_tool(Interface& f, int v, const Tool& tool) {
+void put_on_tool(Workpiece& f, int v, const Tool& tool) {
     Deformable& d = f.d;
     const Contact tools = d.contact[v].with(&tool);
     BandNode& node = d.band.nodes[v];
@@ -572,7 +572,7 @@ void put_on_tool(Interface& f, int v, const Tool& tool) {
     if (Deformable::off_tools(tools, node.at, 0) > f.tolerance) d.hold_beside(v, tools);
 }
 
-void cut_along(Interface& f, const Blade& blade) {
+void cut_along(Workpiece& f, const Blade& blade) {
     Stopwatch watch(f.seconds);
     std::vector<double> own;
     if (blade.tool != f.tool) {
@@ -589,7 +589,7 @@ void cut_along(Interface& f, const Blade& blade) {
     watch.lap("split");
 }
 
-void relax_band(Interface& f) {
+void relax_band(Workpiece& f) {
     Stopwatch watch(f.seconds);
     find_node_sets(f);
     deform(f.d, f.nodes, f.transition);
@@ -605,15 +605,15 @@ void relax_band(Interface& f) {
     watch.lap("improve");
 }
 
-void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index mesh_elements, int attempts,
+void cut_soundly(Workpiece& f, const std::function<void(Workpiece&)>& cut, Index mesh_elements, int attempts,
                  bool whole_tool) {
     const bool plain =
         whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
-    Interface start = f;
+    Workpiece start = f;
     const double elements = element_count(start.d.band),
                  most_elements =
                      std::min(largest_growth * elements, elements + largest_part * static_cast<double>(mesh_elements));
-    std::optional<Interface> best;
+    std::optional<Workpiece> best;
     double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
     bool tried_to_hold = false;
     start.most_elements = f.most_elements = elements + largest_part_after * static_cast<double>(mesh_elements);
@@ -676,10 +676,10 @@ void cut_soundly(Interface& f, const std::function<void(Interface&)>& cut, Index
     f.warnings.push_back(text.str());
 }
 
-void snap_to_tool(Interface& f, const Blade& blade, Index mesh_elements) {
+void snap_to_tool(Workpiece& f, const Blade& blade, Index mesh_elements) {
     cut_soundly(
         f,
-        [&blade](Interface& g) {
+        [&blade](Workpiece& g) {
             cut_along(g, blade);
             g.d.barrier = blade.tool;
             for (int v = 0; v < g.d.band.size(); ++v)

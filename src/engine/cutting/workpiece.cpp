@@ -8,6 +8,7 @@
 #include "cancel.h"
 #include "cutting/folded_input.h"
 #include "cutting/mend_curved.h"
+#include "deformation/relaxation.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
@@ -20,7 +21,7 @@ Method method_from_name(const std::string& name) {
 
 std::string_view to_string(Method method) { return method == Method::snap ? "snap" : "deform"; }
 
-void find_node_sets(Interface& f) {
+void find_node_sets(Workpiece& f) {
     const BandMesh& band = f.d.band;
     std::vector<int> depth(static_cast<std::size_t>(band.size()), -1);
     f.nodes.clear();
@@ -51,7 +52,7 @@ void find_node_sets(Interface& f) {
     std::ranges::sort(f.transition);
 }
 
-std::vector<int> movable_nodes(const Interface& f) {
+std::vector<int> movable_nodes(const Workpiece& f) {
     std::vector<int> out = f.nodes;
     out.insert(out.end(), f.transition.begin(), f.transition.end());
     for (const int v : f.released)
@@ -61,7 +62,7 @@ std::vector<int> movable_nodes(const Interface& f) {
     return out;
 }
 
-void relax_near(Interface& f, const std::vector<int>& changed, bool only_there) {
+void relax_near(Workpiece& f, const std::vector<int>& changed, bool only_there) {
     find_node_sets(f);
     const std::vector<int> movable = movable_nodes(f), all_near = f.d.band.nodes_near(changed, 2);
     std::vector<int> near;
@@ -69,7 +70,7 @@ void relax_near(Interface& f, const std::vector<int>& changed, bool only_there) 
     relax_from(f.d, near, only_there ? near : movable);
 }
 
-void split_at_fixed_middles(Interface& f, const Blade& blade, const Mesh& mesh) {
+void split_at_fixed_middles(Workpiece& f, const Blade& blade, const Mesh& mesh) {
     BandMesh& band = f.d.band;
     if (!f.d.constraints.has_fixed_middles()) return;
     std::vector<std::pair<std::array<int, 2>, Index>> crossed;
@@ -100,7 +101,7 @@ struct Bad {
 };
 
 /// Elements of the band worse than `limit`, by number.
-std::vector<Bad> worse_than(double limit, const Interface& f, const Mesh& mesh) {
+std::vector<Bad> worse_than(double limit, const Workpiece& f, const Mesh& mesh) {
     std::vector<Bad> bad;
     const auto note = [&](const CellRef& c, double q) { bad.push_back({mesh.block(c.type).ids[c.cell], q}); };
     const BandMesh& band = f.d.band;
@@ -130,7 +131,7 @@ constexpr double flat = 1e-6;
 
 }  // namespace
 
-void check_contacts(const Interface& f) {
+void check_contacts(const Workpiece& f) {
     int count = 0;
     double worst = 0;
     for (const int v : f.nodes) {
@@ -145,7 +146,7 @@ void check_contacts(const Interface& f) {
     throw QualityError(message.str());
 }
 
-void check_input_shape(Interface& f, const Mesh& mesh) {
+void check_input_shape(Workpiece& f, const Mesh& mesh) {
     const std::vector<Bad> poor = worse_than(0.1, f, mesh);
     std::vector<Bad> bad;
     std::ranges::copy_if(poor, std::back_inserter(bad), [](const Bad& b) { return !(b.quality >= flat); });
@@ -159,7 +160,7 @@ void check_input_shape(Interface& f, const Mesh& mesh) {
                              " element(s) with mean ratio below 0.1 near the tool (" + name_them(poor) + ")");
 }
 
-void check_skin(Interface& f) {
+void check_skin(Workpiece& f) {
     const NodeConstraints::ShapeMatch& match = f.d.constraints.shape_match();
     if (match.off == 0) return;
     if (match.off == match.faces)
@@ -171,7 +172,7 @@ void check_skin(Interface& f) {
                          "stays what its triangles are");
 }
 
-void check_shape(const Interface& f, const Mesh& mesh) {
+void check_shape(const Workpiece& f, const Mesh& mesh) {
     const std::vector<Bad> bad = worse_than(flat, f, mesh);
     if (!bad.empty())
         throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "deformation/relaxation.h"
+#include "deformation/deformable.h"
 #include "mesh/stopwatch.h"
-#include "operators/report.h"
 
 namespace femscalpel {
 
@@ -48,7 +47,7 @@ inline constexpr double close_beside = 1e-5;
 inline constexpr double along_beside = 0.025;
 
 /// A band in which element faces are being made to lie on tools.
-struct Interface {
+struct Workpiece {
     Deformable d;
     const Tool* tool = nullptr;             ///< the first, to which `distance` belongs
     std::vector<double> distance = {};      ///< signed, by band node; exactly 0 for nodes on the tool
@@ -98,11 +97,11 @@ struct Interface {
 /// Makes element faces (edges of shells) lie on a blade, where it is wanted: nodes near it are moved onto it along
 /// their constraints, nearest first; edges that still cross are bisected on it, longest first. Elements are not
 /// relaxed.
-void cut_along(Interface& interface, const Blade& blade);
+void cut_along(Workpiece& workpiece, const Blade& blade);
 
 /// Puts a node in contact with a tool that it lies on but for the rounding of coordinates. Where something holds it (a
 /// border, a corner, a card of the deck) it leaves that by as much as rounding allows.
-void put_on_tool(Interface& interface, int node, const Tool& tool);
+void put_on_tool(Workpiece& workpiece, int node, const Tool& tool);
 
 /// Whether a node is so near a tool, `distance` away, that no element should come to lie between them: then it is on
 /// the tool, held beside it where it cannot be moved there (Deformable::hold_beside()). `reach`: how far the elements
@@ -111,9 +110,9 @@ inline bool is_beside(double distance, double reach, double part) { return std::
 
 /// Collects the node sets, then improves the shape of the band's elements: deform(), improve(), and new nodes brought
 /// onto their curved surfaces.
-void relax_band(Interface& interface);
+void relax_band(Workpiece& workpiece);
 
-/// Runs `cut`, which has to leave `interface` relaxed, and looks at what came out: where new nodes could not be brought
+/// Runs `cut`, which has to leave `workpiece` relaxed, and looks at what came out: where new nodes could not be brought
 /// onto the skin or line they were born on and their tools, or second-order elements came out folded, it starts again
 /// with other choices there: nodes not put on the tool, then elements refined before the cut; `attempts` times at most,
 /// and within bounds on the band's growth, also against the mesh's `mesh_elements`, and on the work of all tries. Poor
@@ -121,22 +120,22 @@ void relax_band(Interface& interface);
 /// through flat surfaces (`whole_tool`), to refine.
 ///
 /// Throws QualityError naming the place when nothing helps.
-void cut_soundly(Interface& interface, const std::function<void(Interface&)>& cut, Index mesh_elements,
+void cut_soundly(Workpiece& workpiece, const std::function<void(Workpiece&)>& cut, Index mesh_elements,
                  int attempts = 12, bool whole_tool = false);
 
 /// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
 /// that still cross are bisected on it, longest first; then the band is relaxed.
-void snap_to_tool(Interface& interface, const Blade& blade, Index mesh_elements);
+void snap_to_tool(Workpiece& workpiece, const Blade& blade, Index mesh_elements);
 
 /// Collects `nodes` (all with contact) and `transition` anew.
-void find_node_sets(Interface& interface);
+void find_node_sets(Workpiece& workpiece);
 
 /// What relaxation may move: interface and transition nodes, and released ones; ascending.
-std::vector<int> movable_nodes(const Interface& interface);
+std::vector<int> movable_nodes(const Workpiece& workpiece);
 
 /// Relaxes anew around nodes that were born or moved since the last relaxation: those within a few edges, and others as
 /// far as that moves them, unless `only_there`. Collects the node sets anew.
-void relax_near(Interface& interface, const std::vector<int>& changed, bool only_there = false);
+void relax_near(Workpiece& workpiece, const std::vector<int>& changed, bool only_there = false);
 
 /// The paper's 3.1.1 and 3.1.2: finds a surface of element faces (edges, for shells) near the tool between a
 /// set T1 and a set T2 of elements, then moves its nodes, the interface nodes (CI), onto the tool.
@@ -154,25 +153,25 @@ void relax_near(Interface& interface, const std::vector<int>& changed, bool only
 ///
 /// No element comes out inverted or nearly flat, and no node on the wrong side of the tool. Throws
 /// QualityError naming the elements in the way when no surface tried can be moved there.
-void deform_to_tool(Interface& interface, const Tool& tool, const Mesh& mesh);
+void deform_to_tool(Workpiece& workpiece, const Tool& tool, const Mesh& mesh);
 
 /// Edges that are to be cut by the blade and whose mid-side node must not move (NodeConstraints::has_fixed_middle())
 /// are split in that node, where it is; the blade then crosses one half. To be called first.
-void split_at_fixed_middles(Interface& interface, const Blade& blade, const Mesh& mesh);
+void split_at_fixed_middles(Workpiece& workpiece, const Blade& blade, const Mesh& mesh);
 
 /// Throws QualityError that names the elements when the input itself has inverted ones in the band, or second-order
 /// ones that are folded where solvers integrate; counts poor ones (mean ratio below 0.1) as a warning. Elements that
 /// are folded at a corner only are mended, see folded_input.h.
-void check_input_shape(Interface& interface, const Mesh& mesh);
+void check_input_shape(Workpiece& workpiece, const Mesh& mesh);
 
 /// With the shape of the skin given: throws ToolError when no face of the skin in the band lies on it, counts those
 /// that do not as a warning.
-void check_skin(Interface& interface);
+void check_skin(Workpiece& workpiece);
 
 /// Throws QualityError that names the elements when one of the band is flat or inverted.
-void check_shape(const Interface& interface, const Mesh& mesh);
+void check_shape(const Workpiece& workpiece, const Mesh& mesh);
 
 /// Throws QualityError when a node in contact with a tool is off it by more than 1e-9 of the mesh's size.
-void check_contacts(const Interface& interface);
+void check_contacts(const Workpiece& workpiece);
 
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "deformation/relaxation.h"
+#include "deformation/deformable.h"
 
 namespace femscalpel {
 

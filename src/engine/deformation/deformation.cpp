@@ -3,6 +3,7 @@
 
 #include "deformation/bar_network.h"
 #include "deformation/curved_shape.h"
+#include "deformation/relaxation.h"
 
 namespace femscalpel {
 

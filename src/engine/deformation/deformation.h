@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "deformation/relaxation.h"
+#include "deformation/deformable.h"
 
 namespace femscalpel {
 

@@ -49,8 +49,6 @@ private:
     std::unordered_map<std::uint64_t, int> both_, either_, minus_;
 };
 
-constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
 /// Marks the nodes on faces of only one tetrahedron of the band (its rim included), without matching faces. Every

@@ -117,6 +117,11 @@ private:
     Rows around_;
 };
 
+/// Faces of a tetrahedron by places of its corners, normals outwards.
+inline constexpr int outward_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+/// The face opposite each corner, its normal towards the corner.
+inline constexpr int opposite_face[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
 /// Undirected edge as a 64-bit key.
 inline std::uint64_t edge_key(int a, int b) {
     if (a > b) std::swap(a, b);

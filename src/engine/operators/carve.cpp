@@ -52,7 +52,7 @@ std::vector<RefineZone> zones_of(std::span<const Body> bodies, const RefineFirst
 }
 
 /// Elements that stay must not reach deep into what was removed: then the mesh is too coarse to show the hole's shape.
-void check_resolution(const Interface& f, std::span<const Body> bodies) {
+void check_resolution(const Workpiece& f, std::span<const Body> bodies) {
     const BandMesh& band = f.d.band;
     for (const Body& body : bodies) {
         double radius = std::numeric_limits<double>::infinity();
@@ -90,7 +90,7 @@ void check_resolution(const Interface& f, std::span<const Body> bodies) {
 }
 
 /// Warns where the flat faces of a cylinder's wall, whose nodes lie on it, leave much of the hole standing.
-void warn_of_flat_walls(Interface& f, const Lips& walls, std::span<const Tool* const> tool_of_tag) {
+void warn_of_flat_walls(Workpiece& f, const Opening& walls, std::span<const Tool* const> tool_of_tag) {
     for (std::size_t tag = 0; tag < tool_of_tag.size(); ++tag) {
         const Tool& tool = *tool_of_tag[tag];
         if (!dynamic_cast<const Cylinder*>(&tool)) continue;
@@ -191,12 +191,12 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
             "method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and "
             "several holes");
     Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()}, started);
-    Interface f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) {
+    Workpiece f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) {
         return deep_inside(whole, level, depths);
     });
     f.warnings.insert(f.warnings.end(), warnings.begin(), warnings.end());
     const Mesh& mesh = operation.mesh();
-    const auto carve_once = [&](Interface& g) {
+    const auto carve_once = [&](Workpiece& g) {
         Index removed = static_cast<Index>(g.deep_inside.size());
         std::size_t blade = 0;
         for (const Body& body : bodies) {
@@ -243,7 +243,7 @@ Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, 
     check_shape(f, mesh);
     find_node_sets(f);
     check_contacts(f);
-    const Lips walls = open_walls(f);
+    const Opening walls = open_walls(f);
     warn_of_flat_walls(f, walls, tool_of_tag);
     note_slivers(f, tool_of_tag, -1);
     return operation.finish(f, walls, naming);

@@ -29,7 +29,7 @@ constexpr double coarse = 0.75;
 /// Tag of the tool's faces in the band.
 constexpr int whole_tool = 0;
 
-void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
+void snap_to_patch(Workpiece& f, const Blade& blade, const Patch& patch) {
     const Tool& tool = *blade.tool;
     cut_along(f, blade);
     cut_border(f, patch);
@@ -49,11 +49,11 @@ void snap_to_patch(Interface& f, const Blade& blade, const Patch& patch) {
 }
 
 /// The chains of a face's border that lie inside the material: nodes of the opened surface are beyond them.
-std::vector<int> inner_border(const Interface& f, const Lips& lips) {
+std::vector<int> inner_border(const Workpiece& f, const Opening& opening) {
     const auto* face = dynamic_cast<const Face*>(f.tool);
     std::vector<int> out;
     if (!face) return out;
-    for (const int v : lips.interface_nodes) {
+    for (const int v : opening.interface_nodes) {
         const Vec3& x = f.d.band.nodes[v].at;
         const double clearance = outside * f.d.band.mean_edge_length(v);
         if (face->beyond(x) <= clearance) continue;
@@ -66,8 +66,8 @@ std::vector<int> inner_border(const Interface& f, const Lips& lips) {
 }
 
 /// All nodes of the lips must have been brought onto the tool, and into the patch if there is one.
-void check_lips(const Interface& f, const Lips& lips, const Patch* patch) {
-    for (const int v : lips.interface_nodes) {
+void check_lips(const Workpiece& f, const Opening& opening, const Patch* patch) {
+    for (const int v : opening.interface_nodes) {
         const Vec3& x = f.d.band.nodes[v].at;
         const double held = f.d.held_off[v], off = std::abs(f.tool->distance(x)) - held,
                      beyond = patch ? patch->distance(x) - held : 0;
@@ -85,7 +85,7 @@ void check_lips(const Interface& f, const Lips& lips, const Patch* patch) {
 
 /// Exactly the faces of a bounded crack must have come apart, each lip must have them all, and the front must be their
 /// whole border inside the material and lie on the patch's.
-void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
+void check_opening(const Workpiece& f, const Opening& opening, const Patch& patch) {
     const BandMesh& band = f.d.band;
     const auto fail = [&](int v) {
         std::ostringstream message;
@@ -101,12 +101,12 @@ void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
     };
     constexpr int corners[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
     std::set<int> near;
-    for (const int v : lips.interface_nodes) near.insert(band.tetras.around(v).begin(), band.tetras.around(v).end());
+    for (const int v : opening.interface_nodes) near.insert(band.tetras.around(v).begin(), band.tetras.around(v).end());
     std::map<Key, std::vector<Key>> faces;  // as they are now, by what they were
     for (const int t : near)
         for (const auto& c : corners) {
             const auto &was = band.tetras[t],
-                       &is = static_cast<std::size_t>(t) < lips.tetras.size() ? lips.tetras[t] : was;
+                       &is = static_cast<std::size_t>(t) < opening.tetras.size() ? opening.tetras[t] : was;
             faces[sorted({was[c[0]], was[c[1]], was[c[2]]})].push_back(sorted({is[c[0]], is[c[1]], is[c[2]]}));
         }
     std::multiset<Key> opened, listed;
@@ -116,12 +116,12 @@ void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
         if (open != (band.cut_faces.find(key) >= 0)) fail(key[0]);
         if (open) opened.insert(sides.begin(), sides.end());
     }
-    for (const auto& face : lips.faces) listed.insert(sorted(face.nodes));
-    if (opened != listed) fail(lips.interface_nodes.front());
+    for (const auto& face : opening.faces) listed.insert(sorted(face.nodes));
+    if (opened != listed) fail(opening.interface_nodes.front());
     // The edges that only one face of a lip has, and both lips: neither of their ends is doubled.
-    const std::set<int> doubled(lips.copy_of.begin(), lips.copy_of.end());
+    const std::set<int> doubled(opening.copy_of.begin(), opening.copy_of.end());
     std::map<std::array<int, 2>, int> edges;
-    for (const auto& face : lips.faces)
+    for (const auto& face : opening.faces)
         for (int k = 0; face.group == 1 && k < 3; ++k) {
             const auto [low, high] = std::minmax(face.nodes[k], face.nodes[(k + 1) % 3]);
             if (high < band.size() && !doubled.contains(low) && !doubled.contains(high)) ++edges[{low, high}];
@@ -129,21 +129,22 @@ void check_opening(const Interface& f, const Lips& lips, const Patch& patch) {
     std::set<std::array<int, 2>> border, front;
     for (const auto& [edge, count] : edges)
         if (count == 1) border.insert(edge);
-    for (const auto& chain : lips.front_chains)
+    for (const auto& chain : opening.front_chains)
         for (std::size_t k = 1; k < chain.size(); ++k) {
             front.insert({std::min(chain[k - 1], chain[k]), std::max(chain[k - 1], chain[k])});
             for (const int v : {chain[k - 1], chain[k]})
                 if (std::abs(patch.distance(band.nodes[v].at)) > 100 * f.tolerance + f.d.held_off[v]) fail(v);
         }
-    if (border != front) fail(lips.front_nodes.empty() ? lips.interface_nodes.front() : lips.front_nodes.front());
+    if (border != front)
+        fail(opening.front_nodes.empty() ? opening.interface_nodes.front() : opening.front_nodes.front());
 }
 
 /// Faces of elements that are long against a tool's curvature cut its corners off, or miss parts of it.
-void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
+void warn_of_coarse_mesh(Workpiece& f, const Opening& opening) {
     const double radius = f.tool->feature_size();
     if (!std::isfinite(radius)) return;
     double longest = 0;
-    for (const int v : lips.interface_nodes) longest = std::max(longest, f.d.band.mean_edge_length(v));
+    for (const int v : opening.interface_nodes) longest = std::max(longest, f.d.band.mean_edge_length(v));
     if (longest <= coarse * radius) return;
     std::ostringstream message;
     message << "the mesh is coarse for the " << f.tool->kind() << ": edges of " << longest
@@ -154,9 +155,9 @@ void warn_of_coarse_mesh(Interface& f, const Lips& lips) {
 }
 
 /// Why a crack doubles no node, as a message.
-std::string why_no_lips(const Interface& f, const Lips& lips, const Blade& blade, bool crossed) {
+std::string why_no_lips(const Workpiece& f, const Opening& opening, const Blade& blade, bool crossed) {
     const std::string tool = "the " + f.tool->kind();
-    if (!lips.faces.empty() || !lips.edges.empty())
+    if (!opening.faces.empty() || !opening.edges.empty())
         return "the crack along " + tool + " cannot open: all its nodes are on its front. Refine the mesh there first";
     if (!crossed)
         return why_nothing_parts(f, blade,
@@ -198,13 +199,13 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     };
     if (auto result = on_refined()) return std::move(*result);
     Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"}, started);
-    Interface f = operation.begin({&blade, 1});
+    Workpiece f = operation.begin({&blade, 1});
     // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut
     // along.
-    const std::optional<Interface> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
+    const std::optional<Workpiece> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
     if (patch) {
         cut_soundly(
-            f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
+            f, [&](Workpiece& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
     } else if (operation.location().crossed > 0) {
         if (tool.bounded()) {
             cut_along(f, blade);
@@ -215,31 +216,31 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
             deform_to_tool(f, tool, operation.mesh());
     }
     check_cancelled();
-    std::optional<Lips> lips;
+    std::optional<Opening> opening;
     if (start) {
-        if (operation.location().crossed > 0) lips = open_lips(f);
-        if (const std::vector<int> inner = lips ? inner_border(f, *lips) : std::vector<int>(); !inner.empty()) {
+        if (operation.location().crossed > 0) opening = open_lips(f);
+        if (const std::vector<int> inner = opening ? inner_border(f, *opening) : std::vector<int>(); !inner.empty()) {
             patch = dynamic_cast<const Face&>(tool).within(inner);
             if (auto result = on_refined()) return std::move(*result);
             blade.bound = patch->distance;
             blade.tag = whole_tool;
             f = *start;
             cut_soundly(
-                f, [&](Interface& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
-            lips.reset();
+                f, [&](Workpiece& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
+            opening.reset();
         }
     }
     operation.take_laps(f.seconds);
     if (patch || operation.location().crossed > 0) check_shape(f, operation.mesh());
-    if (!lips) lips = open_lips(f);
-    if (lips->copy_of.empty()) throw ToolError(why_no_lips(f, *lips, blade, operation.location().crossed > 0));
+    if (!opening) opening = open_lips(f);
+    if (opening->copy_of.empty()) throw ToolError(why_no_lips(f, *opening, blade, operation.location().crossed > 0));
     find_node_sets(f);
     check_contacts(f);
-    check_lips(f, *lips, patch ? &*patch : nullptr);
-    if (patch && !lips->faces.empty()) check_opening(f, *lips, *patch);
-    warn_of_coarse_mesh(f, *lips);
+    check_lips(f, *opening, patch ? &*patch : nullptr);
+    if (patch && !opening->faces.empty()) check_opening(f, *opening, *patch);
+    warn_of_coarse_mesh(f, *opening);
     return operation.finish(
-        f, *lips,
+        f, *opening,
         {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
 }
 

@@ -75,7 +75,7 @@ struct BandQuality {
     std::vector<ElementQuality> before, after;
 };
 
-BandQuality band_quality(const Interface& f, const Mesh& mesh) {
+BandQuality band_quality(const Workpiece& f, const Mesh& mesh) {
     const BandMesh& band = f.d.band;
     std::vector<char> in(static_cast<std::size_t>(band.size()), 0);
     for (const int v : f.nodes) in[v] = 1;
@@ -108,7 +108,7 @@ BandQuality band_quality(const Interface& f, const Mesh& mesh) {
 constexpr double clearly_worse = 0.75;
 
 /// Whether an element at a node is clearly worse than in the input.
-bool became_worse(const Interface& f, const Mesh& mesh, int v) {
+bool became_worse(const Workpiece& f, const Mesh& mesh, int v) {
     const BandMesh& band = f.d.band;
     const auto fell = [&](double now, const CellRef& cell) {
         return now < clearly_worse * mean_ratio(mesh, cell.type, cell.cell);
@@ -124,7 +124,7 @@ bool became_worse(const Interface& f, const Mesh& mesh, int v) {
 
 /// Whether all of the surface or curve that a node keeps to lies on the tool around it: then there is no wedge between
 /// them.
-bool lies_on(const Interface& f, const Tool& tool, int v) {
+bool lies_on(const Workpiece& f, const Tool& tool, int v) {
     const BandMesh& band = f.d.band;
     const NodeConstraint& c = f.d.constraints[v];
     const auto on_tool = [&](const auto& list) {
@@ -148,7 +148,7 @@ std::string degrees(double angle) {
 
 /// Angles and gaps at which geometry alone, not the method, limits the quality near the tool. Only where elements have
 /// become worse.
-void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
+void warn_of_grazing(Workpiece& f, const Tool& tool, const Mesh& mesh) {
     const BandMesh& band = f.d.band;
     const auto angle = [](double sine) { return std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi; };
     const auto counts = [&](int v) { return !lies_on(f, tool, v) && became_worse(f, mesh, v); };
@@ -194,7 +194,7 @@ void warn_of_grazing(Interface& f, const Tool& tool, const Mesh& mesh) {
 
 /// Surfaces that lie on each other, such as the lips of a crack that the mesh had already, are worked on each for
 /// itself: their nodes may part.
-void warn_of_parted_lips(Interface& f) {
+void warn_of_parted_lips(Workpiece& f) {
     const BandMesh& band = f.d.band;
     const auto key = [](const Vec3& x) { return std::array{x[0], x[1], x[2]}; };
     // Nodes of the skin that lay on each other, and new ones between them.
@@ -248,7 +248,7 @@ std::vector<MovedMiddle> moved_middles(const BandMesh& band, const Mesh& before,
 }
 
 /// Adds them to the set of their edge: interface if it lies on a tool, else transition; and to the constraints.
-void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, const Mesh& before,
+void add_middles(const std::vector<MovedMiddle>& middles, const Workpiece& f, const Mesh& before,
                  const Rebuilt& rebuilt, const std::array<const char*, 4>& sets, Report& report) {
     const NodeConstraints& constraints = f.d.constraints;
     for (const MovedMiddle& m : middles) {
@@ -270,7 +270,7 @@ void add_middles(const std::vector<MovedMiddle>& middles, const Interface& f, co
     }
 }
 
-void count_constraints(const Interface& f, const std::vector<Blade>& blades, Report& report) {
+void count_constraints(const Workpiece& f, const std::vector<Blade>& blades, Report& report) {
     const NodeConstraints& constraints = f.d.constraints;
     auto& counts = report.constraints;
     for (const char* kind : {"tangent plane", "line", "fixed", "group boundary", "free"}) counts[kind] = 0;
@@ -303,7 +303,7 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
 /// what changes is the error of the facets: this is not for that.) `whole` is the mesh before, of which `totals` are;
 /// `before` may be its band alone.
 void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after,
-                          const Interface& f, const std::vector<bool>& unjudged, Report& report) {
+                          const Workpiece& f, const std::vector<bool>& unjudged, Report& report) {
     const int dimension = whole.dimension();
     const auto all = [&](const FamilyTotals& t) {
         double sum = 0;
@@ -346,7 +346,7 @@ void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTot
                                   "facets, or refine the mesh there first");
 }
 
-void count_group_constraints(const Interface& f, const Mesh& before, Report& report) {
+void count_group_constraints(const Workpiece& f, const Mesh& before, Report& report) {
     std::vector<int> nodes = f.nodes;
     nodes.insert(nodes.end(), f.transition.begin(), f.transition.end());
     const auto counts = f.d.constraints.count_by_group(f.d.band, nodes, before.groups.size());
@@ -359,7 +359,7 @@ void count_group_constraints(const Interface& f, const Mesh& before, Report& rep
 
 /// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements
 /// came out poor.
-void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) {
+void warn_of_held_nodes(const Workpiece& f, const Mesh& before, Report& report) {
     constexpr double poor = 0.2, fallen = 0.6;  // mean ratio; part of what it was before
     constexpr std::size_t named = 5;
     const double was = report.quality_before.minimum, is = report.quality_after.minimum;
@@ -387,7 +387,7 @@ void warn_of_held_nodes(const Interface& f, const Mesh& before, Report& report) 
 }
 
 /// Of groups whose boundary was not kept: how far it went.
-void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& before, const std::vector<bool>& drifting,
+void describe_drift(const DriftGauge& gauge, const Workpiece& f, const Mesh& before, const std::vector<bool>& drifting,
                     Report& report) {
     const std::vector<double> drift = gauge.drift(f.d.band, before);
     for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
@@ -398,7 +398,7 @@ void describe_drift(const DriftGauge& gauge, const Interface& f, const Mesh& bef
 }
 
 /// Of node groups whose boundary was kept, but for shortcuts: how far those went.
-void describe_shortcuts(const DriftGauge& gauge, const Interface& f, const Mesh& before, Report& report) {
+void describe_shortcuts(const DriftGauge& gauge, const Workpiece& f, const Mesh& before, Report& report) {
     const std::vector<double> drift = gauge.drift(f.d.band, before);
     for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
         if (r.kind == GroupKind::node) r.boundary_drift = std::max(r.boundary_drift, drift[g]);
@@ -407,7 +407,7 @@ void describe_shortcuts(const DriftGauge& gauge, const Interface& f, const Mesh&
 
 /// Moved nodes, boundary drift and losses of each group, by group index. Nodes from the number `first_new` on are not
 /// the input's and do not count.
-void describe_motion(const Interface& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes,
+void describe_motion(const Workpiece& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes,
                      Report& report) {
     const BandMesh& band = f.d.band;
     struct Motion {
@@ -483,7 +483,7 @@ void describe_motion(const Interface& f, const Mesh& before, Index first_new, co
 
 /// Splitting and merging can leave a node that moved, or an end of a split edge, outside the neighbourhood of the final
 /// interface; it still belongs to the transition.
-void add_moved_nodes(Interface& f) {
+void add_moved_nodes(Workpiece& f) {
     const BandMesh& band = f.d.band;
     std::vector<char> changed(static_cast<std::size_t>(band.size()), 0);
     for (int v = 0; v < band.size(); ++v) changed[v] = band.is_new(v) || band.nodes[v].at != band.nodes[v].start;
@@ -502,11 +502,11 @@ std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Inde
     return out;
 }
 
-void add_front(const Lips& lips, const std::string& name, Rebuilt& rebuilt) {
-    if (lips.front_nodes.empty()) return;
+void add_front(const Opening& opening, const std::string& name, Rebuilt& rebuilt) {
+    if (opening.front_nodes.empty()) return;
     Mesh& mesh = rebuilt.mesh;
     const GroupIndex group = mesh.add_group(name, GroupKind::node);
-    for (const int v : lips.front_nodes) {
+    for (const int v : opening.front_nodes) {
         FamilyIndex& family = mesh.node_families[rebuilt.node[v]];
         family = mesh.families.with(family, group);
     }
@@ -589,7 +589,7 @@ std::vector<Index> Operation::in_part(const std::vector<Index>& nodes) const {
     return out;
 }
 
-Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pick_removed) {
+Workpiece Operation::begin(std::span<const Blade> blades, const PickRemoved& pick_removed) {
     blades_.assign(blades.begin(), blades.end());
     // The output's copy and the group measures do not depend on the band: the second core makes them meanwhile.
     const bool copies = !options_.band_only, measures = prepared_.totals == nullptr;
@@ -619,7 +619,7 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     constraint_options.tolerance = location_.tolerance;
     constraint_options.rounding = location_.rounding > location_.tolerance ? location_.rounding : 0;
     const Tool& first = *blades.front().tool;
-    Interface f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options),
+    Workpiece f{.d = Deformable(extract_band(mesh(), location_.level, prepared_.adjacency), mesh(), constraint_options),
                 .tool = &first,
                 .tolerance = location_.tolerance,
                 .bandwidth = width};
@@ -642,10 +642,10 @@ Interface Operation::begin(std::span<const Blade> blades, const PickRemoved& pic
     return f;
 }
 
-Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
+Result Operation::finish(Workpiece& f, const Opening& opening, const Naming& naming) {
     // Only nodes of opened faces count as interface; others merely happen to lie on the tool.
     std::vector<char> opened(static_cast<std::size_t>(f.d.band.size()), 0);
-    for (const int v : lips.interface_nodes) opened[v] = 1;
+    for (const int v : opening.interface_nodes) opened[v] = 1;
     for (int v = 0; v < f.d.band.size(); ++v)
         if (!opened[v]) f.d.contact[v] = {};
     find_node_sets(f);
@@ -664,8 +664,8 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
     if (part_) output = std::make_unique<Mesh>(mesh());
     const FamilyTotals& totals = prepared_.totals ? *prepared_.totals : own_totals;
     check_cancelled();
-    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, lips, naming.groups, numbering_, naming.front);
-    if (lips.front_chains.empty()) add_front(lips, naming.front, rebuilt);
+    Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, opening, naming.groups, numbering_, naming.front);
+    if (opening.front_chains.empty()) add_front(opening, naming.front, rebuilt);
     if (!marks_->surface_sets.empty())
         renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
     watch_.lap("rebuild");
@@ -717,12 +717,12 @@ Result Operation::finish(Interface& f, const Lips& lips, const Naming& naming) {
             report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) +
                                        " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings :
-         std::initializer_list<const std::vector<std::string>*>{&f.warnings, &lips.warnings, &deck_warnings})
+         std::initializer_list<const std::vector<std::string>*>{&f.warnings, &opening.warnings, &deck_warnings})
         for (const std::string& w : *warnings)
             if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
     const bool refined = prepared_.refined && !prepared_.refined->tried_in_vain;
     if (refined) join_refinement(rebuilt);
-    describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, lips.removes,
+    describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, opening.removes,
                     report_);
     count_group_constraints(f, mesh(), report_);
     warn_of_held_nodes(f, mesh(), report_);

@@ -19,45 +19,12 @@
 #include "groups/preserve.h"
 #include "mesh/crop.h"
 #include "mesh/stopwatch.h"
+#include "operators/options.h"
 #include "operators/report.h"
 
 namespace femscalpel {
 
 struct Refined;
-
-/// Whether elements near the tool are bisected before the operation (refine_first.h).
-struct RefineFirst {
-    enum class When {
-        automatic,  ///< where the tool is finer than the mesh: edges are longer than half its radius; not for method
-                    ///< `deform`
-        never,
-        to_size,  ///< where edges are longer than `size`
-    };
-    When when = When::automatic;
-    double size = 0;
-};
-
-/// What every operator lets the user choose.
-struct OperatorOptions {
-    std::string name;  ///< prefix of the new groups
-    Method method = Method::snap;
-    /// The i-th neighbourhood of the interface that may move (the paper's bandwidth i, 3.1.2), 1 to 20. When absent:
-    /// for `deform` as in the paper, the largest distance of an interface node from the tool over the mean edge length,
-    /// at least 2; for `snap`, which moves nodes by less than an edge and splits the rest, 2, as more rings do not make
-    /// better elements (resources/docs/paper.md).
-    std::optional<int> transition;
-    double feature_angle = 30;  ///< degrees; a skin edge sharper than this is a feature line
-    /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
-    std::optional<std::vector<std::string>> preserve;
-    /// The shape the mesh was made from: nodes of the skin that move or are born are put on its faces and edges.
-    const CadShape* skin = nullptr;
-    bool strict = false;  ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
-    /// The result's mesh is only the elements near the tool, as the whole operation would make them: same numbers,
-    /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over
-    /// has to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
-    bool band_only = false;
-    RefineFirst refine;
-};
 
 /// What is known of a mesh: what a session keeps, all of which can be made anew at a cost linear in the mesh; and that
 /// it was refined for the operation.
@@ -70,8 +37,9 @@ struct Prepared {
 
 /// How an operator calls what it made.
 struct Naming {
-    std::vector<std::vector<std::string>> groups;  ///< of faces, by Lips::Face::group: each face is in all of its list
-    std::string front;                             ///< of the front: its segments if they form chains, else its nodes
+    std::vector<std::vector<std::string>>
+        groups;         ///< of faces, by Opening::Face::group: each face is in all of its list
+    std::string front;  ///< of the front: its segments if they form chains, else its nodes
     /// Node sets of the report: interface nodes inside and on the outside, transition nodes inside and on the outside.
     std::array<const char*, 4> sets{"ICN", "ECN", "ITN", "ETN"};
 };
@@ -97,7 +65,7 @@ public:
 
     /// Finds the band of `blades` and what its nodes have to keep to. Nodes on the first blade, where it is
     /// unbounded, are in contact with it. Throws as locate(), extract_band() and check_input_shape() do.
-    Interface begin(std::span<const Blade> blades, const PickRemoved& pick_removed = {});
+    Workpiece begin(std::span<const Blade> blades, const PickRemoved& pick_removed = {});
 
     /// Where the blades meet the mesh; known after begin().
     const Location& location() const { return location_; }
@@ -106,7 +74,7 @@ public:
     /// further attempts.
     void take_laps(const Laps& laps) { watch_.lap("check", laps); }
 
-    Result finish(Interface& f, const Lips& lips, const Naming& naming);
+    Result finish(Workpiece& f, const Opening& opening, const Naming& naming);
 
 private:
     void join_refinement(const Rebuilt& rebuilt);

@@ -30,7 +30,7 @@ struct Holders {
     auto operator<=>(const Holders&) const = default;
 };
 
-void add_holders(const Interface& f, const Mesh& mesh, int node, Holders& out) {
+void add_holders(const Workpiece& f, const Mesh& mesh, int node, Holders& out) {
     const NodeConstraints& constraints = f.d.constraints;
     if (f.d.contact[node].count() > 1) out.features.insert("an edge of the tool");
     const NodeFreedom freedom = constraints[node].freedom;
@@ -72,7 +72,7 @@ struct PoorElement {
     std::array<int, 4> nodes;  ///< the last is -1 for a triangle
 };
 
-std::vector<PoorElement> elements_below(double limit, const Interface& f, const Mesh& mesh) {
+std::vector<PoorElement> elements_below(double limit, const Workpiece& f, const Mesh& mesh) {
     const BandMesh& band = f.d.band;
     std::vector<PoorElement> out;
     for (int t = 0; t < band.tetras.size(); ++t)
@@ -94,7 +94,7 @@ std::vector<PoorElement> elements_below(double limit, const Interface& f, const 
 
 }  // namespace
 
-HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
+HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
     HeldNodes out;
     Holders holders;
     bool seen = false;
@@ -116,7 +116,7 @@ HeldNodes find_held_nodes(Interface& f, const Mesh& mesh) {
     return out;
 }
 
-std::vector<PoorPlace> find_poor_places(Interface& f, const Mesh& mesh, double worst_before) {
+std::vector<PoorPlace> find_poor_places(Workpiece& f, const Mesh& mesh, double worst_before) {
     const std::vector<PoorElement> poor = elements_below(std::min(poor_limit, part_of_worst * worst_before), f, mesh);
     std::map<Holders, PoorPlace> places;
     for (const PoorElement& e : poor) {

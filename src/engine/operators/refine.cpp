@@ -18,6 +18,7 @@
 #include "cutting/rebuild.h"
 #include "cutting/workpiece.h"
 #include "deck/carry_over.h"
+#include "deformation/relaxation.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "mesh/stopwatch.h"
@@ -448,7 +449,7 @@ struct NearestPoint {
 };
 
 /// Elements of the band that were split, and their parts.
-void describe_quality(const Mesh& mesh, const Interface& f, const Rebuilt& rebuilt, Report& report) {
+void describe_quality(const Mesh& mesh, const Workpiece& f, const Rebuilt& rebuilt, Report& report) {
     std::set<Index> attached;  // triangles on tetrahedra: their shape is that of the tetrahedra
     for (std::size_t t = 0; t < f.d.band.triangle_cells.size(); ++t)
         if (const CellRef& c = f.d.band.triangle_cells[t]; !f.d.constraints.is_shell(static_cast<int>(t)))
@@ -545,14 +546,14 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     constraint_options.shape = options.skin;
     // The propagation of longest edges leaves the elements to be refined by a few elements, seldom more.
     constexpr int first_band = 2, last_band = 64;
-    std::optional<Interface> f;
+    std::optional<Workpiece> f;
     std::optional<Bisector> bisector;
     for (int levels = first_band;; levels *= 4) {
         std::vector<std::int8_t> level = core;
         spread_levels(mesh, level, levels);
         bisector.reset();
         f.reset();
-        f.emplace(Interface{.d = Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options),
+        f.emplace(Workpiece{.d = Deformable(extract_band(mesh, level, nullptr, true), mesh, constraint_options),
                             .tool = nullptr,
                             .tolerance = 0,
                             .bandwidth = 0});
@@ -569,7 +570,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     put_back_middles(*f, mesh);
     f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
     auto [output, totals] = await(copy);
-    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, closed_lips(f->d.band), {}, next_numbers(mesh));
+    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, no_opening(f->d.band), {}, next_numbers(mesh));
     if (!marks.surface_sets.empty())
         renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
     watch.lap("rebuild");

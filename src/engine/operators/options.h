@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "operators/report.h"
+
+namespace femscalpel {
+
+class CadShape;
+
+/// Whether elements near the tool are bisected before the operation (refine_first.h).
+struct RefineFirst {
+    enum class When {
+        automatic,  ///< where the tool is finer than the mesh: edges are longer than half its radius; not for method
+                    ///< `deform`
+        never,
+        to_size,  ///< where edges are longer than `size`
+    };
+    When when = When::automatic;
+    double size = 0;
+};
+
+/// What every operator lets the user choose.
+struct OperatorOptions {
+    std::string name;  ///< prefix of the new groups
+    Method method = Method::snap;
+    /// The i-th neighbourhood of the interface that may move (the paper's bandwidth i, 3.1.2), 1 to 20. When absent:
+    /// for `deform` as in the paper, the largest distance of an interface node from the tool over the mean edge length,
+    /// at least 2; for `snap`, which moves nodes by less than an edge and splits the rest, 2, as more rings do not make
+    /// better elements (resources/docs/paper.md).
+    std::optional<int> transition;
+    double feature_angle = 30;  ///< degrees; a skin edge sharper than this is a feature line
+    /// Names of the groups whose boundary keeps its shape, the others' may drift; all are kept when absent.
+    std::optional<std::vector<std::string>> preserve;
+    /// The shape the mesh was made from: nodes of the skin that move or are born are put on its faces and edges.
+    const CadShape* skin = nullptr;
+    bool strict = false;  ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+    /// The result's mesh is only the elements near the tool, as the whole operation would make them: same numbers,
+    /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over
+    /// has to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
+    bool band_only = false;
+    RefineFirst refine;
+};
+
+}  // namespace femscalpel
