@@ -27,10 +27,8 @@ def faces_where(mesh, ids, holds):
     return "\n".join(lines)
 
 
-@pytest.fixture(scope="module")
-def deck(tmp_path_factory):
+def blocks(path):
     """Two blocks tied at x = 6, held at one end, pulled at the other, with supports and loads by number as well."""
-    path = tmp_path_factory.mktemp("deck") / "blocks.inp"
     left, right = grid_box((10, 7, 6), (6, 4, 3)), grid_box((8, 6, 5), (5, 4, 3))
     points = np.concatenate([left.points, right.points + (6, 0, 0)])
     cells = np.concatenate([left.cells["tetra"], right.cells["tetra"] + left.node_count])
@@ -68,6 +66,11 @@ def deck(tmp_path_factory):
             "PRINT, ELSET=ALL, TOTALS=ONLY\nEVOL\n*END STEP\n"
         )
     return fs.read(path)
+
+
+@pytest.fixture(scope="module")
+def deck(tmp_path_factory):
+    return blocks(tmp_path_factory.mktemp("deck") / "blocks.inp")
 
 
 def solve(mesh, folder, name):
