@@ -171,16 +171,19 @@ def _file(name, edge):
 
 
 def _ccx(name):
-    path = next((p for p in (ccx.DECKS / f"{name}.inp", ccx.DECKS / f"{name}.inp.gz") if p.exists()),
-                ccx.DECKS / f"{name}.inp")
+    path = next(
+        (p for p in (ccx.DECKS / f"{name}.inp", ccx.DECKS / f"{name}.inp.gz") if p.exists()), ccx.DECKS / f"{name}.inp"
+    )
     return Subject(lambda: fs.read(path), None, path)
 
 
 def _deck(write, *arguments):
     """What one of the tests writes and reads."""
+
     def make():
         with tempfile.TemporaryDirectory(prefix=FOLDER) as folder:
             return write(pathlib.Path(folder) / "deck.inp", *arguments)
+
     return Subject(make, None)
 
 
@@ -192,13 +195,19 @@ def _numbered_beams():
     """Tetrahedra with segments on some of their edges, a vertex, facet groups, and sparse numbers."""
     box = grid_box((4, 3, 3), (4.0, 3.0, 3.0))
     lines = [[k, k + 1] for k in range(4, 7)] + [[0, 16], [16, 32]]
-    groups = {"BEAMS": ("element", [9001, 9002, 9003, 9004, 9005]),
-              "SIDE": ("facet", [[1007, 1], [1014, 2], [1021, 3]]),
-              "MIX": ("element", [1007, 1014, 9002, 9900])}
-    return fs.Mesh(box.points, {"tetra": box.cells["tetra"], "line": lines, "vertex": [[40]]},
-                   3 * np.arange(box.node_count) + 5,
-                   {"tetra": 1000 + 7 * np.arange(1, len(box.cells["tetra"]) + 1), "line": range(9001, 9006),
-                    "vertex": [9900]}, groups, name="beams")
+    groups = {
+        "BEAMS": ("element", [9001, 9002, 9003, 9004, 9005]),
+        "SIDE": ("facet", [[1007, 1], [1014, 2], [1021, 3]]),
+        "MIX": ("element", [1007, 1014, 9002, 9900]),
+    }
+    return fs.Mesh(
+        box.points,
+        {"tetra": box.cells["tetra"], "line": lines, "vertex": [[40]]},
+        3 * np.arange(box.node_count) + 5,
+        {"tetra": 1000 + 7 * np.arange(1, len(box.cells["tetra"]) + 1), "line": range(9001, 9006), "vertex": [9900]},
+        groups,
+        name="beams",
+    )
 
 
 def _with_brick():
@@ -349,17 +358,23 @@ class Maker:
         u = unit(cross(normal, Z if self.flat else (0.3, 0.5, 0.8)))
         v = unit(cross(normal, u))
         size = self.length(2, 3.5)
-        corners = {"square": ((-1, -1), (1, -1), (1, 1), (-1, 1)),
-                   "corner": ((-1, -1), (1, -1), (1, 0.1), (0.1, 0.1), (0.1, 1), (-1, 1)),
-                   "star": ((-1, -0.8), (0, -0.3), (1.1, -1), (0.4, 0.2), (0.1, 1.3), (-0.4, 0.3))}
+        corners = {
+            "square": ((-1, -1), (1, -1), (1, 1), (-1, 1)),
+            "corner": ((-1, -1), (1, -1), (1, 0.1), (0.1, 0.1), (0.1, 1), (-1, 1)),
+            "star": ((-1, -0.8), (0, -0.3), (1.1, -1), (0.4, 0.2), (0.1, 1.3), (-0.4, 0.3)),
+        }
         if kind in corners:
-            within = fs.Polygon([plus(center, plus(scaled(u, a * size), scaled(v, b * size)))
-                                 for a, b in corners[kind]])
+            within = fs.Polygon(
+                [plus(center, plus(scaled(u, a * size), scaled(v, b * size))) for a, b in corners[kind]]
+            )
         else:
-            within = {"disk": lambda: fs.Disk(center, size), "small_disk": lambda: fs.Disk(center, round(size / 6, 6)),
-                      "half": lambda: fs.HalfPlane(center, u),
-                      "ellipse": lambda: fs.Ellipse(center, (size, round(0.6 * size, 6)), plus(u, v)),
-                      "rim": lambda: fs.Disk(plus(center, scaled(u, 4 * size)), round(4.6 * size, 6))}[kind]()
+            within = {
+                "disk": lambda: fs.Disk(center, size),
+                "small_disk": lambda: fs.Disk(center, round(size / 6, 6)),
+                "half": lambda: fs.HalfPlane(center, u),
+                "ellipse": lambda: fs.Ellipse(center, (size, round(0.6 * size, 6)), plus(u, v)),
+                "rim": lambda: fs.Disk(plus(center, scaled(u, 4 * size)), round(4.6 * size, 6)),
+            }[kind]()
         return fs.Plane(plane, normal), within
 
 
@@ -418,15 +433,20 @@ def _within(kind, option=""):
     def run(mesh, make, folder):
         tool, within = make.part(kind)
         return fs.crack(mesh, tool, within=within, **options_for(option, mesh, make.edge))
+
     return run
 
 
 def _drill(tools, option="", depth=None):
     def run(mesh, make, folder):
         made = [getattr(make, t)() for t in tools.split("+")]
-        return fs.drill(mesh, made[0] if len(made) == 1 else made,
-                        depth=None if depth is None else round(depth * make.edge, 6),
-                        **options_for(option, mesh, make.edge))
+        return fs.drill(
+            mesh,
+            made[0] if len(made) == 1 else made,
+            depth=None if depth is None else round(depth * make.edge, 6),
+            **options_for(option, mesh, make.edge),
+        )
+
     return run
 
 
@@ -438,9 +458,13 @@ def _cut(kind, option=""):
             low = plus(place, scaled(normal, -0.5 * make.edge))
             tilted = [plus(scaled(normal, s), scaled(cross(normal, Z if make.flat else X), 0.3)) for s in (1, -1)]
             return fs.cut(mesh, fs.Plane(place, tilted[0]), other=fs.Plane(low, tilted[1]), **kwargs)
-        bottom = {"slot": lambda: None, "saw": lambda: fs.Plane(place, cross(normal, (0.3, 0.5, 0.8))),
-                  "disk_saw": lambda: fs.Cylinder(place, normal, 3 * make.edge)}[kind]()
+        bottom = {
+            "slot": lambda: None,
+            "saw": lambda: fs.Plane(place, cross(normal, (0.3, 0.5, 0.8))),
+            "disk_saw": lambda: fs.Cylinder(place, normal, 3 * make.edge),
+        }[kind]()
         return fs.cut(mesh, fs.Plane(place, normal), width=width, bottom=bottom, **kwargs)
+
     return run
 
 
@@ -469,15 +493,18 @@ def _refine(kind):
         else:
             near = [getattr(make, t)() for t in what.split("+")]
         return fs.refine(mesh, near, size, **options)
+
     return run
 
 
 def _rounding(number):
     """A case of rounding_cases: tools at small distances from nodes, rounded coordinates."""
+
     def run(mesh, make, folder):
         case = rounding_cases.case(number)
         session = rounding_cases.subject(case.subject, case.rounding).session
         return getattr(session, case.operation)(case.tool, **case.options)
+
     return run
 
 
@@ -494,6 +521,7 @@ def _skin(operation, shape):
             "within": lambda: (lambda part: fs.crack(mesh, part[0], within=part[1], skin=path))(make.part("rim")),
         }
         return calls[operation]()
+
     return run
 
 
@@ -502,12 +530,17 @@ def _session(mesh, make, folder):
     session = fs.Scalpel(mesh)
     plane = make.plane()
     part = make.part("disk") if not make.flat else make.part("half")
-    calls = [lambda: session.crack(plane, band_only=True), lambda: session.crack(plane),
-             lambda: session.crack(part[0], within=part[1], name="IN"),
-             lambda: session.drill(make.cylinder(), band_only=True), lambda: session.drill(make.wide_cylinder()),
-             lambda: session.cut(make.plane(), width=0.5 * make.edge, band_only=True),
-             lambda: session.crack(make.sphere(), band_only=True),
-             lambda: session.crack(plane, method="deform"), lambda: session.crack(plane)]
+    calls = [
+        lambda: session.crack(plane, band_only=True),
+        lambda: session.crack(plane),
+        lambda: session.crack(part[0], within=part[1], name="IN"),
+        lambda: session.drill(make.cylinder(), band_only=True),
+        lambda: session.drill(make.wide_cylinder()),
+        lambda: session.cut(make.plane(), width=0.5 * make.edge, band_only=True),
+        lambda: session.crack(make.sphere(), band_only=True),
+        lambda: session.crack(plane, method="deform"),
+        lambda: session.crack(plane),
+    ]
     return [tried(call) for call in calls] + [session.mesh]
 
 
@@ -515,10 +548,14 @@ def _chain(mesh, make, folder):
     """Operation after operation, through files of both formats."""
     out, planes = [], [make.plane() for _ in range(3)]
     part = make.part("half" if make.flat else "ellipse")
-    calls = [lambda m: fs.crack(m, planes[0], name="A"), lambda m: fs.crack(m, part[0], within=part[1], name="B"),
-             lambda m: fs.drill(m, make.cylinder()), lambda m: fs.cut(m, planes[1], width=0.4 * make.edge),
-             lambda m: fs.refine(m, planes[2], 0.7 * make.edge),
-             lambda m: fs.crack(m, planes[2], name="C", preserve=())]
+    calls = [
+        lambda m: fs.crack(m, planes[0], name="A"),
+        lambda m: fs.crack(m, part[0], within=part[1], name="B"),
+        lambda m: fs.drill(m, make.cylinder()),
+        lambda m: fs.cut(m, planes[1], width=0.4 * make.edge),
+        lambda m: fs.refine(m, planes[2], 0.7 * make.edge),
+        lambda m: fs.crack(m, planes[2], name="C", preserve=()),
+    ]
     for k, call in enumerate(calls):
         result = tried(lambda: call(mesh))
         out.append(result)
@@ -536,12 +573,14 @@ def _chain(mesh, make, folder):
 
 def _cross(within):
     """A crack through a crack."""
+
     def run(mesh, make, folder):
         tool, part = make.part(within)
         first = fs.crack(mesh, tool, within=part, name="A")
         second = fs.crack(first.mesh, fs.Plane(tool.origin, make.direction()), name="B")
         hole = fs.Cylinder(tool.origin, make.axis(), 2 * make.edge)
         return [first, second, tried(lambda: fs.drill(second.mesh, hole))]
+
     return run
 
 
@@ -571,9 +610,16 @@ def _knowledge(mesh, make, folder):
     """What is known of a mesh without an operator."""
     boundaries = [dataclasses.asdict(b) for b in fs.virtual_boundaries(mesh)]
     python = [{t: np.round(v, 9) + 0.0 for t, v in f(mesh).items()} for f in (fs.scaled_jacobian, fs.smallest_angle)]
-    return [{"boundaries": boundaries, "elementary": [tuple(g) for g in mesh.elementary_groups()],
-             "ratio": fs.mean_ratio(mesh),
-             "measure": fs.measure(mesh), "python": python, "repr": repr(mesh)}]
+    return [
+        {
+            "boundaries": boundaries,
+            "elementary": [tuple(g) for g in mesh.elementary_groups()],
+            "ratio": fs.mean_ratio(mesh),
+            "measure": fs.measure(mesh),
+            "python": python,
+            "repr": repr(mesh),
+        }
+    ]
 
 
 def _large(mesh, make, folder):
@@ -601,60 +647,129 @@ FAILING = {
     "angle": lambda m: [tried(lambda t=t: fs.crack(m, PLANE, feature_angle=t)) for t in (0, 180, "x", float("nan"))],
     "preserve": lambda m: [tried(lambda t=t: fs.crack(m, PLANE, preserve=t)) for t in ("LEFT", 5, ["NONE"], [5])],
     "flags": lambda m: [tried(lambda t=t: fs.crack(m, PLANE, **t)) for t in ({"strict": 1}, {"band_only": "no"})],
-    "refine": lambda m: [tried(lambda t=t: fs.drill(m, HOLE, refine=t)) for t in (
-        0, -1.0, True, "fine", float("inf"), False, 0.01)],
-    "skin": lambda m: [tried(lambda t=t: fs.crack(m, PLANE, skin=t)) for t in (
-        5, SHAPES / "nowhere.brep", "not\na shape", SHAPES / "flanged_cylinder.brep")],
-    "within": lambda m: [tried(lambda t=t: fs.crack(m, PLANE, within=t(), refine=False)) for t in (
-        lambda: 5, lambda: fs.Disk(PLANE.origin, 0), lambda: fs.Disk((3.1, 2.4, 2.9), 1),
-        lambda: fs.Disk(PLANE.origin, 0.05),
-        lambda: fs.Disk((53.1, 2.4, -8.1), 1), lambda: fs.Polygon([PLANE.origin, (4.1, 2.4, 1.7)]),
-        lambda: fs.HalfPlane(PLANE.origin, PLANE.normal),
-        lambda: fs.Polygon([PLANE.origin, (4.1, 2.4, 1.7), (3.1, 3.4, 1.8), (4.1, 3.4, 1.6)]),
-        lambda: fs.CylinderPart((0, 1)),
-        lambda: fs.CylinderPart((1, 0)), lambda: fs.CylinderPart((0, 1), (0, 90)),
-        lambda: fs.Ellipse(PLANE.origin, (1,), X), lambda: fs.Polygon(3))],
-    "tools": lambda m: [tried(t) for t in (
-        lambda: fs.Plane((0, 0, 0), (0, 0, 0)), lambda: fs.Plane((0, 0), Z), lambda: fs.Plane("abc", Z),
-        lambda: fs.Plane((0, 0, float("inf")), Z),
-        lambda: fs.Cylinder((0, 0, 0), (0, 0, 0), 1), lambda: fs.Cylinder((0, 0, 0), Z, 0),
-        lambda: fs.Cylinder((0, 0, 0), Z, "1"),
-        lambda: fs.Sphere((0, 0, 0), -1), lambda: fs.Torus((0, 0, 0), Z, 1, 2),
-        lambda: fs.Torus((0, 0, 0), (0, 0, 0), 2, 1),
-        lambda: fs.Cone((0, 0, 0), Z, 1, 90), lambda: fs.Cone((0, 0, 0), Z, -1, 30),
-        lambda: fs.Face(SHAPES / "nowhere.step"), lambda: fs.Face(3))],
-    "drill_nothing": lambda m: [tried(lambda t=t: fs.drill(m, t)) for t in (
-        [], 5, [PLANE, 5], fs.Cylinder((50, 0, 0), Z, 1), fs.Sphere((3, 2, 2), 50))],
-    "drill_deform": lambda m: [tried(lambda t=t: fs.drill(m, **t)) for t in (
-        {"tools": [HOLE, HOLE], "method": "deform"}, {"tools": HOLE, "method": "deform", "depth": 1.0},
-        {"tools": HOLE, "depth": "2"}, {"tools": PLANE, "depth": 1.0}, {"tools": HOLE, "depth": -9.0})],
+    "refine": lambda m: [
+        tried(lambda t=t: fs.drill(m, HOLE, refine=t)) for t in (0, -1.0, True, "fine", float("inf"), False, 0.01)
+    ],
+    "skin": lambda m: [
+        tried(lambda t=t: fs.crack(m, PLANE, skin=t))
+        for t in (5, SHAPES / "nowhere.brep", "not\na shape", SHAPES / "flanged_cylinder.brep")
+    ],
+    "within": lambda m: [
+        tried(lambda t=t: fs.crack(m, PLANE, within=t(), refine=False))
+        for t in (
+            lambda: 5,
+            lambda: fs.Disk(PLANE.origin, 0),
+            lambda: fs.Disk((3.1, 2.4, 2.9), 1),
+            lambda: fs.Disk(PLANE.origin, 0.05),
+            lambda: fs.Disk((53.1, 2.4, -8.1), 1),
+            lambda: fs.Polygon([PLANE.origin, (4.1, 2.4, 1.7)]),
+            lambda: fs.HalfPlane(PLANE.origin, PLANE.normal),
+            lambda: fs.Polygon([PLANE.origin, (4.1, 2.4, 1.7), (3.1, 3.4, 1.8), (4.1, 3.4, 1.6)]),
+            lambda: fs.CylinderPart((0, 1)),
+            lambda: fs.CylinderPart((1, 0)),
+            lambda: fs.CylinderPart((0, 1), (0, 90)),
+            lambda: fs.Ellipse(PLANE.origin, (1,), X),
+            lambda: fs.Polygon(3),
+        )
+    ],
+    "tools": lambda m: [
+        tried(t)
+        for t in (
+            lambda: fs.Plane((0, 0, 0), (0, 0, 0)),
+            lambda: fs.Plane((0, 0), Z),
+            lambda: fs.Plane("abc", Z),
+            lambda: fs.Plane((0, 0, float("inf")), Z),
+            lambda: fs.Cylinder((0, 0, 0), (0, 0, 0), 1),
+            lambda: fs.Cylinder((0, 0, 0), Z, 0),
+            lambda: fs.Cylinder((0, 0, 0), Z, "1"),
+            lambda: fs.Sphere((0, 0, 0), -1),
+            lambda: fs.Torus((0, 0, 0), Z, 1, 2),
+            lambda: fs.Torus((0, 0, 0), (0, 0, 0), 2, 1),
+            lambda: fs.Cone((0, 0, 0), Z, 1, 90),
+            lambda: fs.Cone((0, 0, 0), Z, -1, 30),
+            lambda: fs.Face(SHAPES / "nowhere.step"),
+            lambda: fs.Face(3),
+        )
+    ],
+    "drill_nothing": lambda m: [
+        tried(lambda t=t: fs.drill(m, t))
+        for t in ([], 5, [PLANE, 5], fs.Cylinder((50, 0, 0), Z, 1), fs.Sphere((3, 2, 2), 50))
+    ],
+    "drill_deform": lambda m: [
+        tried(lambda t=t: fs.drill(m, **t))
+        for t in (
+            {"tools": [HOLE, HOLE], "method": "deform"},
+            {"tools": HOLE, "method": "deform", "depth": 1.0},
+            {"tools": HOLE, "depth": "2"},
+            {"tools": PLANE, "depth": 1.0},
+            {"tools": HOLE, "depth": -9.0},
+        )
+    ],
     "wall_thin": lambda m: [tried(lambda t=t: fs.drill(m, fs.Cylinder((1 + t, 2.5, 0), Z, 1))) for t in (1e-7, 0.01)],
-    "cut": lambda m: [tried(lambda t=t: fs.cut(**{"mesh": m, "tool": PLANE, **t})) for t in (
-        {}, {"width": 1, "other": PLANE}, {"width": 0}, {"width": -1}, {"width": "1"}, {"width": 1, "tool": HOLE},
-        {"width": 1, "bottom": 3},
-        {"width": 1, "tool": fs.Plane((50, 0, 0), X)}, {"width": 20}, {"width": 1, "method": "deform"},
-        {"other": fs.Plane((3, 2, 90), Z)})],
-    "near": lambda m: [tried(lambda t=t: fs.refine(m, **t)) for t in (
-        {"near": (0, 0, 0), "size": 0}, {"near": (0, 0, 0), "size": float("nan")},
-        {"near": (0, 0, 0), "size": 1, "gradation": -1},
-        {"near": (0, 0, 0), "size": 1, "reach": -1}, {"near": (0, 0, 0), "size": 1, "max_elements": 0},
-        {"near": (0, 0, 0), "size": 1, "relax": 1}, {"near": (0, 0), "size": 1},
-        {"near": "here", "size": 1}, {"near": np.zeros((0, 3)), "size": 1}, {"near": [(0, 0, float("inf"))], "size": 1},
-        {"near": [PLANE, 3], "size": 1})],
-    "not_a_mesh": lambda m: [tried(lambda: fs.crack("box.med", PLANE)), tried(lambda: fs.crack(m, "plane")),
-                             tried(lambda: fs.write("a", "b")), tried(lambda: fs.read(5))],
-    "groups": lambda m: [tried(t) for t in (
-        lambda: m.copy().add_group("LEFT", "element"), lambda: m.copy().add_group("NEW", "cell"),
-        lambda: m.copy().add_group("NEW", "node", [1]),
-        lambda: m.copy().remove_group("NONE"), lambda: m.copy().rename_group("LEFT", "RIGHT"),
-        lambda: fs.virtual_boundary(m, "NONE"), lambda: m.groups["LEFT", "node"],
-        lambda: m.copy().add_group("NEW", "facet", [[103, 9]]))],
-    "mesh": lambda m: [tried(t) for t in (
-        lambda: fs.Mesh([(0, 0, 0)], {"tetra": [[0, 1, 2, 3]]}), lambda: fs.Mesh([(0, 0)], {}),
-        lambda: fs.Mesh([(0, 0, float("nan"))], {}),
-        lambda: fs.Mesh([(0, 0, 0)] * 2, {}, [1, 1]), lambda: fs.Mesh([], {"ball": []}),
-        lambda: fs.Mesh(m.points, {"tetra": [[0, 1, 2]]}),
-        lambda: fs.Mesh(m.points, m.cells, cell_ids={}), lambda: fs.Mesh(m.points, {"tetra": [[0, 1, 1, 2]]}))],
+    "cut": lambda m: [
+        tried(lambda t=t: fs.cut(**{"mesh": m, "tool": PLANE, **t}))
+        for t in (
+            {},
+            {"width": 1, "other": PLANE},
+            {"width": 0},
+            {"width": -1},
+            {"width": "1"},
+            {"width": 1, "tool": HOLE},
+            {"width": 1, "bottom": 3},
+            {"width": 1, "tool": fs.Plane((50, 0, 0), X)},
+            {"width": 20},
+            {"width": 1, "method": "deform"},
+            {"other": fs.Plane((3, 2, 90), Z)},
+        )
+    ],
+    "near": lambda m: [
+        tried(lambda t=t: fs.refine(m, **t))
+        for t in (
+            {"near": (0, 0, 0), "size": 0},
+            {"near": (0, 0, 0), "size": float("nan")},
+            {"near": (0, 0, 0), "size": 1, "gradation": -1},
+            {"near": (0, 0, 0), "size": 1, "reach": -1},
+            {"near": (0, 0, 0), "size": 1, "max_elements": 0},
+            {"near": (0, 0, 0), "size": 1, "relax": 1},
+            {"near": (0, 0), "size": 1},
+            {"near": "here", "size": 1},
+            {"near": np.zeros((0, 3)), "size": 1},
+            {"near": [(0, 0, float("inf"))], "size": 1},
+            {"near": [PLANE, 3], "size": 1},
+        )
+    ],
+    "not_a_mesh": lambda m: [
+        tried(lambda: fs.crack("box.med", PLANE)),
+        tried(lambda: fs.crack(m, "plane")),
+        tried(lambda: fs.write("a", "b")),
+        tried(lambda: fs.read(5)),
+    ],
+    "groups": lambda m: [
+        tried(t)
+        for t in (
+            lambda: m.copy().add_group("LEFT", "element"),
+            lambda: m.copy().add_group("NEW", "cell"),
+            lambda: m.copy().add_group("NEW", "node", [1]),
+            lambda: m.copy().remove_group("NONE"),
+            lambda: m.copy().rename_group("LEFT", "RIGHT"),
+            lambda: fs.virtual_boundary(m, "NONE"),
+            lambda: m.groups["LEFT", "node"],
+            lambda: m.copy().add_group("NEW", "facet", [[103, 9]]),
+        )
+    ],
+    "mesh": lambda m: [
+        tried(t)
+        for t in (
+            lambda: fs.Mesh([(0, 0, 0)], {"tetra": [[0, 1, 2, 3]]}),
+            lambda: fs.Mesh([(0, 0)], {}),
+            lambda: fs.Mesh([(0, 0, float("nan"))], {}),
+            lambda: fs.Mesh([(0, 0, 0)] * 2, {}, [1, 1]),
+            lambda: fs.Mesh([], {"ball": []}),
+            lambda: fs.Mesh(m.points, {"tetra": [[0, 1, 2]]}),
+            lambda: fs.Mesh(m.points, m.cells, cell_ids={}),
+            lambda: fs.Mesh(m.points, {"tetra": [[0, 1, 1, 2]]}),
+        )
+    ],
     "cancelled": lambda m: _cancelled(m),
 }
 
@@ -668,12 +783,18 @@ def _cancelled(mesh):
 
 #: Files that cannot be read, or only with a warning, and what is in them.
 BROKEN = {
-    "missing.inp": None, "missing.med": None, "what.xyz": b"", "empty.inp": b"", "text.med": b"*NODE\n",
+    "missing.inp": None,
+    "missing.med": None,
+    "what.xyz": b"",
+    "empty.inp": b"",
+    "text.med": b"*NODE\n",
     "text.inp.gz": b"*NODE\n",
-    "node.inp": b"*NODE\n1, 0., x, 0.\n", "twice.inp": b"*NODE\n1, 0., 0., 0.\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n",
+    "node.inp": b"*NODE\n1, 0., x, 0.\n",
+    "twice.inp": b"*NODE\n1, 0., 0., 0.\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n",
     "type.inp": b"*NODE\n1, 0., 0., 0.\n*ELEMENT, TYPE=C9D9\n1, 1\n",
     "set.inp": b"*NODE\n1, 0., 0., 0.\n*NSET, NSET=A\n7\n",
-    "include.inp": b"*INCLUDE, INPUT=nowhere.inc\n", "card.inp": b"*NODE\n1, 0., 0., 0.\n*NONSENSE, A=B\n1, 2\n",
+    "include.inp": b"*INCLUDE, INPUT=nowhere.inc\n",
+    "card.inp": b"*NODE\n1, 0., 0., 0.\n*NONSENSE, A=B\n1, 2\n",
     "generate.inp": b"*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*NSET, NSET=A, GENERATE\n1, 2, 0\n",
 }
 
@@ -708,12 +829,25 @@ SPECIAL = [
     ("brick", "crack_in_brick", _call(lambda m: fs.crack(m, fs.Plane((3, 2.5, 2), (0.1, 1, 0))))),
     ("brick", "files", _files),
     ("beams", "crack_x", _call(lambda m: fs.crack(m, fs.Plane((1.6, 1, 1), (1, 0.1, 0.2))))),
-    ("beams", "crack_z", _call(lambda m: fs.crack(m, fs.Plane((1.6, 1, 1.1), (0.1, 0.1, 1)),
-                                                  within=fs.HalfPlane((1.6, 1, 1.1), (1, 0, -0.1))))),
-    ("beams", "drill", _call(lambda m: fs.drill(m, [fs.Cylinder((1.2, 1.3, 0), Z, 0.6),
-                                                    fs.Cylinder((2.2, 1.3, 0), Z, 0.7)]))),
-    ("beams", "cut", _call(lambda m: fs.cut(m, fs.Plane((2.2, 0, 0), X), width=0.5,
-                                            bottom=fs.Plane((0, 0, 1.2), (0, 0, -1))))),
+    (
+        "beams",
+        "crack_z",
+        _call(
+            lambda m: fs.crack(
+                m, fs.Plane((1.6, 1, 1.1), (0.1, 0.1, 1)), within=fs.HalfPlane((1.6, 1, 1.1), (1, 0, -0.1))
+            )
+        ),
+    ),
+    (
+        "beams",
+        "drill",
+        _call(lambda m: fs.drill(m, [fs.Cylinder((1.2, 1.3, 0), Z, 0.6), fs.Cylinder((2.2, 1.3, 0), Z, 0.7)])),
+    ),
+    (
+        "beams",
+        "cut",
+        _call(lambda m: fs.cut(m, fs.Plane((2.2, 0, 0), X), width=0.5, bottom=fs.Plane((0, 0, 1.2), (0, 0, -1)))),
+    ),
     ("beams", "refine", _call(lambda m: fs.refine(m, fs.Plane((2.2, 0, 0), X), 0.6))),
     ("beams", "files", _files),
     ("beams", "knowledge", _knowledge),
@@ -721,20 +855,34 @@ SPECIAL = [
     ("bordered", "on_the_border", _call(lambda m: fs.crack(m, fs.Plane((3, 0, 0), X)))),
     ("bordered", "wedge", _call(lambda m: fs.crack(m, fs.Plane((3.05, 3, 0), (1, 0.03, 0))))),
     ("bordered", "thin_wedge", _call(lambda m: fs.crack(m, fs.Plane((3.04, 3, 0), (1, 1e-4, 0))))),
-    *((name, f"in_the_plate_{side}", _call(lambda m, z=z: fs.crack(m, fs.Plane((0, 0, 0), (0, 0, z)))))
-      for name in ("junction", "junction3") for side, z in (("up", 1), ("down", -1))),
-    ("junction", "in_part_of_the_plate",
-     _call(lambda m: fs.crack(m, fs.Plane((0, 0, 0), Z), within=fs.Disk((4, 0, 0), 2.5)))),
+    *(
+        (name, f"in_the_plate_{side}", _call(lambda m, z=z: fs.crack(m, fs.Plane((0, 0, 0), (0, 0, z)))))
+        for name in ("junction", "junction3")
+        for side, z in (("up", 1), ("down", -1))
+    ),
+    (
+        "junction",
+        "in_part_of_the_plate",
+        _call(lambda m: fs.crack(m, fs.Plane((0, 0, 0), Z), within=fs.Disk((4, 0, 0), 2.5))),
+    ),
     ("junction3", "across", _call(lambda m: fs.crack(m, fs.Plane((3.3, 0, 0), (1, 0.2, 0.1))))),
     ("junction3", "hole", _call(lambda m: fs.drill(m, fs.Cylinder((4.2, 0.4, 0), Z, 1.3)))),
     ("junction3", "slot", _call(lambda m: fs.cut(m, fs.Plane((3.3, 0, 0), (1, 0.2, 0.1)), width=0.6))),
-    *((subject_, name.replace(" ", "_"), _call(lambda m, f=f: f(m, 2.5)))
-      for subject_ in ("folded_box2", "folded_sheet2") for name, f in folded.TOOLS.items()
-      if subject_ == "folded_box2" or name not in ("plane", "refined hole")),
+    *(
+        (subject_, name.replace(" ", "_"), _call(lambda m, f=f: f(m, 2.5)))
+        for subject_ in ("folded_box2", "folded_sheet2")
+        for name, f in folded.TOOLS.items()
+        if subject_ == "folded_box2" or name not in ("plane", "refined hole")
+    ),
     ("spoilt_box2", "plane", _call(lambda m: fs.crack(m, fs.Plane((2, 2.5, 2.5), (0.1, 2, 0.5))))),
-    *(("flat2", f"{operation}_{k}",
-       _call(lambda m, o=operation, c=(x, y, 0.0), r=r: getattr(fs, o)(m, fs.Cylinder(c, Z, r))))
-      for k, (operation, x, y, r) in enumerate(curved.FOLDING[:4])),
+    *(
+        (
+            "flat2",
+            f"{operation}_{k}",
+            _call(lambda m, o=operation, c=(x, y, 0.0), r=r: getattr(fs, o)(m, fs.Cylinder(c, Z, r))),
+        )
+        for k, (operation, x, y, r) in enumerate(curved.FOLDING[:4])
+    ),
 ]
 
 SOLIDS = ("two_boxes", "l_shape", "flanged", "elbow", "box", "uneven_box", "box2")
@@ -747,17 +895,25 @@ ROUNDED = ("two_boxes", "l_shape", "flanged", "caisson", "elbow")
 #: and mesh.
 TABLE: Tuple[Tuple[str, Callable, tuple, Tuple[str, ...]], ...] = (
     # cracks
-    *((f"crack/plane{'/' + o if o else ''}", _crack, ("plane", o), s) for o, s in (
-        ("", (*SOLIDS, *FLAT, "flanged_coarse", "caisson", "two_boxes_39k", "tube2")),
-        ("one_ring", ("two_boxes", "box2", "plate")), ("four_rings", ("l_shape", "elbow", "caisson")),
-        ("sharp", ("flanged", "elbow")),
-        ("blunt", ("flanged_coarse", "caisson")), ("none_kept", ("two_boxes", "uneven_box", "elbow", "plate2")),
-        ("one_kept", ("two_boxes", "uneven_plate")),
-        ("strict", ("l_shape",)), ("preview", ("two_boxes", "elbow", "plate2", "two_boxes_39k")),
-        ("never_refined", ("box",)),
-        ("refined", ("uneven_box", "box2", "plate", "flanged_coarse")),
-        ("deform", ("two_boxes", "uneven_box", "elbow", "uneven_plate", "flat2", "flanged")),
-        ("deform4", ("l_shape", "fine_box2", "caisson")), ("named", ("box",)))),
+    *(
+        (f"crack/plane{'/' + o if o else ''}", _crack, ("plane", o), s)
+        for o, s in (
+            ("", (*SOLIDS, *FLAT, "flanged_coarse", "caisson", "two_boxes_39k", "tube2")),
+            ("one_ring", ("two_boxes", "box2", "plate")),
+            ("four_rings", ("l_shape", "elbow", "caisson")),
+            ("sharp", ("flanged", "elbow")),
+            ("blunt", ("flanged_coarse", "caisson")),
+            ("none_kept", ("two_boxes", "uneven_box", "elbow", "plate2")),
+            ("one_kept", ("two_boxes", "uneven_plate")),
+            ("strict", ("l_shape",)),
+            ("preview", ("two_boxes", "elbow", "plate2", "two_boxes_39k")),
+            ("never_refined", ("box",)),
+            ("refined", ("uneven_box", "box2", "plate", "flanged_coarse")),
+            ("deform", ("two_boxes", "uneven_box", "elbow", "uneven_plate", "flat2", "flanged")),
+            ("deform4", ("l_shape", "fine_box2", "caisson")),
+            ("named", ("box",)),
+        )
+    ),
     ("crack/grid_plane", _crack, ("grid_plane",), ("two_boxes", "box", "box2", "plate", "plate2", "l_shape")),
     ("crack/cylinder", _crack, ("cylinder",), ("two_boxes", "flanged", "box2", "uneven_plate", "caisson")),
     ("crack/cylinder/deform", _crack, ("cylinder", "deform"), ("two_boxes", "uneven_plate")),
@@ -768,57 +924,100 @@ TABLE: Tuple[Tuple[str, Callable, tuple, Tuple[str, ...]], ...] = (
     ("crack/face", _crack, ("face",), ("two_boxes", "group_box", "elbow")),
     ("crack/face_brep", _crack, ("face_brep",), ("l_shape", "fine_box2")),
     # cracks that end inside
-    *((f"within/{k}", _within, (k,), s) for k, s in (
-        ("disk", ("two_boxes", "fine_box", "fine_box2", "elbow", "caisson", "plate")),
-        ("small_disk", ("two_boxes", "uneven_box")),
-        ("ellipse", ("fine_box", "l_shape", "fine_box2")), ("square", ("fine_box", "two_boxes", "uneven_plate")),
-        ("corner", ("fine_box", "fine_box2")),
-        ("star", ("fine_box", "flanged")), ("rim", ("l_shape", "flanged", "elbow")),
-        ("half", ("two_boxes", "uneven_box", "box2", "plate", "plate2", "caisson", "elbow")),
-        ("cylinder", ("fine_box", "two_boxes")), ("cylinder_angles", ("fine_box", "l_shape", "fine_box2")))),
+    *(
+        (f"within/{k}", _within, (k,), s)
+        for k, s in (
+            ("disk", ("two_boxes", "fine_box", "fine_box2", "elbow", "caisson", "plate")),
+            ("small_disk", ("two_boxes", "uneven_box")),
+            ("ellipse", ("fine_box", "l_shape", "fine_box2")),
+            ("square", ("fine_box", "two_boxes", "uneven_plate")),
+            ("corner", ("fine_box", "fine_box2")),
+            ("star", ("fine_box", "flanged")),
+            ("rim", ("l_shape", "flanged", "elbow")),
+            ("half", ("two_boxes", "uneven_box", "box2", "plate", "plate2", "caisson", "elbow")),
+            ("cylinder", ("fine_box", "two_boxes")),
+            ("cylinder_angles", ("fine_box", "l_shape", "fine_box2")),
+        )
+    ),
     ("within/disk/never_refined", _within, ("disk", "never_refined"), ("fine_box", "two_boxes")),
     ("within/disk/refined", _within, ("disk", "refined"), ("fine_box", "elbow")),
     ("within/square/preview", _within, ("square", "preview"), ("fine_box", "two_boxes")),
     ("within/ellipse/deform", _within, ("ellipse", "deform"), ("two_boxes",)),
     # holes
-    *((f"drill/{t}{'/' + o if o else ''}{'/blind' if d else ''}", _drill, (t, o, d), s) for t, o, d, s in (
-        ("cylinder", "", None, (*SOLIDS, *FLAT, "caisson", "two_boxes_39k", "tube2")),
-        ("cylinder", "", 1.3, ("two_boxes", "uneven_box", "elbow")),
-        ("cylinder+cylinder", "", None, ("two_boxes", "plate2", "box2")),
-        ("cylinder+sphere+plane", "none_kept", None, ("l_shape",)),
-        ("cylinder+cone", "", 2.0, ("two_boxes",)), ("torus", "", None, ("two_boxes", "l_shape")),
-        ("sphere", "", None, ("two_boxes", "uneven_box", "plate", "fine_box2")),
-        ("cone", "", None, ("flanged", "box2")), ("plane", "", None, ("two_boxes", "elbow", "plate")),
-        ("wide_cylinder", "", None, ("two_boxes", "uneven_plate")),
-        ("thin_cylinder", "", None, ("uneven_box", "plate")),
-        ("cylinder", "deform", None, ("two_boxes", "uneven_box", "flat2")),
-        ("cylinder", "preview", None, ("two_boxes", "box2")),
-        ("cylinder", "never_refined", None, ("l_shape", "plate2")),
-        ("cylinder", "refined", None, ("uneven_box", "elbow")), ("cylinder", "none_kept", None, ("two_boxes", "plate")),
-        ("cylinder", "strict", None, ("flanged",)), ("face", "", None, ("group_box",)))),
+    *(
+        (f"drill/{t}{'/' + o if o else ''}{'/blind' if d else ''}", _drill, (t, o, d), s)
+        for t, o, d, s in (
+            ("cylinder", "", None, (*SOLIDS, *FLAT, "caisson", "two_boxes_39k", "tube2")),
+            ("cylinder", "", 1.3, ("two_boxes", "uneven_box", "elbow")),
+            ("cylinder+cylinder", "", None, ("two_boxes", "plate2", "box2")),
+            ("cylinder+sphere+plane", "none_kept", None, ("l_shape",)),
+            ("cylinder+cone", "", 2.0, ("two_boxes",)),
+            ("torus", "", None, ("two_boxes", "l_shape")),
+            ("sphere", "", None, ("two_boxes", "uneven_box", "plate", "fine_box2")),
+            ("cone", "", None, ("flanged", "box2")),
+            ("plane", "", None, ("two_boxes", "elbow", "plate")),
+            ("wide_cylinder", "", None, ("two_boxes", "uneven_plate")),
+            ("thin_cylinder", "", None, ("uneven_box", "plate")),
+            ("cylinder", "deform", None, ("two_boxes", "uneven_box", "flat2")),
+            ("cylinder", "preview", None, ("two_boxes", "box2")),
+            ("cylinder", "never_refined", None, ("l_shape", "plate2")),
+            ("cylinder", "refined", None, ("uneven_box", "elbow")),
+            ("cylinder", "none_kept", None, ("two_boxes", "plate")),
+            ("cylinder", "strict", None, ("flanged",)),
+            ("face", "", None, ("group_box",)),
+        )
+    ),
     # slots
-    *((f"cut/{k}{'/' + o if o else ''}", _cut, (k, o), s) for k, o, s in (
-        ("slot", "", (*SOLIDS, *FLAT, "caisson", "tube2")), ("saw", "", ("two_boxes", "uneven_box", "box2", "elbow")),
-        ("disk_saw", "", ("two_boxes", "l_shape", "fine_box2")),
-        ("notch", "", ("two_boxes", "uneven_box", "plate", "elbow")), ("slot", "preview", ("two_boxes", "box2")),
-        ("slot", "refined", ("uneven_box",)),
-        ("slot", "none_kept", ("two_boxes", "plate2")), ("slot", "deform", ("two_boxes",)),
-        ("saw", "strict", ("l_shape",)))),
+    *(
+        (f"cut/{k}{'/' + o if o else ''}", _cut, (k, o), s)
+        for k, o, s in (
+            ("slot", "", (*SOLIDS, *FLAT, "caisson", "tube2")),
+            ("saw", "", ("two_boxes", "uneven_box", "box2", "elbow")),
+            ("disk_saw", "", ("two_boxes", "l_shape", "fine_box2")),
+            ("notch", "", ("two_boxes", "uneven_box", "plate", "elbow")),
+            ("slot", "preview", ("two_boxes", "box2")),
+            ("slot", "refined", ("uneven_box",)),
+            ("slot", "none_kept", ("two_boxes", "plate2")),
+            ("slot", "deform", ("two_boxes",)),
+            ("saw", "strict", ("l_shape",)),
+        )
+    ),
     # refinement
-    *((f"refine/{k}", _refine, (k,), s) for k, s in (
-        ("plane", ("two_boxes", "elbow", "plate2", "caisson")), ("cylinder", ("l_shape", "box2", "uneven_plate")),
-        ("tools", ("uneven_box", "flanged_coarse")),
-        ("point", ("two_boxes", "box2", "tube2")), ("points", ("flanged", "plate")), ("all", ("uneven_box", "plate2")),
-        ("too_many", ("two_boxes",)), ("nothing", ("l_shape",)))),
+    *(
+        (f"refine/{k}", _refine, (k,), s)
+        for k, s in (
+            ("plane", ("two_boxes", "elbow", "plate2", "caisson")),
+            ("cylinder", ("l_shape", "box2", "uneven_plate")),
+            ("tools", ("uneven_box", "flanged_coarse")),
+            ("point", ("two_boxes", "box2", "tube2")),
+            ("points", ("flanged", "plate")),
+            ("all", ("uneven_box", "plate2")),
+            ("too_many", ("two_boxes",)),
+            ("nothing", ("l_shape",)),
+        )
+    ),
     # skin
-    *((f"skin/{o}", _skin, (o, shape), (s,)) for o in ("crack", "drill", "cut", "refine", "within")
-      for shape, s in (("flanged_cylinder", "flanged"), ("flanged_cylinder", "flanged_coarse"),
-                       ("quadratic_elbow", "elbow")) if (o, s) != ("within", "flanged_coarse")),
+    *(
+        (f"skin/{o}", _skin, (o, shape), (s,))
+        for o in ("crack", "drill", "cut", "refine", "within")
+        for shape, s in (
+            ("flanged_cylinder", "flanged"),
+            ("flanged_cylinder", "flanged_coarse"),
+            ("quadratic_elbow", "elbow"),
+        )
+        if (o, s) != ("within", "flanged_coarse")
+    ),
     # several
     ("session", lambda: _session, (), ("two_boxes", "fine_box2", "uneven_plate", "elbow")),
     ("chain", lambda: _chain, (), ("two_boxes", "uneven_box", "plate2", "l_shape")),
-    *((f"cross/{k}", _cross, (k,), s) for k, s in (
-        ("disk", ("fine_box", "two_boxes")), ("half", ("fine_box2", "uneven_plate")), ("square", ("fine_box",)))),
+    *(
+        (f"cross/{k}", _cross, (k,), s)
+        for k, s in (
+            ("disk", ("fine_box", "two_boxes")),
+            ("half", ("fine_box2", "uneven_plate")),
+            ("square", ("fine_box",)),
+        )
+    ),
     ("files", lambda: _files, (), ("two_boxes", "elbow", "caisson", "plate2", "group_box")),
     ("knowledge", lambda: _knowledge, (), ("two_boxes", "l_shape", "elbow", "caisson", "plate2")),
     ("large", lambda: _large, (), ("two_boxes_505k",)),
@@ -834,8 +1033,14 @@ DECK_CALLS = {
     "cut": lambda m, make: fs.cut(m, make.plane(), width=0.5 * make.edge),
     "refine": lambda m, make: fs.refine(m, make.plane(), 0.8 * make.edge, gradation=1.0),
 }
-DECKS = ("blocks", "periodic", "periodic2", "loaded", "helper_sets",
-         *(f"ccx_{name}" for name in ccx.NORMALS if name not in ("cubef2f2", "cubef2f3")))
+DECKS = (
+    "blocks",
+    "periodic",
+    "periodic2",
+    "loaded",
+    "helper_sets",
+    *(f"ccx_{name}" for name in ccx.NORMALS if name not in ("cubef2f2", "cubef2f3")),
+)
 
 
 def _on_deck(call):
@@ -852,23 +1057,30 @@ def _deck_chain(mesh, make, folder):
     out = [fs.drill(mesh, removal.HOLES)]
     out.append(fs.cut(out[0].mesh, removal.SLOT, width=0.4, bottom=fs.Plane((0, 0, 1.3), (0, 0, -1))))
     fs.write(out[1].mesh, folder / "deck.inp")
-    return out + [fs.crack(fs.read(folder / "deck.inp"), fs.Plane((4.6, 1, 1), (1, 0.1, 0.1))),
-                  tried(lambda: fs.drill(mesh, removal.HOLES, strict=True))]
+    return out + [
+        fs.crack(fs.read(folder / "deck.inp"), fs.Plane((4.6, 1, 1), (1, 0.1, 0.1))),
+        tried(lambda: fs.drill(mesh, removal.HOLES, strict=True)),
+    ]
 
 
 def operations():
     """All of them; names are unique."""
-    out = [Operation(f"{name}/{s}", s, build(*arguments))
-           for name, build, arguments, subjects in TABLE for s in subjects]
+    out = [
+        Operation(f"{name}/{s}", s, build(*arguments)) for name, build, arguments, subjects in TABLE for s in subjects
+    ]
     out += [Operation(f"special/{s}/{name}", s, run) for s, name, run in SPECIAL]
     out += [Operation(f"error/{name}", "group_box", _call(call)) for name, call in FAILING.items()]
     out += [Operation(f"rounding/{k:02}", "group_box", _rounding(k), ROUNDED) for k in range(40)]
     out += [Operation(f"deck/{call}/{s}", s, _on_deck(call)) for s in DECKS for call in DECK_CALLS]
     out += [Operation(f"deck/middle/ccx_{name}", f"ccx_{name}", _middle(name)) for name in ccx.NORMALS]
-    out += [Operation("deck/chain/blocks", "blocks", _deck_chain),
-            Operation("deck/crack/ccx_beam20p", "ccx_beam20p", _on_deck("crack"))]
-    out += [Operation(f"deck/files/{s}", s, _files) for s in ("blocks", "periodic2", "helper_sets", "ccx_segmenttet",
-        "ccx_furnace")]
+    out += [
+        Operation("deck/chain/blocks", "blocks", _deck_chain),
+        Operation("deck/crack/ccx_beam20p", "ccx_beam20p", _on_deck("crack")),
+    ]
+    out += [
+        Operation(f"deck/files/{s}", s, _files)
+        for s in ("blocks", "periodic2", "helper_sets", "ccx_segmenttet", "ccx_furnace")
+    ]
     assert len({o.name for o in out}) == len(out) and all(re.fullmatch(r"\S+/\S+", o.name) for o in out)
     return out
 
@@ -926,9 +1138,10 @@ def _flags():
     path = MESHES.parents[1] / "compile_commands.json"
     if not path.exists():
         return "unknown"
-    command = next((c["command"] for c in json.loads(path.read_text()) if c["file"].endswith("operators/snap.cpp")), "")
-    return " ".join(w for w in command.split() if re.match(r"-(O|m|std|f(?!visibility|PIC)|DNDEBUG|DEIGEN)",
-        w)) or "none"
+    command = next((c["command"] for c in json.loads(path.read_text()) if c["file"].endswith("cutting/snap.cpp")), "")
+    return (
+        " ".join(w for w in command.split() if re.match(r"-(O|m|std|f(?!visibility|PIC)|DNDEBUG|DEIGEN)", w)) or "none"
+    )
 
 
 def _processor():
@@ -944,13 +1157,20 @@ def _arithmetic():
     """A digest of what mathematical functions give here."""
     random = np.random.default_rng(1)
     values = random.uniform(0.01, 0.99, 2000)
-    out = [[f(x) for x in values.tolist()] for f in (math.sin, math.cos, math.tan, math.asin, math.acos, math.atan,
-                                                     math.exp, math.log, math.sqrt)]
-    out += [[f(x, y) for x, y in zip(values.tolist(), values[::-1].tolist())] for f in (math.atan2, math.pow,
-        math.hypot, math.fmod)]
+    out = [
+        [f(x) for x in values.tolist()]
+        for f in (math.sin, math.cos, math.tan, math.asin, math.acos, math.atan, math.exp, math.log, math.sqrt)
+    ]
+    out += [
+        [f(x, y) for x, y in zip(values.tolist(), values[::-1].tolist())]
+        for f in (math.atan2, math.pow, math.hypot, math.fmod)
+    ]
     rows = random.normal(size=(500, 3))
-    out += [[float(np.linalg.norm(r)) for r in rows], [float(r @ s) for r, s in zip(rows, rows[::-1])],
-            random.choice(100, 20, replace=False).tolist()]
+    out += [
+        [float(np.linalg.norm(r)) for r in rows],
+        [float(r @ s) for r, s in zip(rows, rows[::-1])],
+        random.choice(100, 20, replace=False).tolist(),
+    ]
     return short(encoded(out))
 
 
@@ -972,7 +1192,7 @@ def machine():
         "processor": _processor(),
         "arithmetic": _arithmetic(),
         "libraries": f"{' '.join(platform.libc_ver())}, NumPy {np.__version__}, zlib {zlib.ZLIB_RUNTIME_VERSION}, "
-                     f"{_packages()}",
+        f"{_packages()}",
     }
 
 
@@ -1013,8 +1233,9 @@ def parsed(text):
             files[match[1]] = match[2]
         elif match := re.match(r"# (\w+): (.*)$", row):
             head[match[1]] = match[2]
-        elif match := re.match(r"(\S+/\S+) +([0-9a-f]{10})((?: \w+=[0-9a-f]{10})*)$",
-                               row):  # and not what OpenCASCADE prints
+        elif match := re.match(
+            r"(\S+/\S+) +([0-9a-f]{10})((?: \w+=[0-9a-f]{10})*)$", row
+        ):  # and not what OpenCASCADE prints
             lines[match[1]] = match[2], dict(p.split("=") for p in match[3].split())
     return head, files, lines
 
@@ -1031,9 +1252,13 @@ def difference(now, before):
 
 def head_of(names):
     """Lines on what the results of these operations may depend on."""
-    return "\n".join(["# Results of digest.py, which says what they are.",
-                      *(f"# {k}: {v}" for k, v in machine().items()),
-                      *(f"# file {name}: {digest}" for name, digest in files_of(names).items())])
+    return "\n".join(
+        [
+            "# Results of digest.py, which says what they are.",
+            *(f"# {k}: {v}" for k, v in machine().items()),
+            *(f"# file {name}: {digest}" for name, digest in files_of(names).items()),
+        ]
+    )
 
 
 @dataclass
@@ -1079,9 +1304,11 @@ def statistics(results):
     slowest = ", ".join(f"{n} {seconds[n]:.2f}" for n in sorted(seconds, key=seconds.get, reverse=True)[:12])
     kinds = collections.Counter(name.split("/")[0] for name in results)
     parts = collections.Counter(part for digests, _ in results.values() for part in digests)
-    return (f"# {sum(seconds.values()):.1f} s of processor time; slowest: {slowest}\n"
-            f"# kinds: {', '.join(f'{k} {n}' for k, n in kinds.items())}\n"
-            f"# parts: {', '.join(f'{p} {n}' for p, n in parts.items())}")
+    return (
+        f"# {sum(seconds.values()):.1f} s of processor time; slowest: {slowest}\n"
+        f"# kinds: {', '.join(f'{k} {n}' for k, n in kinds.items())}\n"
+        f"# parts: {', '.join(f'{p} {n}' for p, n in parts.items())}"
+    )
 
 
 def main():
@@ -1089,8 +1316,9 @@ def main():
     parser.add_argument("--only", metavar="NAME_PART", help="operations whose name has this in it")
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     parser.add_argument("--details", action="store_true", help="also the digest of every part, and of the input files")
-    parser.add_argument("--compare", type=pathlib.Path, metavar="FILE",
-                        help="tell what differs from what was printed or recorded there")
+    parser.add_argument(
+        "--compare", type=pathlib.Path, metavar="FILE", help="tell what differs from what was printed or recorded there"
+    )
     parser.add_argument("--record", action="store_true", help=f"write {RECORDED.name}")
     parser.add_argument("--seconds", action="store_true", help="also which are the slowest, and the counts by kind")
     a = parser.parse_args()

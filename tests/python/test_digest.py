@@ -34,5 +34,7 @@ def test_results_are_what_they_were():
     if lines:
         pytest.fail(f"{len(comparison.changed)} operations differ; {RECORD}\n" + "\n".join(lines), pytrace=False)
     if left_out:
-        pytest.skip(f"all agree but {len(left_out)} operations, which were left out as their input files are others or "
-                    f"missing: {', '.join(sorted(set(left_out.values())))}")
+        pytest.skip(
+            f"all agree but {len(left_out)} operations, which were left out as their input files are others or "
+            f"missing: {', '.join(sorted(set(left_out.values())))}"
+        )

@@ -169,3 +169,27 @@ def test_a_wedge_is_still_warned_of_with_an_angle_one_can_read():
         report = fs.crack(mesh, fs.Plane((3 + off, 3, 0), (1, tilt, 0))).report
         assert report.quality.after.minimum < 0.4
         assert any("border line " + said in w for w in report.warnings), report.warnings
+
+
+@pytest.mark.parametrize("name", ["plate, second order", "box, second order"])
+def test_deform_names_elements_of_the_mesh_where_nodes_are_fixed(name):
+    """Elements that were split before are named by what they are parts of."""
+    import rounding_cases
+
+    mesh = rounding_cases.SUBJECTS[name][0]()
+    ids = np.concatenate(list(mesh.cell_ids.values()))
+    middle, spread = mesh.points.mean(axis=0), np.ptp(mesh.points, axis=0)
+    random = np.random.default_rng(3)
+    refused = 0
+    for _ in range(40):
+        normal = random.normal(size=3) * (spread > 0)
+        plane = fs.Plane(middle + 0.3 * random.uniform(-1, 1, 3) * spread, normal)
+        try:
+            fs.crack(mesh, plane, method="deform")
+        except fs.QualityError as error:
+            if "cannot be moved there (elements " not in str(error):
+                continue
+            named = str(error).split("(elements ")[1].split(")")[0].replace(", ...", "")
+            assert named and all(int(n) in ids for n in named.split(", "))
+            refused += 1
+    assert refused > 0

@@ -384,13 +384,15 @@ public:
         std::set<Index> elements;
         const auto look = [&](const auto& list, const auto& cells) {
             for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
                 bool positive = false, negative = false;
                 for (const int v : list[s]) {
                     if (slide_[v] <= reach) continue;
                     positive = positive || f_.distance[v] > 0;
                     negative = negative || f_.distance[v] < 0;
                 }
-                if (positive && negative) elements.insert(mesh_.block(cells[s].type).ids[cells[s].cell]);
+                const CellRef& c = cells[list.origin(s)];
+                if (positive && negative) elements.insert(mesh_.block(c.type).ids[c.cell]);
             }
         };
         look(band_.tetras, band_.tetra_cells);
