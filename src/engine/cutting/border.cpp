@@ -9,6 +9,7 @@
 #include "cancel.h"
 #include "cutting/no_cut.h"
 #include "cutting/root.h"
+#include "cutting/snap.h"
 #include "error.h"
 #include "mesh/stopwatch.h"
 
@@ -86,8 +87,7 @@ private:
     }
 
     int split(int a, int b, const Vec3& at, const Contact& tools) {
-        const int node = d_.split_edge(a, b, d_.fitted_split(a, b, at, tools).at, tools);
-        f_.distance.push_back(tools.has(f_.tool) ? 0 : f_.tool->distance(at));
+        const int node = f_.split_edge(a, b, d_.fitted_split(a, b, at, tools).at, tools);
         value_.resize(static_cast<std::size_t>(band_.size()));
         measure(node);
         return node;
@@ -351,8 +351,7 @@ bool part_closed_faces(Workpiece& f, const Patch& patch) {
     };
     const auto split = [&](int a, int b) {
         const Vec3 middle = (band.nodes[a].at + band.nodes[b].at) / 2;
-        f.d.split_edge(a, b, f.d.fitted_split(a, b, f.tool->project(middle), f.tool).at, f.tool);
-        f.distance.push_back(0);
+        f.split_edge(a, b, f.d.fitted_split(a, b, f.tool->project(middle), f.tool).at, f.tool);
     };
     for (int s = 0; s < band.cut_faces.size(); ++s) {
         if (!band.cut_faces.alive(s) || !std::ranges::all_of(band.cut_faces[s], on_front)) continue;

@@ -8,9 +8,12 @@
 
 #include "cancel.h"
 #include "cutting/folded_input.h"
+#include "cutting/improve.h"
 #include "cutting/mend_curved.h"
 #include "cutting/workpiece.h"
 #include "deformation/bar_network.h"
+#include "deformation/curved_shape.h"
+#include "deformation/deformation.h"
 #include "deformation/relaxation.h"
 #include "mesh/stopwatch.h"
 
@@ -342,7 +345,7 @@ public:
         worst_ = Untangler(d_).run(movable, 0.2);
         if (worst_ > 0) {
             relax(d_, movable);
-            mend_curved(f_, tool_, false);
+            mend_curved(f_, false);
             folded_ = newly_folded(f_, folded_elements(f_, least_curved));
             worst_ = folded_.empty() ? worst_quality() : 0;
         }
@@ -571,10 +574,10 @@ private:
             if (!d_.constraints.project(d_.constraints.on_edge(band_, a, b), nullptr, at) ||
                 (at - middle).norm() > 0.1 * (band_.nodes[a].at - band_.nodes[b].at).norm())
                 at = middle;
-            d_.split_edge(a, b, at, nullptr);
+            const int node = f_.split_edge(a, b, at, nullptr);
             side_.push_back(side != 0 ? side : tool_.distance(at) < 0 ? -1 : 1);
             target_.push_back(at);
-            f_.distance.push_back(side_.back());
+            f_.distance[node] = side_.back();  // it may lie in the tool, and is of one side
         }
     }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cutting/mend_curved.h"
+#include "deformation/curved_shape.h"
 
 namespace femscalpel {
 namespace {

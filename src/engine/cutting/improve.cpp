@@ -6,8 +6,12 @@
 
 #include "cancel.h"
 #include "cutting/held_inside.h"
+#include "cutting/mend_curved.h"
 #include "deformation/curved_shape.h"
+#include "deformation/deformation.h"
+#include "deformation/relaxation.h"
 #include "mesh/quality.h"
+#include "mesh/stopwatch.h"
 
 namespace femscalpel {
 namespace {
@@ -15,10 +19,12 @@ namespace {
 /// Elements worse than this get their longest edge bisected, in so many rounds at most.
 constexpr double split_below = 0.35;
 constexpr int split_rounds = 8;
+/// Elements worse than this after relaxation are worked on further.
+constexpr double improvement_goal = 0.45;
 
 class Improver {
 public:
-    Improver(Workpiece& f, const Tool& tool) : f_(f), d_(f.d), band_(f.d.band), tool_(tool) {}
+    explicit Improver(Workpiece& f) : f_(f), d_(f.d), band_(f.d.band) {}
 
     /// Merges new nodes of bad elements away; true if any was.
     bool merge_nodes(double goal) {
@@ -66,8 +72,7 @@ public:
             const bool bent = !d_.constraints.is_straight(d_.constraints.on_edge(band_, a, b));
             // Off its tool a node would be off it for good.
             if (((bent || tools) && !fits) || curved_children(d_, a, b, at, tools) < curved_limit) continue;
-            touched_.push_back(d_.split_edge(a, b, at, tools));
-            f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(at));
+            touched_.push_back(f_.split_edge(a, b, at, tools));
             any = true;
         }
         return any;
@@ -233,15 +238,33 @@ private:
     Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
-    const Tool& tool_;
     std::vector<int> near_p_, near_t_, common_, candidates_;
     std::vector<int> touched_;  // nodes born, and nodes others were merged into
 };
 
+/// Nodes born on a curved skin or tool where the curve would have spoiled an element lie on the chord at first. Now
+/// that the band is relaxed, brings them onto their surface or curve; those that moved.
+std::vector<int> fit_to_shapes(Workpiece& f) {
+    Deformable& d = f.d;
+    std::vector<int> moved;
+    for (int v = d.band.original_nodes(); v < d.band.size(); ++v) {
+        if (!d.band.in_use(v) || (d.constraints[v].freedom == NodeFreedom::free && !d.contact[v])) continue;
+        Vec3 x = d.band.nodes[v].at;
+        if (d.constraints.distance(d.constraints[v], x) <= 1e-6 * d.band.mean_edge_length(v) &&
+            d.off_tools(v) <= f.tolerance)
+            continue;
+        if (!d.constraints.project(v, d.contact[v], x) || x == d.band.nodes[v].at || d.is_barred(v, x)) continue;
+        if (quality_around(d, v, x) < std::min(0.1, quality_around(d, v, d.band.nodes[v].at))) continue;
+        d.band.nodes[v].at = x;
+        moved.push_back(v);
+    }
+    return moved;
+}
+
 }  // namespace
 
-void improve(Workpiece& f, const Tool& tool, double goal) {
-    Improver improver(f, tool);
+void improve(Workpiece& f, double goal) {
+    Improver improver(f);
     // Where borders are everywhere, or the mesh is thin in one direction, most elements are too poor ever to be left
     // alone: only what changed can gain.
     const bool locally = held_inside(f).nearly_all_on_borders() || improver.most_below(goal);
@@ -258,6 +281,22 @@ void improve(Workpiece& f, const Tool& tool, double goal) {
         idle = now < 0.95 * best ? 0 : idle + 1;
         best = std::min(best, now);
     }
+}
+
+void relax_band(Workpiece& f) {
+    Stopwatch watch(f.seconds);
+    find_node_sets(f);
+    deform(f.d, f.nodes, f.transition);
+    if (!f.released.empty()) relax(f.d, movable_nodes(f));
+    watch.lap("deform");
+    improve(f, improvement_goal);
+    for (int round = 0; round < 3; ++round) {
+        const std::vector<int> moved = fit_to_shapes(f);
+        if (moved.empty()) break;
+        relax_near(f, moved);
+    }
+    mend_curved(f);
+    watch.lap("improve");
 }
 
 }  // namespace femscalpel

@@ -13,6 +13,10 @@ namespace femscalpel {
 /// Follows the schedule of Freitag and Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and
 /// smoothing", Int. J. Numer. Meth. Engng. 40 (1997): a change is kept only if the worst element around
 /// it gets better.
-void improve(Workpiece& workpiece, const Tool& tool, double goal);
+void improve(Workpiece& workpiece, double goal);
+
+/// Collects the node sets, then improves the shape of the band's elements: deform(), improve(), and new nodes brought
+/// onto their curved surfaces.
+void relax_band(Workpiece& workpiece);
 
 }  // namespace femscalpel

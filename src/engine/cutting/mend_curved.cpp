@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cancel.h"
+#include "deformation/curved_shape.h"
 
 namespace femscalpel {
 namespace {
@@ -17,8 +18,7 @@ constexpr double far_bulge = 0.04;
 
 class Mender {
 public:
-    Mender(Workpiece& f, const Tool& tool, bool may_split)
-        : f_(f), d_(f.d), band_(f.d.band), tool_(tool), may_split_(may_split) {}
+    Mender(Workpiece& f, bool may_split) : f_(f), d_(f.d), band_(f.d.band), may_split_(may_split) {}
 
     void run() {
         for (int round = 0; round < rounds; ++round) {
@@ -111,14 +111,12 @@ private:
         const Contact tools = edge_tools(d_, a, b);
         const Deformable::SplitPoint point = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
         if (!point.fits || !(point.worst > 0.02)) return;
-        d_.split_edge(a, b, point.at, tools);
-        f_.distance.push_back(tools.has(&tool_) ? 0 : tool_.distance(point.at));
+        f_.split_edge(a, b, point.at, tools);
     }
 
     Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
-    const Tool& tool_;
     bool may_split_;
 };
 
@@ -144,8 +142,8 @@ std::vector<BandElement> folded_elements(const Workpiece& f, double limit) {
     return out;
 }
 
-void mend_curved(Workpiece& f, const Tool& tool, bool may_split) {
-    if (f.d.mids.any()) Mender(f, tool, may_split).run();
+void mend_curved(Workpiece& f, bool may_split) {
+    if (f.d.mids.any()) Mender(f, may_split).run();
 }
 
 }  // namespace femscalpel

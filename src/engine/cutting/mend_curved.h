@@ -18,6 +18,6 @@ std::vector<BandElement> folded_elements(const Workpiece& f, double limit);
 /// Improves second-order elements that came out nearly folded, one after the other: mid-side nodes give up the place
 /// the input had them at along their edge, corner nodes move within their constraints, and edges that bulge far from
 /// their chord are bisected, if `may_split`. Elements that were sound stay so; some may remain folded.
-void mend_curved(Workpiece& f, const Tool& tool, bool may_split = true);
+void mend_curved(Workpiece& f, bool may_split = true);
 
 }  // namespace femscalpel

@@ -8,7 +8,14 @@
 #include <sstream>
 
 #include "cancel.h"
+#include "cutting/checks.h"
+#include "cutting/deform.h"
+#include "cutting/improve.h"
 #include "cutting/removal.h"
+#include "cutting/retry.h"
+#include "cutting/snap.h"
+#include "deformation/deformation.h"
+#include "mesh/stopwatch.h"
 #include "operators/refine_first.h"
 #include "tools/cylinder.h"
 

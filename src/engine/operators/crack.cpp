@@ -11,8 +11,15 @@
 
 #include "cancel.h"
 #include "cutting/border.h"
+#include "cutting/checks.h"
+#include "cutting/deform.h"
+#include "cutting/improve.h"
 #include "cutting/no_cut.h"
+#include "cutting/retry.h"
+#include "cutting/snap.h"
+#include "deformation/deformation.h"
 #include "deformation/relaxation.h"
+#include "mesh/stopwatch.h"
 #include "operators/refine_first.h"
 #include "tools/face.h"
 

@@ -10,10 +10,13 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "cutting/checks.h"
 #include "cutting/folded_input.h"
 #include "cutting/held_inside.h"
+#include "cutting/snap.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
+#include "mesh/stopwatch.h"
 #include "operators/poor.h"
 #include "operators/refine_first.h"
 

@@ -11,13 +11,16 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "cutting/checks.h"
 #include "cutting/folded_input.h"
+#include "cutting/improve.h"
 #include "cutting/locate.h"
 #include "cutting/mend_curved.h"
 #include "cutting/opening.h"
 #include "cutting/rebuild.h"
 #include "cutting/workpiece.h"
 #include "deck/carry_over.h"
+#include "deformation/curved_shape.h"
 #include "deformation/relaxation.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"

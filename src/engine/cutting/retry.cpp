@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/retry.h"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "cancel.h"
+#include "cutting/folded_input.h"
+#include "cutting/mend_curved.h"
+#include "cutting/workpiece.h"
+#include "deformation/curved_shape.h"
+#include "mesh/quality.h"
+
+namespace femscalpel {
+namespace {
+
+/// The part for is_beside() where elements came out poor enough to try again.
+constexpr double poor_beside = 2e-3;
+/// A new node may be this many edge lengths off the curved surface or curve it was born on.
+constexpr double largest_misfit = 5e-4;
+/// Elements below this mean ratio are refined before another try.
+constexpr double poor_quality = 0.1;
+/// The same in second-order meshes, where mending curved elements costs their corners' shape.
+constexpr double second_order_quality = 0.27;
+/// Elements below this would be an error, or need one's attention: poor.h. Their nodes are rather held beside the tool.
+constexpr double hold_quality = 0.02;
+/// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
+constexpr int polishings = 5, hard_polishings = 8;
+/// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever
+/// along a wall too thin for elements, and what is cut in the end should not be another mesh.
+constexpr double largest_growth = 4, largest_part = 1;
+/// The same of dividing elements for better ones after the cut.
+constexpr double largest_part_after = 2.75;
+/// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where
+/// second-order elements make it slow.
+constexpr double fewest_visits = 1.5e5, visits_per_element = 4;
+/// A curved mesh with elements below this is not returned.
+constexpr double degenerate_quality = 0.01;
+
+/// Elements of the input, by slot, and where in them something went wrong.
+struct Slots {
+    std::vector<int> tetras, triangles;
+    std::vector<Vec3> places;
+
+    bool empty() const { return tetras.empty() && triangles.empty(); }
+    void tidy() {
+        for (std::vector<int>* list : {&tetras, &triangles}) {
+            std::ranges::sort(*list);
+            list->erase(std::unique(list->begin(), list->end()), list->end());
+        }
+    }
+};
+
+Vec3 middle_of(const BandMesh& band, const auto& nodes) {
+    Vec3 sum = Vec3::Zero();
+    for (const int v : nodes) sum += band.nodes[v].at;
+    return sum / static_cast<double>(nodes.size());
+}
+
+/// Those in which new nodes are off their tools or the curved skin they were born on, or parts came out as folded
+/// second-order elements.
+Slots misfits(const Workpiece& f) {
+    const BandMesh& band = f.d.band;
+    Slots found;
+    for (const BandElement e : newly_folded(f, folded_elements(f, least_curved))) {
+        (e.triangle ? found.triangles : found.tetras).push_back(e.origin(band));
+        found.places.push_back(middle_of(band, e.nodes(band)));
+    }
+    for (int v = band.original_nodes(); v < band.size(); ++v) {
+        if (!band.in_use(v)) continue;
+        const NodeConstraint& c = f.d.constraints[v];
+        const double allowed = f.d.constraints.is_straight(c) ? std::max(10 * f.tolerance, f.d.rounding)
+                                                              : largest_misfit * band.mean_edge_length(v);
+        const bool on_shape = f.d.constraints.distance(c, band.nodes[v].at) <= allowed;
+        if (on_shape && f.d.off_tools(v) <= 10 * f.tolerance) continue;
+        found.places.push_back(band.nodes[v].at);
+        for (const int t : band.tetras.around(v)) found.tetras.push_back(band.tetras.origin(t));
+        for (const int t : band.triangles.around(v)) found.triangles.push_back(band.triangles.origin(t));
+    }
+    found.tidy();
+    return found;
+}
+
+/// The smallest mean ratio of the tetrahedra and shells that were changed, and those that have parts below `limit`.
+double poorest(const Workpiece& f, double limit, Slots& poor) {
+    const BandMesh& band = f.d.band;
+    double worst = 1;
+    SparseCheck check;
+    const auto look = [&](const auto& list, std::vector<int>& origins, auto quality_of) {
+        for (int s = 0; s < list.size(); ++s) {
+            if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) {
+                    return band.is_new(v) || band.nodes[v].at != band.nodes[v].start;
+                }))
+                continue;
+            check();
+            const double quality = quality_of(s);
+            worst = std::min(worst, quality);
+            if (quality >= limit) continue;
+            origins.push_back(list.origin(s));
+            poor.places.push_back(middle_of(band, list[s]));
+        }
+    };
+    look(band.tetras, poor.tetras, [&](int t) { return tetra_quality(f.d, t); });
+    look(band.triangles, poor.triangles,
+         [&](int t) { return f.d.constraints.is_shell(band.triangles.origin(t)) ? shell_quality(f.d, t) : 1.0; });
+    poor.tidy();
+    return worst;
+}
+
+/// Calls visit(nodes) for the parts of some elements.
+void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
+    const auto look = [&](const auto& list, const std::vector<int>& origins) {
+        if (origins.empty()) return;
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && std::ranges::binary_search(origins, list.origin(s))) visit(list[s]);
+    };
+    look(band.tetras, slots.tetras);
+    look(band.triangles, slots.triangles);
+}
+
+int element_count(const BandMesh& band) { return band.tetras.size() + band.triangles.size(); }
+
+/// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves
+/// bulge a quarter as far, so that a tool finds room between a curved skin and its chords where it found none. The band
+/// grows to about `most_elements`.
+void refine(Workpiece& f, const Slots& slots, double most_elements) {
+    BandMesh& band = f.d.band;
+    std::vector<std::tuple<double, int, int>> edges;
+    for_parts(band, slots, [&](const auto& nodes) {
+        const Vec3 middle = middle_of(band, nodes);
+        double longest = 0;
+        for (const int a : nodes)
+            for (const int b : nodes) longest = std::max(longest, (band.nodes[a].at - band.nodes[b].at).squaredNorm());
+        const bool divided = std::ranges::any_of(nodes, [&](int v) { return band.is_new(v); });
+        if (divided &&
+            std::ranges::none_of(slots.places, [&](const Vec3& x) { return (x - middle).squaredNorm() <= longest; }))
+            return;
+        for (const int a : nodes)
+            for (const int b : nodes)
+                if (a < b && (band.nodes[a].movable() || band.nodes[b].movable()))
+                    edges.push_back({-(band.nodes[a].at - band.nodes[b].at).norm(), a, b});
+    });
+    std::ranges::sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const auto& [length, a, b] : edges) {
+        if (element_count(band) >= most_elements) break;
+        // With both ends on the tool the halves would have to be, too.
+        if (f.d.contact[a].common(f.d.contact[b]) || f.d.constraints.has_fixed_middle(a, b)) continue;
+        const Deformable::SplitPoint point = f.d.fitted_split(a, b, f.d.along_edge(a, b, 0.5), {});
+        if (!point.fits || !(point.worst > 0.1)) continue;
+        f.split_edge(a, b, point.at, {});
+    }
+}
+
+/// Lets the nodes of poor elements be held where the tool passed them by up to `part`; false if there are none.
+bool allow_to_hold(Workpiece& start, const Workpiece& cut, double part) {
+    Slots poor;
+    poorest(cut, poor_quality, poor);
+    start.may_hold.assign(static_cast<std::size_t>(start.d.band.size()), 0);
+    bool any = false;
+    for_parts(start.d.band, poor, [&](const auto& nodes) {
+        for (const int v : nodes) {
+            start.may_hold[v] = part;
+            const auto passed = cut.passed.find(v);
+            any = any || (passed != cut.passed.end() && passed->second <= part);
+        }
+    });
+    if (!any) start.may_hold.clear();
+    return any;
+}
+
+[[noreturn]] void fail_at(const Workpiece& f, const Slots& slots) {
+    std::optional<Vec3> place;
+    bool skin = false;
+    for_parts(f.d.band, slots, [&](const auto& nodes) {
+        if (!place) place = f.d.band.nodes[nodes[0]].start;
+        skin = skin || std::ranges::any_of(nodes, [&](int v) { return f.d.constraints.is_exterior(v); });
+    });
+    std::ostringstream text;
+    text << "no sound elements were found where the " << f.tool->kind()
+         << (skin ? " meets the skin" : " passes inside the material");
+    if (place) text << " near (" << place->transpose() << ")";
+    text << ": the mesh is too coarse there, or only a thin layer of material is left"
+         << (skin ? "" : " between it and a border") << ". Move the " << f.tool->kind()
+         << " a little, or refine the mesh";
+    throw QualityError(text.str());
+}
+
+}  // namespace
+
+void cut_soundly(Workpiece& f, const std::function<void(Workpiece&)>& cut, Index mesh_elements, int attempts,
+                 bool whole_tool) {
+    const bool plain =
+        whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
+    Workpiece start = f;
+    const double elements = element_count(start.d.band),
+                 most_elements =
+                     std::min(largest_growth * elements, elements + largest_part * static_cast<double>(mesh_elements));
+    std::optional<Workpiece> best;
+    double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
+    bool tried_to_hold = false;
+    start.most_elements = f.most_elements = elements + largest_part_after * static_cast<double>(mesh_elements);
+    // Deformable::visits counts on from one try to the next.
+    start.most_visits = f.most_visits = f.d.visits + static_cast<long>(fewest_visits + visits_per_element * elements);
+    for (int attempt = 1, polished = 0;; ++attempt) {
+        check_cancelled();
+        cut(f);
+        start.d.visits = f.d.visits;
+        Slots bad = misfits(f);
+        // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
+        if (attempt > 1) check_folded_input(f, newly_folded(f, folded_elements(f, least_curved)));
+        bool polish = false;
+        if (bad.empty()) {
+            const double enough = f.d.mids.any() ? second_order_quality : poor_quality;
+            const double quality = poorest(f, std::max(1.5 * poor_quality, enough), bad);
+            if (quality >= enough) return;
+            polish = true;
+            const bool too_many =
+                element_count(f.d.band) - elements > (largest_growth - 1) * static_cast<double>(mesh_elements);
+            if (quality > best_quality && !(too_many && best && best_quality >= hold_quality)) {
+                best_quality = quality;
+                best = f;
+            } else {
+                start.may_hold.clear();
+            }
+            // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
+            if (plain && (tried_to_hold || quality >= poor_quality)) break;
+            if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
+        }
+        if (attempt == attempts || element_count(start.d.band) >= most_elements || f.d.visits >= f.most_visits) {
+            if (!best) fail_at(f, bad);
+            break;
+        }
+        // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would
+        // get farther into elements whose nodes are not put on it.
+        std::vector<char>& off_tool = start.d.off_tool;
+        const bool may_hold = polish && !tried_to_hold && best_quality < poor_quality;
+        if (may_hold && allow_to_hold(start, f, best_quality < hold_quality ? along_beside : poor_beside)) {
+            tried_to_hold = true;
+        } else if (plain && polish) {
+            break;
+        } else if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
+            for_parts(start.d.band, bad, [&](const auto& nodes) {
+                for (const int v : nodes) off_tool[v] = 1;
+            });
+        } else {
+            refine(start, bad, most_elements);
+            std::ranges::fill(off_tool, 0);
+        }
+        f = start;
+    }
+    f = std::move(*best);
+    if (best_quality >= poor_quality || plain) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << "the " << f.tool->kind()
+         << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality
+         << " at best: refine the mesh there for better ones";
+    f.warnings.push_back(text.str());
+}
+
+}  // namespace femscalpel
