@@ -8,8 +8,8 @@
 #include "cancel.h"
 #include "cutting/folded_input.h"
 #include "cutting/mend_curved.h"
-#include "mesh/quality.h"
 #include "deformation/curved_shape.h"
+#include "mesh/quality.h"
 
 namespace femscalpel {
 namespace {

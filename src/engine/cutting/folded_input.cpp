@@ -149,10 +149,9 @@ private:
 /// Whether an element is not what it was, its mid-side nodes apart.
 bool is_touched(const Deformable& d, BandElement e) {
     const BandMesh& band = d.band;
-    return std::ranges::any_of(e.nodes(band),
-                               [&](int v) { return band.is_new(v) || band.nodes[v].at != band.nodes[v].start; }) ||
-           std::ranges::any_of(edges_of(band, e),
-                               [&](const auto& ends) { return static_cast<bool>(d.edge_contact(ends[0], ends[1])); });
+    return e.is_changed(band) || std::ranges::any_of(edges_of(band, e), [&](const auto& ends) {
+               return static_cast<bool>(d.edge_contact(ends[0], ends[1]));
+           });
 }
 
 /// Which mid-side nodes that were moved have to stay so.

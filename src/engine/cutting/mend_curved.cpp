@@ -130,9 +130,9 @@ std::vector<BandElement> folded_elements(const Workpiece& f, double limit) {
         for (int s = 0; s < (triangle ? band.triangles.size() : band.tetras.size()); ++s) {
             const BandElement e{triangle, s};
             if (!e.alive(band)) continue;
-            const bool changed = std::ranges::any_of(e.nodes(band), [&](int v) {
-                return band.is_new(v) || band.nodes[v].at != band.nodes[v].start || f.d.contact[v];
-            });
+            const bool changed = e.is_changed(band) || std::ranges::any_of(e.nodes(band), [&](int v) {
+                                     return static_cast<bool>(f.d.contact[v]);
+                                 });
             if (!changed) continue;
             if (const double ratio = curved_shape(f.d, e); ratio < limit) found.push_back({ratio, triangle, s});
         }

@@ -90,10 +90,7 @@ double poorest(const Workpiece& f, double limit, Slots& poor) {
     SparseCheck check;
     const auto look = [&](const auto& list, std::vector<int>& origins, auto quality_of) {
         for (int s = 0; s < list.size(); ++s) {
-            if (!list.alive(s) || std::ranges::none_of(list[s], [&](int v) {
-                    return band.is_new(v) || band.nodes[v].at != band.nodes[v].start;
-                }))
-                continue;
+            if (!list.alive(s) || !band.is_changed(list, s)) continue;
             check();
             const double quality = quality_of(s);
             worst = std::min(worst, quality);

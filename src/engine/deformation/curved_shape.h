@@ -19,6 +19,9 @@ struct BandElement {
 
     bool operator==(const BandElement&) const = default;
     bool alive(const BandMesh& band) const { return triangle ? band.triangles.alive(slot) : band.tetras.alive(slot); }
+    bool is_changed(const BandMesh& band) const {
+        return triangle ? band.is_changed(band.triangles, slot) : band.is_changed(band.tetras, slot);
+    }
     int origin(const BandMesh& band) const { return triangle ? band.triangles.origin(slot) : band.tetras.origin(slot); }
     const CellRef& cell(const BandMesh& band) const {
         return (triangle ? band.triangle_cells : band.tetra_cells)[origin(band)];

@@ -68,37 +68,37 @@ Vec3 Deformable::along_edge(int a, int b, double t) const {
     return x;
 }
 
-Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools) const {
-    const auto worst_child = [&](const Vec3& p) {
-        double worst = 1;
-        const auto look = [&](const auto& list, auto quality) {
-            for (const int s : list.around(a)) {
-                if (std::ranges::find(list[s], b) == list[s].end()) continue;
-                for (const int replaced : {a, b}) {
-                    std::array<Vec3, 4> corner;
-                    for (std::size_t k = 0; k < list[s].size(); ++k)
-                        corner[k] = list[s][k] == replaced ? p : band.nodes[list[s][k]].at;
-                    worst = std::min(worst, quality(corner, s));
-                }
+double Deformable::worst_part(int a, int b, const Vec3& at) const {
+    double worst = 1;
+    const auto look = [&](const auto& list, auto quality) {
+        for (const int s : list.around(a)) {
+            if (std::ranges::find(list[s], b) == list[s].end()) continue;
+            for (const int replaced : {a, b}) {
+                std::array<Vec3, 4> corner;
+                for (std::size_t k = 0; k < list[s].size(); ++k)
+                    corner[k] = list[s][k] == replaced ? at : band.nodes[list[s][k]].at;
+                worst = std::min(worst, quality(corner, s));
             }
-        };
-        look(band.tetras, [](const auto& c, int) { return mean_ratio(c[0], c[1], c[2], c[3]); });
-        look(band.triangles, [&](const auto& c, int s) {
-            const int origin = band.triangles.origin(s);
-            if (!constraints.is_shell(origin)) return 1.0;
-            return std::copysign(mean_ratio(c[0], c[1], c[2]),
-                                 (c[1] - c[0]).cross(c[2] - c[0]).dot(shell_normals[origin]));
-        });
-        return worst;
+        }
     };
+    look(band.tetras, [](const auto& c, int) { return mean_ratio(c[0], c[1], c[2], c[3]); });
+    look(band.triangles, [&](const auto& c, int s) {
+        const int origin = band.triangles.origin(s);
+        if (!constraints.is_shell(origin)) return 1.0;
+        return std::copysign(mean_ratio(c[0], c[1], c[2]), (c[1] - c[0]).cross(c[2] - c[0]).dot(shell_normals[origin]));
+    });
+    return worst;
+}
+
+Deformable::SplitPoint Deformable::fitted_split(int a, int b, const Vec3& at, const Contact& tools) const {
     const NodeConstraint constraint = constraints.on_edge(band, a, b);
-    if (constraint.freedom == NodeFreedom::free && !tools) return {at, true, worst_child(at)};
+    if (constraint.freedom == NodeFreedom::free && !tools) return {at, true, worst_part(a, b, at)};
     Vec3 fitted = at;
     const bool found = constraints.project(constraint, tools, fitted, held_between(a, b)) &&
                        (fitted - at).norm() < (band.nodes[a].at - band.nodes[b].at).norm();
-    const double worst = worst_child(at);
+    const double worst = worst_part(a, b, at);
     if (found) {
-        const double worst_fitted = fitted == at ? worst : worst_child(fitted);
+        const double worst_fitted = fitted == at ? worst : worst_part(a, b, fitted);
         if (worst_fitted > 0.2 * worst) return {fitted, true, worst_fitted};
     }
     const double close = std::max(1e-9 * (band.nodes[a].at - band.nodes[b].at).norm(), tolerance);

@@ -53,6 +53,9 @@ struct Deformable {
         double worst;  ///< smallest mean ratio of the parts
     };
 
+    /// Smallest mean ratio (negative when inverted) of the parts of the elements around the edge a-b, split at `at`.
+    double worst_part(int a, int b, const Vec3& at) const;
+
     /// The point near `at` on the surface or curve the edge a-b is on (and on `tools`), if elements split
     /// there are nearly as good as those split at `at`; else `at` itself.
     SplitPoint fitted_split(int a, int b, const Vec3& at, const Contact& tools) const;

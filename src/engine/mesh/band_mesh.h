@@ -29,6 +29,8 @@ public:
     int origin(int s) const { return origin_[s]; }
     int tag(int s) const { return tag_[s]; }
     void set_tag(int s, int tag) { tag_[s] = tag; }
+    /// Whether merge() gave it another node: it is not the input's, though all its nodes may be.
+    bool merged(int s) const { return s < static_cast<int>(merged_.size()) && merged_[s] != 0; }
     /// Slots of the simplices at a node. Not to be kept while simplices are added, split or merged.
     std::span<const int> around(int node) const { return around_[node]; }
 
@@ -91,6 +93,8 @@ public:
             } else {
                 std::ranges::replace(nodes_[s], p, t);
                 around_.add(t, s);
+                merged_.resize(nodes_.size(), 0);
+                merged_[s] = 1;
             }
         }
         around_.clear(p);
@@ -114,6 +118,7 @@ private:
     std::vector<Nodes> nodes_;
     std::vector<int> origin_;
     std::vector<int> tag_;
+    std::vector<char> merged_;  // by slot, not of all
     Rows around_;
 };
 
@@ -181,6 +186,11 @@ public:
     }
     int original_nodes() const { return size() - static_cast<int>(births.size()); }
     bool is_new(int node) const { return node >= original_nodes(); }
+    /// Whether an element of `tetras` or `triangles` has other corners than in the input, or they are elsewhere.
+    bool is_changed(const auto& list, int slot) const {
+        return list.merged(slot) ||
+               std::ranges::any_of(list[slot], [&](int v) { return is_new(v) || nodes[v].at != nodes[v].start; });
+    }
 
     /// Whether a-b is an edge of `cut_faces` or `cut_edges`.
     bool is_cut_edge(int a, int b) const;

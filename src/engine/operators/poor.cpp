@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "mesh/quality.h"
+
 namespace femscalpel {
 namespace {
 
@@ -81,11 +83,15 @@ std::vector<PoorElement> elements_below(double limit, const Workpiece& f, const 
             out.push_back({tetra_quality(f.d, t), mesh.block(c.type).ids[c.cell], band.tetras[t]});
         }
     for (int t = 0; t < band.triangles.size(); ++t) {
-        if (!band.triangles.alive(t) || !f.d.constraints.is_shell(band.triangles.origin(t))) continue;
-        const double quality = shell_quality(f.d, t);
+        if (!band.triangles.alive(t)) continue;
+        const auto& n = band.triangles[t];
+        const bool shell = f.d.constraints.is_shell(band.triangles.origin(t));
+        // Faces of a solid with elements of their own: those that have changed.
+        if (!shell && !band.is_changed(band.triangles, t)) continue;
+        const auto at = [&](int k) -> const Vec3& { return band.nodes[n[k]].at; };
+        const double quality = shell ? shell_quality(f.d, t) : mean_ratio(at(0), at(1), at(2));
         if (!(quality < limit)) continue;
         const CellRef& c = band.triangle_cells[band.triangles.origin(t)];
-        const auto& n = band.triangles[t];
         out.push_back({quality, mesh.block(c.type).ids[c.cell], {n[0], n[1], n[2], -1}});
     }
     std::ranges::sort(out, {}, [](const PoorElement& e) { return std::pair(e.quality, e.id); });
@@ -159,14 +165,20 @@ std::vector<PoorPlace> find_poor_places(Workpiece& f, const Mesh& mesh, double w
         std::ostringstream text;
         text.precision(3);
         text << "poor elements, with a mean ratio down to " << place.mean_ratio << ", near (" << place.place.transpose()
-             << "), between the " << f.tool->kind() << " and " << describe(holders)
-             << ", which leave no room for better ones. ";
-        if (!place.groups.empty())
-            text << "Leave " << join(place.groups) << " out of preserve, or move";
+             << ")";
+        const bool between = place.gap <= place.room;
+        if (between)
+            text << ", between the " << f.tool->kind() << " and " << describe(holders)
+                 << ", which leave no room for better ones. ";
         else
-            text << "Move";
-        text << " the " << f.tool->kind() << " there by " << place.gap << " towards it";
-        if (place.gap < place.room) text << " or by " << place.room - place.gap << " away from it";
+            text << ", up to " << place.gap << " from the " << f.tool->kind() << ", held by " << describe(holders)
+                 << ". ";
+        if (!place.groups.empty()) text << "Leave " << join(place.groups) << " out of preserve, or ";
+        if (between)
+            text << (place.groups.empty() ? "Move" : "move") << " the " << f.tool->kind() << " there by " << place.gap
+                 << " towards it or by " << place.room - place.gap << " away from it";
+        else
+            text << (place.groups.empty() ? "Refine" : "refine") << " the mesh there first";
         f.warnings.push_back(text.str());
         out.push_back(std::move(place));
     }

@@ -13,7 +13,6 @@
 #include "cancel.h"
 #include "cutting/checks.h"
 #include "cutting/folded_input.h"
-#include "cutting/improve.h"
 #include "cutting/locate.h"
 #include "cutting/mend_curved.h"
 #include "cutting/opening.h"
@@ -221,6 +220,9 @@ private:
     std::vector<char> curved_tetras_, curved_triangles_, curved_lines_;  // by slot of the original element
 };
 
+/// Parts of elements with a mean ratio below this are not made.
+constexpr double spoilt = 0.02;
+
 class Bisector {
 public:
     Bisector(Deformable& d, const Mesh& mesh, const Target& target, const RefineOptions& options,
@@ -256,6 +258,9 @@ public:
     Vec3 middle(int a, int b) const {
         return strayed_[a] || strayed_[b] ? Vec3((band_.nodes[a].at + band_.nodes[b].at) / 2) : geometry_.middle(a, b);
     }
+
+    /// Edges that were left as they are because their elements are so curved that parts of them would be flat.
+    int left() const { return static_cast<int>(left_.size()); }
 
     /// Where a mid-side node between two nodes belongs.
     Vec3 mid_side(int a, int b) const {
@@ -317,15 +322,14 @@ private:
         while (!queue.empty()) {
             check();
             const Edge e = queue.top();
-            if (!exists(e.a, e.b)) {
+            if (!exists(e.a, e.b) || left_.contains(edge_key(e.a, e.b))) {
                 queue.pop();
                 continue;
             }
             const Edge longest = terminal(e);
             if (!is_inside(longest.a, longest.b)) return false;
             if (longest.a == e.a && longest.b == e.b) queue.pop();
-            split(longest.a, longest.b);
-            gather(band_.size() - 1, false);
+            if (split(longest.a, longest.b)) gather(band_.size() - 1, false);
         }
         return true;
     }
@@ -338,7 +342,8 @@ private:
                 for (std::size_t i = 0; i < nodes.size(); ++i)
                     for (std::size_t j = 0; j < i; ++j) {
                         const Edge other = edge(nodes[i], nodes[j]);
-                        if (!(longest < other) || blocked_.contains(edge_key(other.a, other.b))) continue;
+                        const std::uint64_t key = edge_key(other.a, other.b);
+                        if (!(longest < other) || blocked_.contains(key) || left_.contains(key)) continue;
                         if (may_grow_ || is_inside(other.a, other.b)) longest = other;
                     }
             });
@@ -348,8 +353,20 @@ private:
         }
     }
 
-    void split(int a, int b) {
+    /// Whether parts of the elements around an edge would be nearly flat or inverted, split in its bent middle: their
+    /// curved shape may be sound all the same, but not what is made of their corners.
+    bool would_spoil(int a, int b, const Vec3& at) const {
+        if (at == (band_.nodes[a].at + band_.nodes[b].at) / 2) return false;
+        const double worst = d_.worst_part(a, b, at);
+        return worst < spoilt && worst < d_.worst_part(a, b, (band_.nodes[a].at + band_.nodes[b].at) / 2) / 2;
+    }
+
+    bool split(int a, int b) {
         Vec3 at = middle(a, b);
+        if (would_spoil(a, b, at)) {
+            left_.insert(edge_key(a, b));
+            return false;
+        }
         geometry_.add_node(a, b);
         // On the shape the mesh was made from, if that leaves sound elements.
         bool on_shape = false;
@@ -364,7 +381,7 @@ private:
         distance_.push_back(target_.distance(at));
         if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <=
             options_.max_elements + count_at_start_)
-            return;
+            return true;
         std::ostringstream message;
         message << "size " << options_.size << " would make more than " << options_.max_elements
                 << " elements. Choose a larger size or gradation, or a larger max_elements";
@@ -425,6 +442,7 @@ private:
     const bool may_grow_;  // whether a larger band may be asked for; otherwise propagation ends at the rim
     const Index count_at_start_ = band_.tetras.size() + band_.triangles.size();
     const std::unordered_set<std::uint64_t> blocked_;
+    std::unordered_set<std::uint64_t> left_;  // see left()
     InputGeometry geometry_;
     /// By band node: it is not where its place in the input's elements says, as it or a node it was born between moved.
     std::vector<char> strayed_ = std::vector<char>(static_cast<std::size_t>(band_.size()), 0);
@@ -584,6 +602,10 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     report.warnings = f->warnings;
     for (std::string& warning : warnings_of_opened_areas(f->d.band, mesh))
         report.warnings.push_back(std::move(warning));
+    if (bisector->left() > 0)
+        report.warnings.push_back(std::to_string(bisector->left()) +
+                                  " edge(s) stay longer than wanted: the second-order elements around them are so "
+                                  "curved that parts of them would be flat or inverted by their corners");
     if (bisector->off_shape() > 0)
         report.warnings.push_back(
             std::to_string(bisector->off_shape()) +
@@ -595,6 +617,8 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     report.nodes_added = report.nodes_split = rebuilt.nodes_split;
     report.elements_added = rebuilt.elements_added;
     describe_quality(mesh, *f, rebuilt, report);
+    if (report.quality_before.minimum > 0 && report.quality_after.minimum <= 0)
+        throw QualityError("elements would be inverted by refinement; choose a larger size, or another place");
     FamilyTotals after = totals;
     count_cells(after, mesh, rebuilt.before, -1);
     count_cells(after, rebuilt.mesh, rebuilt.after, +1);
