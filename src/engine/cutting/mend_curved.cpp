@@ -15,6 +15,10 @@ constexpr double goal = 0.1;
 constexpr int rounds = 6;
 /// An edge whose mid-side node is farther off its chord than this, in lengths of it, may be bisected.
 constexpr double far_bulge = 0.04;
+/// A search for a corner's place is as much work as so many Deformable::visits; mending may take it to so many times
+/// what all of an operation is bounded by.
+constexpr long visits_of_search = 6;
+constexpr double most_of_work = 1.5;
 
 class Mender {
 public:
@@ -26,6 +30,8 @@ public:
             if (bad.empty()) return;
             for (const BandElement e : bad) {
                 check_cancelled();
+                // Where so many are folded that it takes longer than all else, mending is not what helps.
+                if (d_.visits / most_of_work >= f_.most_visits) return;
                 if (!e.alive(band_) || curved_shape(d_, e) >= goal) continue;
                 flatten_edges(e);
                 if (curved_shape(d_, e) < goal) move_nodes(e);
@@ -73,6 +79,7 @@ private:
             CurvedStar star(d_, v);
             double best = merit(star, v, band_.nodes[v].at);
             if (best >= 1) continue;
+            d_.visits += visits_of_search;
             const double length = band_.mean_edge_length(v);
             for (double step = 0.24 * length; step > 0.02 * length; step /= 2) {
                 Eigen::Matrix3d basis;

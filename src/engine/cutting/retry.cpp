@@ -35,7 +35,7 @@ constexpr double largest_growth = 4, largest_part = 1;
 constexpr double largest_part_after = 2.75;
 /// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where
 /// second-order elements make it slow.
-constexpr double fewest_visits = 1.5e5, visits_per_element = 4;
+constexpr double fewest_visits = 1.5e5, visits_per_element = 2.5;
 /// A curved mesh with elements below this is not returned.
 constexpr double degenerate_quality = 0.01;
 

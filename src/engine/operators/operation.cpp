@@ -29,6 +29,9 @@ constexpr std::size_t longest_name = 24;
 /// Part of the mesh or of a group that cutting the corners of a coarse skin may cost without a warning.
 constexpr double size_noticed = 0.005;
 
+/// A mesh that grows to more times its elements is worth a word.
+constexpr Index most_growth = 4;
+
 void check_name(const Mesh& mesh, const std::string& name, const std::vector<std::string>& suffixes) {
     if (name.empty()) throw ToolError("name is empty; the new groups need one");
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
@@ -717,13 +720,18 @@ Result Operation::finish(Workpiece& f, const Opening& opening, const Naming& nam
     };
     for (const GroupRecord& g : report_.groups)
         if (g.status == "became empty" && !follows_surfaces(g))
-            report_.warnings.push_back("group '" + g.name + "' loses all its " + std::to_string(g.count_before) +
-                                       " member(s); it stays, empty");
+            report_.warnings.push_back(std::string(to_string(g.kind)) + " group '" + g.name + "' loses all its " +
+                                       std::to_string(g.count_before) + " member(s); it stays, empty");
     for (const std::vector<std::string>* warnings :
          std::initializer_list<const std::vector<std::string>*>{&f.warnings, &opening.warnings, &deck_warnings})
         for (const std::string& w : *warnings)
             if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
     const bool refined = prepared_.refined && !prepared_.refined->tried_in_vain;
+    const Index cells = whole().cell_count(), grown = cells + report_.elements_added - report_.elements_removed;
+    if (!refined && grown > most_growth * cells)
+        report_.warnings.push_back("the mesh grows from " + std::to_string(cells) + " to " + std::to_string(grown) +
+                                   " elements: the " + blades_.front().tool->kind() +
+                                   " crosses most of them, or passes close to surfaces or borders over much of it");
     if (refined) join_refinement(rebuilt);
     describe_motion(f, mesh(), refined ? prepared_.refined->numbering.node : numbering_.node, rebuilt, opening.removes,
                     report_);

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The engine's folders include each other one way only, and what is outside it uses the engine, never the other way."""
+
+import collections
+import pathlib
+import re
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ENGINE = ROOT / "src" / "engine"
+
+#: Folder -> folders it may include, besides itself and the engine's own cancel.h and error.h.
+MAY_USE = {
+    "mesh": set(),
+    "groups": {"mesh"},
+    "deck": {"mesh", "groups"},
+    "tools": set(),
+    "deformation": {"mesh", "groups", "tools"},
+    "cutting": {"mesh", "groups", "deck", "tools", "deformation"},
+    "operators": {"mesh", "groups", "deck", "tools", "deformation", "cutting"},
+    "io": {"mesh", "groups", "deck"},
+}
+
+
+def includes():
+    for path in sorted(ENGINE.rglob("*.h")) + sorted(ENGINE.rglob("*.cpp")):
+        for name in re.findall(r'^#include "([^"]+)"', path.read_text(), re.M):
+            yield path.relative_to(ENGINE), pathlib.PurePath(name)
+
+
+def test_folders_are_known():
+    assert {p.name for p in ENGINE.iterdir() if p.is_dir()} == set(MAY_USE)
+
+
+def test_includes_run_one_way():
+    wrong = collections.defaultdict(list)
+    for path, name in includes():
+        if len(path.parts) < 2 or len(name.parts) < 2 or path.parts[0] == name.parts[0]:
+            continue
+        if name.parts[0] not in MAY_USE[path.parts[0]]:
+            wrong[f"{path.parts[0]} -> {name.parts[0]}"].append(f"{path}: {name}")
+    assert not wrong
+
+
+def test_every_include_of_the_engine_is_there():
+    assert all((ENGINE / name).is_file() for _, name in includes())
+
+
+def test_headers_of_a_folder_make_no_circle():
+    uses = collections.defaultdict(set)
+    for path, name in includes():
+        if path.suffix == ".h":
+            uses[str(path)].add(str(name))
+    done, under_way = set(), []
+
+    def visit(header):
+        assert header not in under_way, " -> ".join([*under_way[under_way.index(header) :], header])
+        if header in done:
+            return
+        under_way.append(header)
+        for other in sorted(uses[header]):
+            visit(other)
+        under_way.pop()
+        done.add(header)
+
+    for header in sorted(uses):
+        visit(header)
