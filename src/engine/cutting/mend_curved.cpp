@@ -140,7 +140,7 @@ std::vector<BandElement> folded_elements(const Workpiece& f, double limit) {
             const bool changed = e.is_changed(band) || std::ranges::any_of(e.nodes(band), [&](int v) {
                                      return static_cast<bool>(f.d.contact[v]);
                                  });
-            if (!changed) continue;
+            if (!changed || (limit <= curved_limit && is_surely_sound(f.d, e))) continue;
             if (const double ratio = curved_shape(f.d, e); ratio < limit) found.push_back({ratio, triangle, s});
         }
     std::ranges::sort(found);

@@ -79,6 +79,19 @@ double farthest_bulge(const Deformable& d, int a, int b) {
     return bulge;
 }
 
+/// Whether a tetrahedron with corners at(0) to at(3) has a curved_ratio() of at least curved_limit, whatever the
+/// directions in which its edges bulge by `bulges` in sum. Not all that have are found.
+bool is_surely_sound(double bulges, auto at) {
+    const Vec3 a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0);
+    const Vec3 bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
+    const double determinant = a.dot(bc);
+    // Bulges times gradients of shape functions, 4 sqrt(3) at most, times the inverse of the straight element's
+    // Jacobian.
+    const double inverse = std::sqrt(bc.squaredNorm() + ca.squaredNorm() + ab.squaredNorm());
+    static const double small = (1 - std::cbrt(curved_limit)) / (4 * std::sqrt(3.0));
+    return determinant > 0 && bulges * inverse < small * determinant;
+}
+
 /// Edges of a tetrahedron by places of corners; those of a triangle are the first.
 std::span<const std::array<std::int8_t, 2>> edges_of(std::size_t corners) {
     return traits(corners == 3 ? CellType::triangle6 : CellType::tetra10).edges;
@@ -172,19 +185,6 @@ void CurvedStar::gather() {
     });
 }
 
-bool CurvedStar::is_surely_sound(const Element& e, const Vec3& x) const {
-    if (e.corners != 4) return false;
-    const auto at = [&](int k) -> const Vec3& { return e.corner[k] == node_ ? x : d_.band.nodes[e.corner[k]].at; };
-    const Vec3 a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0);
-    const Vec3 bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
-    const double determinant = a.dot(bc);
-    // Bulges times gradients of shape functions, 4 sqrt(3) at most, times the inverse of the straight element's
-    // Jacobian.
-    const double inverse = std::sqrt(bc.squaredNorm() + ca.squaredNorm() + ab.squaredNorm());
-    static const double small = (1 - std::cbrt(curved_limit)) / (4 * std::sqrt(3.0));
-    return determinant > 0 && e.bulges * inverse < small * determinant;
-}
-
 double CurvedStar::worst(const Vec3& x, double enough) {
     if (!gathered_) gather();
     if (elements_.empty()) return 1;
@@ -196,7 +196,9 @@ double CurvedStar::worst(const Vec3& x, double enough) {
     const bool may_skip = std::isfinite(enough) && enough <= curved_limit;
     for (std::size_t i = 0; i < elements_.size() && worst >= enough; ++i) {
         const Element& e = elements_[i];
-        if (may_skip && is_surely_sound(e, x)) continue;
+        if (may_skip && e.corners == 4 &&
+            is_surely_sound(e.bulges, [&](int k) { return d_.band.nodes[e.corner[k]].at; }))
+            continue;
         const Corners corner(std::span(e.corner).first(e.corners), [&](int v) { return d_.band.nodes[v].at; });
         worst = std::min(worst, ratio(corner, [&](std::size_t k) {
                              Edge& edge = edges_[e.edge[k]];
@@ -235,6 +237,15 @@ double curved_shape(const Deformable& d, BandElement element, ShapeAt at) {
     return ratio_by_ends(
         Corners(v, [&](int n) { return d.band.nodes[n].at; }), [&](int i, int j) { return mid_side(d, v[i], v[j]); },
         at);
+}
+
+bool is_surely_sound(const Deformable& d, BandElement element) {
+    if (!is_second_order(d, element)) return true;
+    if (element.triangle) return false;
+    const auto v = element.nodes(d.band);
+    double bulges = 0;
+    for (const auto& edge : edges_of(4)) bulges += farthest_bulge(d, v[edge[0]], v[edge[1]]);
+    return is_surely_sound(bulges, [&](int k) -> const Vec3& { return d.band.nodes[v[k]].at; });
 }
 
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x) { return CurvedStar(d, node).stays_sound(x); }

@@ -96,8 +96,6 @@ private:
         double bulge;  // farthest_bulge()
         MidSide mid;
     };
-    bool is_surely_sound(const Element& e, const Vec3& x) const;
-
     Deformable& d_;
     int node_;
     bool gathered_ = false;
@@ -112,6 +110,9 @@ enum class ShapeAt { integration_points, corners_too };
 
 /// That ratio of an element of the band as it is, 1 if it is not of second order.
 double curved_shape(const Deformable& d, BandElement element, ShapeAt at = ShapeAt::corners_too);
+
+/// Whether curved_shape() is at least curved_limit, at less cost; false for some elements for which it is.
+bool is_surely_sound(const Deformable& d, BandElement element);
 
 /// CurvedStar::stays_sound() for a single place.
 bool keeps_curved_shape(Deformable& d, int node, const Vec3& x);
