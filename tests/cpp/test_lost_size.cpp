@@ -16,11 +16,12 @@
 namespace femscalpel {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-const auto says_lost = Contains(HasSubstr("the curved skin is coarse"));
+const auto says_lost = Contains(HasSubstr("a curved surface is coarse"));
 
 /// The box from 0 to n bent to a rod about the z-axis (its square section made round) or a ball: a skin of few flat
 /// facets.
@@ -141,6 +142,31 @@ TEST(LostSizeTest, GroupsAreNamedAndDriftingOnesAreNot) {
     const auto warnings = crack(mesh, plane, options).report.warnings;
     EXPECT_THAT(warnings, says_lost) << "the mesh as a whole loses, whatever borders inside do";
     EXPECT_THAT(warnings, Not(Contains(HasSubstr("'OUTER' by"))));
+}
+
+TEST(LostSizeTest, AreasOfGroupsOfFacesAreLookedAt) {
+    // The rod's flat end as a group of triangles: a plane along the rod moves nodes of its round border.
+    Mesh mesh = rounded(4, 2, false);
+    const FamilyIndex end = checks::family_of(mesh, "END", GroupKind::element);
+    CellBlock& triangles = mesh.block(CellType::triangle);
+    const CellBlock& tetras = mesh.block(CellType::tetra);
+    double low = 0;
+    for (const Vec3& x : mesh.points) low = std::min(low, x.z());
+    Index id = *std::ranges::max_element(tetras.ids);
+    for (Index c = 0; c < tetras.size(); ++c)
+        for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+            std::array<Index, 3> nodes;
+            for (int k = 0; k < 3; ++k) nodes[k] = tetras.connectivity[static_cast<std::size_t>(4 * c + face[k])];
+            if (!std::ranges::all_of(nodes, [&](Index n) { return mesh.points[n].z() < low + 1e-9; })) continue;
+            triangles.connectivity.insert(triangles.connectivity.end(), nodes.begin(), nodes.end());
+            triangles.ids.push_back(++id);
+            triangles.families.push_back(end);
+        }
+    const Result r = crack(mesh, Plane({0.1, 0.35, 0}, {1, 0.8, 0.02}), smooth<CrackOptions>());
+    const auto record = std::ranges::find(r.report.groups, "END", &GroupRecord::name);
+    ASSERT_NE(record, r.report.groups.end());
+    ASSERT_LT(record->measure_after, 0.995 * record->measure_before) << "nothing is lost: the test says nothing";
+    EXPECT_THAT(r.report.warnings, Contains(AllOf(HasSubstr("a curved surface is coarse"), HasSubstr("'END' by"))));
 }
 
 }  // namespace

@@ -339,14 +339,21 @@ void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTot
                 if (b.families[c] == 0) was += cell_measure(whole, b.type, c);
     look("the mesh", was, change);
     for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
-        if (r.kind != GroupKind::element || r.dimension != dimension || (!unjudged.empty() && unjudged[g])) return;
+        if (r.kind != GroupKind::element || (!unjudged.empty() && unjudged[g])) return;
+        if (r.dimension != dimension) {
+            // Faces and edges on a crack count twice, and what was removed of them is not known: what shrinks
+            // otherwise.
+            if (r.dimension > 0 && taken_in_all == 0 && r.measure_after < r.measure_before)
+                look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before);
+            return;
+        }
         double taken_of_group = 0;
         for (FamilyIndex k = 0; k < static_cast<FamilyIndex>(taken.size()); ++k)
             if (taken[k] != 0 && before.families.contains(k, static_cast<GroupIndex>(g))) taken_of_group += taken[k];
         look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before + taken_of_group);
     });
     if (message.tellp() > 0)
-        report.warnings.push_back("the curved skin is coarse, and moving its nodes changed the size of " +
+        report.warnings.push_back("a curved surface is coarse, and moving its nodes changed the size of " +
                                   message.str() + (taken_in_all > 0 ? ", beyond what was removed" : "") +
                                   ": give its shape (skin), a smaller feature_angle, which keeps the edges between its "
                                   "facets, or refine the mesh there first");
