@@ -10,7 +10,8 @@ if [ "${1:-}" = --check ]; then
     check=yes
     shift
 fi
-[ $# -gt 0 ] || set -- $(git ls-files)
+# Without git, or in a tree that git does not trust: all but what is built.
+[ $# -gt 0 ] || set -- $(git ls-files 2>/dev/null || find . -type f -not -path './build/*' -not -path './.git/*')
 cpp=
 python=
 long=

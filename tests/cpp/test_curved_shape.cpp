@@ -8,6 +8,7 @@
 #include "deformation/curved_shape.h"
 #include "io/inp.h"
 #include "mesh/band_mesh.h"
+#include "simple_meshes.h"
 
 namespace femscalpel {
 namespace {
@@ -45,6 +46,35 @@ TEST(CurvedShape, QuickAnswersAreThoseOfEveryElement) {
     }
     EXPECT_GT(sound, 100);
     EXPECT_GT(spoiled, 30);
+}
+
+TEST(CurvedShape, WhatIsSurelySoundIs) {
+    const Mesh mesh = checks::second_order(checks::grid(5, 5, 5));
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> part(-1, 1);
+    int surely = 0, folded = 0;
+    std::vector<int> neighbours;
+    for (const double most : {0.01, 0.03, 0.08, 0.2, 0.4}) {
+        Deformable d(extract_band(mesh, std::vector<std::int8_t>(mesh.points.size(), 0)), mesh, {});
+        for (int v = 0; v < d.band.size(); ++v) {
+            d.band.neighbours(v, neighbours);
+            for (const int w : neighbours)
+                if (v < w && d.constraints[v].freedom == NodeFreedom::free &&
+                    d.constraints[w].freedom == NodeFreedom::free)
+                    d.mids.set_bulge(v, w, most * Vec3(part(random), part(random), part(random)));
+            // Moved, so that mid-side nodes are looked at as those of changed elements.
+            if (d.constraints[v].freedom == NodeFreedom::free) d.band.nodes[v].at += 0.02 * Vec3(part(random), 0, 0);
+        }
+        for (int t = 0; t < d.band.tetras.size(); ++t) {
+            const double shape = curved_shape(d, {false, t});
+            folded += shape < curved_limit;
+            if (!is_surely_sound(d, {false, t})) continue;
+            EXPECT_GE(shape, curved_limit) << "bulges of up to " << most;
+            ++surely;
+        }
+    }
+    EXPECT_GT(surely, 100);
+    EXPECT_GT(folded, 100);
 }
 
 }  // namespace
