@@ -9,14 +9,6 @@
 
 namespace femscalpel {
 
-Method method_from_name(const std::string& name) {
-    if (name == "snap") return Method::snap;
-    if (name == "deform") return Method::deform;
-    throw ToolError("method '" + name + "' is unknown; it is \"snap\" or \"deform\"");
-}
-
-std::string_view to_string(Method method) { return method == Method::snap ? "snap" : "deform"; }
-
 void find_node_sets(Workpiece& f) {
     const BandMesh& band = f.d.band;
     std::vector<int> depth(static_cast<std::size_t>(band.size()), -1);

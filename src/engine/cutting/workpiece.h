@@ -14,16 +14,6 @@
 
 namespace femscalpel {
 
-/// How element faces are brought onto the tool (DESIGN 3, step 2).
-enum class Method {
-    snap,    ///< move near nodes onto the tool, split what still crosses; succeeds on any sound mesh
-    deform,  ///< the paper's: choose element faces near the tool, then move their nodes; may end in QualityError
-};
-
-/// Method of that name ("snap" or "deform"); throws ToolError otherwise.
-Method method_from_name(const std::string& name);
-std::string_view to_string(Method method);
-
 /// A surface that element faces are to be made of.
 struct Blade {
     const Tool* tool = nullptr;

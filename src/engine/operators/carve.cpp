@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <sstream>
 
 #include "cancel.h"
@@ -15,8 +14,7 @@
 #include "cutting/retry.h"
 #include "cutting/snap.h"
 #include "deformation/deformation.h"
-#include "mesh/stopwatch.h"
-#include "operators/refine_first.h"
+#include "operators/driver.h"
 #include "tools/cylinder.h"
 
 namespace femscalpel {
@@ -156,6 +154,131 @@ std::vector<Body> without_idle_walls(const Mesh& mesh, std::span<const Body> bod
     return out;
 }
 
+/// Whether the band has elements left.
+bool has_elements(const BandMesh& band) {
+    const auto any = [](const auto& list) {
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s)) return true;
+        return false;
+    };
+    return any(band.tetras) || any(band.triangles);
+}
+
+class Carve final : public Recipe {
+public:
+    Carve(const char* kind, std::span<const Body> bodies, const OperatorOptions& options,
+          const std::array<const char*, 4>& sets)
+        : kind_(kind), all_(bodies.begin(), bodies.end()), options_(options), sets_(sets) {}
+
+    const char* kind() const override { return kind_; }
+
+    void start(const Mesh& mesh) override {
+        warnings_.clear();
+        bodies_ = without_idle_walls(mesh, all_, warnings_);
+        blades_.clear();
+        for (const Body& body : bodies_)
+            std::ranges::move(blades_of(body, static_cast<int>(blades_.size())), std::back_inserter(blades_));
+        if (blades_.empty()) throw ToolError("there is no tool: give at least one");
+        if (options_.method == Method::deform && blades_.size() > 1)
+            throw ToolError(
+                "method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and "
+                "several holes");
+    }
+
+    std::vector<RefineZone> zones() const override { return zones_of(all_, options_.refine); }
+    std::span<const Blade> blades() const override { return blades_; }
+
+    Naming naming() const override {
+        Naming out;
+        out.sets = sets_;
+        for (const Body& body : bodies_)
+            for (const Body::Wall& wall : body.walls) {
+                out.groups.emplace_back();
+                for (const std::string& suffix : wall.suffixes) out.groups.back().push_back(options_.name + suffix);
+            }
+        return out;
+    }
+
+    std::vector<CellRef> removed(const Mesh& whole, const std::vector<std::int8_t>& level) const override {
+        std::vector<std::function<double(const Vec3&)>> depths;
+        for (const Body& body : bodies_) depths.push_back([&body](const Vec3& x) { return body.depth(x); });
+        return deep_inside(whole, level, depths);
+    }
+
+    bool cut(Workpiece& f, const Site& site) override {
+        f.warnings.insert(f.warnings.end(), warnings_.begin(), warnings_.end());
+        if (options_.method == Method::snap)
+            cut_soundly(
+                f, [&](Workpiece& g) { carve_once(g, site); }, site.whole.cell_count(), carve_attempts);
+        else
+            carve_once(f, site);
+        return true;
+    }
+
+    Opening open(Workpiece& f, const Site& site) override {
+        check_resolution(f, bodies_);
+        check_shape(f, site.mesh);
+        find_node_sets(f);
+        check_contacts(f);
+        Opening walls = open_walls(f);
+        warn_of_flat_walls(f, walls, tools());
+        note_slivers(f, tools(), -1);
+        return walls;
+    }
+
+private:
+    /// By tag.
+    std::vector<const Tool*> tools() const {
+        std::vector<const Tool*> out;
+        for (const Blade& blade : blades_) out.push_back(blade.tool);
+        return out;
+    }
+
+    void carve_once(Workpiece& f, const Site& site) const {
+        Index removed = static_cast<Index>(f.deep_inside.size());
+        auto blade = blades_.begin();
+        for (const Body& body : bodies_) {
+            std::vector<const Tool*> walls;
+            const int first_tag = blade->tag;
+            for (std::size_t w = 0; w < body.walls.size(); ++w, ++blade) {
+                walls.push_back(blade->tool);
+                if (options_.method == Method::deform)
+                    deform_to_tool(f, *blade->tool, site.mesh);
+                else
+                    cut_along(f, *blade);
+            }
+            removed += remove_inside(f, walls, first_tag);
+        }
+        check_removed(f, removed, site);
+        release_all_but_walls(f, tools());
+        note_slivers(f, tools(), 1);
+        if (options_.method == Method::snap) relax_band(f);
+    }
+
+    void check_removed(const Workpiece& f, Index removed, const Site& site) const {
+        const std::string tool = "the " + blades_.front().tool->kind();
+        if (removed == 0)
+            throw ToolError(tool + " removes nothing: " +
+                            (site.crossed == 0
+                                 ? "it touches the mesh from outside, and no element lies inside. Move " + tool +
+                                       " into the material"
+                                 : "what it would take off is thinner than the elements there. Refine the mesh there, "
+                                   "or move " +
+                                       tool + " into the material"));
+        if (!has_elements(f.d.band) && removed >= solid_count(site.whole))
+            throw ToolError(tool +
+                            " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move "
+                            "it");
+    }
+
+    const char* kind_;
+    std::vector<Body> all_, bodies_;  // as given; without walls that bound nothing
+    const OperatorOptions& options_;
+    std::array<const char*, 4> sets_;
+    std::vector<Blade> blades_;  // of bodies_
+    std::vector<std::string> warnings_;
+};
+
 }  // namespace
 
 double Body::depth(const Vec3& x) const {
@@ -166,94 +289,8 @@ double Body::depth(const Vec3& x) const {
 
 Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options,
              const std::array<const char*, 4>& sets, const Prepared& prepared) {
-    const Stopwatch::Time started = Stopwatch::now();
-    if (auto refined = refine_first(input, zones_of(bodies, options.refine), options, prepared)) {
-        refined->seconds = Stopwatch::since(started);
-        return carve(kind, refined->mesh_of(input), bodies, options, sets, refined->prepared(prepared));
-    }
-    std::vector<std::string> warnings;
-    const std::vector<Body> cutting = without_idle_walls(input, bodies, warnings);
-    bodies = cutting;
-    std::vector<Blade> blades;
-    std::vector<const Tool*> tool_of_tag;
-    std::vector<std::function<double(const Vec3&)>> depths;
-    std::set<std::string> suffixes;
-    Naming naming;
-    naming.sets = sets;
-    for (const Body& body : bodies) {
-        std::ranges::move(blades_of(body, static_cast<int>(blades.size())), std::back_inserter(blades));
-        depths.push_back([&body](const Vec3& x) { return body.depth(x); });
-        for (const Body::Wall& wall : body.walls) {
-            tool_of_tag.push_back(wall.tool);
-            naming.groups.emplace_back();
-            for (const std::string& suffix : wall.suffixes) {
-                naming.groups.back().push_back(options.name + suffix);
-                suffixes.insert(suffix);
-            }
-        }
-    }
-    if (blades.empty()) throw ToolError("there is no tool: give at least one");
-    if (options.method == Method::deform && blades.size() > 1)
-        throw ToolError(
-            "method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and "
-            "several holes");
-    Operation operation(kind, input, options, prepared, {suffixes.begin(), suffixes.end()}, started);
-    Workpiece f = operation.begin(blades, [&](const Mesh& whole, const std::vector<std::int8_t>& level) {
-        return deep_inside(whole, level, depths);
-    });
-    f.warnings.insert(f.warnings.end(), warnings.begin(), warnings.end());
-    const Mesh& mesh = operation.mesh();
-    const auto carve_once = [&](Workpiece& g) {
-        Index removed = static_cast<Index>(g.deep_inside.size());
-        std::size_t blade = 0;
-        for (const Body& body : bodies) {
-            std::vector<const Tool*> tools;
-            const int first_tag = static_cast<int>(blade);
-            for (const Body::Wall& wall : body.walls) {
-                tools.push_back(wall.tool);
-                if (options.method == Method::deform)
-                    deform_to_tool(g, *wall.tool, mesh);
-                else
-                    cut_along(g, blades[blade]);
-                ++blade;
-            }
-            removed += remove_inside(g, tools, first_tag);
-        }
-        if (removed == 0)
-            throw ToolError("the " + blades.front().tool->kind() + " removes nothing: " +
-                            (operation.location().crossed == 0
-                                 ? "it touches the mesh from outside, and no element lies inside. Move the " +
-                                       blades.front().tool->kind() + " into the material"
-                                 : "what it would take off is thinner than the elements there. Refine the mesh there, "
-                                   "or move the " +
-                                       blades.front().tool->kind() + " into the material"));
-        const bool left = [&] {
-            for (int t = 0; t < g.d.band.tetras.size(); ++t)
-                if (g.d.band.tetras.alive(t)) return true;
-            for (int t = 0; t < g.d.band.triangles.size(); ++t)
-                if (g.d.band.triangles.alive(t)) return true;
-            return false;
-        }();
-        if (!left && removed >= solid_count(operation.whole()))
-            throw ToolError("the " + blades.front().tool->kind() +
-                            " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
-        release_all_but_walls(g, tool_of_tag);
-        note_slivers(g, tool_of_tag, 1);
-        if (options.method == Method::snap) relax_band(g);
-    };
-    if (options.method == Method::snap)
-        cut_soundly(f, carve_once, operation.whole().cell_count(), carve_attempts);
-    else
-        carve_once(f);
-    operation.take_laps(f.seconds);
-    check_resolution(f, bodies);
-    check_shape(f, mesh);
-    find_node_sets(f);
-    check_contacts(f);
-    const Opening walls = open_walls(f);
-    warn_of_flat_walls(f, walls, tool_of_tag);
-    note_slivers(f, tool_of_tag, -1);
-    return operation.finish(f, walls, naming);
+    Carve recipe(kind, bodies, options, sets);
+    return perform(recipe, input, options, prepared);
 }
 
 }  // namespace femscalpel

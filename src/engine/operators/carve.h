@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "operators/operation.h"
+#include "operators/options.h"
+#include "operators/prepared.h"
+#include "operators/report.h"
+#include "tools/tool.h"
 
 namespace femscalpel {
 

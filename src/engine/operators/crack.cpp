@@ -19,8 +19,7 @@
 #include "cutting/snap.h"
 #include "deformation/deformation.h"
 #include "deformation/relaxation.h"
-#include "mesh/stopwatch.h"
-#include "operators/refine_first.h"
+#include "operators/driver.h"
 #include "tools/face.h"
 
 namespace femscalpel {
@@ -176,79 +175,112 @@ std::string why_no_lips(const Workpiece& f, const Opening& opening, const Blade&
            " into the material";
 }
 
+class Crack final : public Recipe {
+public:
+    Crack(const Tool& tool, const CrackOptions& options) : tool_(tool), options_(options) {
+        const bool deform = options.method == Method::deform;
+        if (tool.bounded() && deform)
+            throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " +
+                            tool.kind());
+        if (options.within && deform)
+            throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
+    }
+
+    const char* kind() const override { return "crack"; }
+
+    void start(const Mesh&) override {
+        patch_.reset();
+        opening_.reset();
+        blade_ = {};
+        blade_.tool = &tool_;
+        if (options_.method == Method::snap && std::isfinite(tool_.feature_size())) blade_.tag = whole_tool;
+        if (tool_.bounded()) blade_.bound = [&tool = tool_](const Vec3& x) { return tool.beyond(x); };
+        if (options_.within) keep_within(options_.within->on(tool_));
+    }
+
+    std::vector<RefineZone> zones() const override {
+        auto zone =
+            patch_ ? zone_around(tool_, *patch_, options_.refine) : zone_around(tool_, blade_.bound, options_.refine);
+        if (!zone) return {};
+        return {std::move(*zone)};
+    }
+
+    std::span<const Blade> blades() const override { return {&blade_, 1}; }
+
+    Naming naming() const override {
+        return {.groups = {{options_.name + "_N"}, {options_.name + "_P"}}, .front = options_.name + "_FRONT"};
+    }
+
+    bool cut(Workpiece& f, const Site& site) override {
+        if (patch_)
+            cut_within_patch(f, site);
+        else if (tool_.bounded())
+            return cut_as_far_as_it_goes(f, site);
+        else if (site.crossed == 0)
+            return true;
+        else if (options_.method == Method::snap)
+            snap_to_tool(f, blade_, site.whole.cell_count());
+        else
+            deform_to_tool(f, tool_, site.mesh);
+        check_cancelled();
+        return true;
+    }
+
+    Opening open(Workpiece& f, const Site& site) override {
+        if (patch_ || site.crossed > 0) check_shape(f, site.mesh);
+        const Opening opening = opening_ ? std::move(*opening_) : open_lips(f);
+        if (opening.copy_of.empty()) throw ToolError(why_no_lips(f, opening, blade_, site.crossed > 0));
+        find_node_sets(f);
+        check_contacts(f);
+        check_lips(f, opening, patch_ ? &*patch_ : nullptr);
+        if (patch_ && !opening.faces.empty()) check_opening(f, opening, *patch_);
+        warn_of_coarse_mesh(f, opening);
+        return opening;
+    }
+
+private:
+    void keep_within(Patch patch) {
+        patch_ = std::move(patch);
+        blade_.bound = patch_->distance;
+        blade_.tag = whole_tool;
+    }
+
+    void cut_within_patch(Workpiece& f, const Site& site) {
+        cut_soundly(
+            f, [&](Workpiece& g) { snap_to_patch(g, blade_, *patch_); }, site.whole.cell_count());
+    }
+
+    /// A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut
+    /// along.
+    bool cut_as_far_as_it_goes(Workpiece& f, const Site& site) {
+        if (site.crossed == 0) return true;
+        Workpiece start = f;
+        cut_along(f, blade_);
+        relax_band(f);
+        check_cancelled();
+        opening_ = open_lips(f);
+        const std::vector<int> inner = inner_border(f, *opening_);
+        if (inner.empty()) return true;
+        opening_.reset();
+        keep_within(dynamic_cast<const Face&>(tool_).within(inner));
+        if (site.refine(zones())) return false;
+        f = std::move(start);
+        cut_within_patch(f, site);
+        return true;
+    }
+
+    const Tool& tool_;
+    const CrackOptions& options_;
+    Blade blade_;
+    std::optional<Patch> patch_;
+    std::optional<Opening> opening_;  // where it had to be known before open()
+};
+
 }  // namespace
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
-    const Stopwatch::Time started = Stopwatch::now();
-    Blade blade;
-    blade.tool = &tool;
-    if (options.method == Method::snap && std::isfinite(tool.feature_size())) blade.tag = whole_tool;
-    if (tool.bounded()) blade.bound = [&tool](const Vec3& x) { return tool.beyond(x); };
-    if (tool.bounded() && options.method == Method::deform)
-        throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " +
-                        tool.kind());
-    std::optional<Patch> patch;
-    if (options.within) {
-        if (options.method == Method::deform)
-            throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
-        patch = options.within->on(tool);
-        blade.bound = patch->distance;
-        blade.tag = whole_tool;
-    }
-    const auto on_refined = [&]() -> std::optional<Result> {
-        const auto zone =
-            patch ? zone_around(tool, *patch, options.refine) : zone_around(tool, blade.bound, options.refine);
-        if (!zone) return {};
-        auto refined = refine_first(input, {&*zone, 1}, options, prepared);
-        if (!refined) return {};
-        refined->seconds = Stopwatch::since(started);
-        return crack(refined->mesh_of(input), tool, options, refined->prepared(prepared));
-    };
-    if (auto result = on_refined()) return std::move(*result);
-    Operation operation("crack", input, options, prepared, {"_P", "_N", "_FRONT"}, started);
-    Workpiece f = operation.begin({&blade, 1});
-    // A tool that ends inside the material cracks it as far as it goes; whether it does shows when it has been cut
-    // along.
-    const std::optional<Workpiece> start = tool.bounded() && !patch ? std::optional(f) : std::nullopt;
-    if (patch) {
-        cut_soundly(
-            f, [&](Workpiece& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
-    } else if (operation.location().crossed > 0) {
-        if (tool.bounded()) {
-            cut_along(f, blade);
-            relax_band(f);
-        } else if (options.method == Method::snap)
-            snap_to_tool(f, blade, operation.whole().cell_count());
-        else
-            deform_to_tool(f, tool, operation.mesh());
-    }
-    check_cancelled();
-    std::optional<Opening> opening;
-    if (start) {
-        if (operation.location().crossed > 0) opening = open_lips(f);
-        if (const std::vector<int> inner = opening ? inner_border(f, *opening) : std::vector<int>(); !inner.empty()) {
-            patch = dynamic_cast<const Face&>(tool).within(inner);
-            if (auto result = on_refined()) return std::move(*result);
-            blade.bound = patch->distance;
-            blade.tag = whole_tool;
-            f = *start;
-            cut_soundly(
-                f, [&](Workpiece& g) { snap_to_patch(g, blade, *patch); }, operation.whole().cell_count());
-            opening.reset();
-        }
-    }
-    operation.take_laps(f.seconds);
-    if (patch || operation.location().crossed > 0) check_shape(f, operation.mesh());
-    if (!opening) opening = open_lips(f);
-    if (opening->copy_of.empty()) throw ToolError(why_no_lips(f, *opening, blade, operation.location().crossed > 0));
-    find_node_sets(f);
-    check_contacts(f);
-    check_lips(f, *opening, patch ? &*patch : nullptr);
-    if (patch && !opening->faces.empty()) check_opening(f, *opening, *patch);
-    warn_of_coarse_mesh(f, *opening);
-    return operation.finish(
-        f, *opening,
-        {{{options.name + "_N"}, {options.name + "_P"}}, options.name + "_FRONT", {"ICN", "ECN", "ITN", "ETN"}});
+    Crack recipe(tool, options);
+    return perform(recipe, input, options, prepared);
 }
 
 }  // namespace femscalpel

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "operators/operation.h"
+#include "operators/options.h"
+#include "operators/prepared.h"
+#include "operators/report.h"
 #include "tools/plane.h"
 
 namespace femscalpel {

@@ -5,7 +5,10 @@
 #include <optional>
 #include <span>
 
-#include "operators/operation.h"
+#include "operators/options.h"
+#include "operators/prepared.h"
+#include "operators/report.h"
+#include "tools/tool.h"
 
 namespace femscalpel {
 

@@ -3,9 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include "operators/report.h"
 
 namespace femscalpel {
 
@@ -22,6 +21,16 @@ struct RefineFirst {
     When when = When::automatic;
     double size = 0;
 };
+
+/// How element faces are brought onto the tool (architecture.md, an operation step by step).
+enum class Method {
+    snap,    ///< move near nodes onto the tool, split what still crosses; succeeds on any sound mesh
+    deform,  ///< the paper's: choose element faces near the tool, then move their nodes; may end in QualityError
+};
+
+/// Method of that name ("snap" or "deform"); throws ToolError otherwise.
+Method method_from_name(const std::string& name);
+std::string_view to_string(Method method);
 
 /// What every operator lets the user choose.
 struct OperatorOptions {

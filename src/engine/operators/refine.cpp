@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <nanoflann.hpp>
 #include <queue>
 #include <set>
@@ -16,14 +15,13 @@
 #include "cutting/locate.h"
 #include "cutting/mend_curved.h"
 #include "cutting/opening.h"
-#include "cutting/rebuild.h"
 #include "cutting/workpiece.h"
-#include "deck/carry_over.h"
 #include "deformation/curved_shape.h"
 #include "deformation/relaxation.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "mesh/stopwatch.h"
+#include "operators/edit.h"
 
 namespace femscalpel {
 namespace {
@@ -552,18 +550,12 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     const std::vector<std::int8_t> core = find_long_edges(input, target, distances);
     watch.lap("locate");
     if (std::ranges::find(core, 0) == core.end()) return {};
-    const DeckMarks marks = mark_deck(input);
-    const Mesh& mesh = marks.mesh ? *marks.mesh : input;
+    Edit edit(input, {});
+    const Mesh& mesh = edit.mesh();
     if (input.solver_input) watch.lap("mark deck");
-    auto copy = async_obeying(std::launch::async,
-                              [&mesh] { return std::pair(std::make_unique<Mesh>(mesh), family_totals(mesh)); });
-
-    ConstraintOptions constraint_options;
+    edit.start_copy();
+    ConstraintOptions constraint_options = edit.constraints();
     constraint_options.feature_angle = options.feature_angle;
-    constraint_options.kept_hidden = marks.kept;
-    constraint_options.meaningless = groups_of(marks.surface_sets, mesh);
-    constraint_options.pinned = marks.pinned;
-    constraint_options.related = marks.related;
     constraint_options.shape = options.skin;
     // The propagation of longest edges leaves the elements to be refined by a few elements, seldom more.
     constexpr int first_band = 2, last_band = 64;
@@ -588,13 +580,9 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     watch.lap("bisect");
 
     if (!f->folded_input.empty()) check_folded_input(*f, newly_folded(*f, folded_elements(*f, 0)));
-    put_back_middles(*f, mesh);
     f->mid_side = [&](int a, int b) { return bisector->mid_side(a, b); };
-    auto [output, totals] = await(copy);
-    Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, no_opening(f->d.band), {}, next_numbers(mesh));
-    if (!marks.surface_sets.empty())
-        renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
-    watch.lap("rebuild");
+    Edited edited = edit.finish(*f, no_opening(f->d.band), {}, options.strict, watch);
+    Rebuilt& rebuilt = edited.rebuilt;
     for (int v = f->d.band.original_nodes(); v < f->d.band.size(); ++v)
         if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free &&
                                              !rebuilt.mesh.families.groups(rebuilt.mesh.node_families[n]).empty())
@@ -610,20 +598,13 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
         report.warnings.push_back(
             std::to_string(bisector->off_shape()) +
             " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
-    if (input.solver_input) {
-        carry_deck(mesh, rebuilt.mesh, rebuilt.changes, options.strict, report.warnings);
-        watch.lap("carry deck");
-    }
+    for (std::string& warning : edited.deck_warnings) report.warnings.push_back(std::move(warning));
     report.nodes_added = report.nodes_split = rebuilt.nodes_split;
     report.elements_added = rebuilt.elements_added;
     describe_quality(mesh, *f, rebuilt, report);
     if (report.quality_before.minimum > 0 && report.quality_after.minimum <= 0)
         throw QualityError("elements would be inverted by refinement; choose a larger size, or another place");
-    FamilyTotals after = totals;
-    count_cells(after, mesh, rebuilt.before, -1);
-    count_cells(after, rebuilt.mesh, rebuilt.after, +1);
-    recount_nodes_and_facets(after, rebuilt.mesh);
-    report.groups = compare_groups(mesh, totals, rebuilt.mesh, after);
+    report.groups = compare_groups(mesh, edited.before, rebuilt.mesh, edited.after);
     for (GroupRecord& r : report.groups)
         if (r.status == "kept" && r.count_before == r.count_after) r.status = "untouched";
     remove_marks(rebuilt.mesh);

@@ -57,12 +57,6 @@ DistanceField joined(std::span<const RefineZone> zones, double size, double grad
 
 }  // namespace
 
-Prepared Refined::prepared(const Prepared& of_input) const {
-    Prepared out = tried_in_vain ? of_input : Prepared{};
-    out.refined = this;
-    return out;
-}
-
 std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond,
                                       const RefineFirst& refine) {
     if (refine.when == RefineFirst::When::never) return {};
@@ -86,9 +80,9 @@ std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, cons
     return zone_around(tool, patch.distance, {RefineFirst::When::to_size, size});
 }
 
-std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options,
-                                    const Prepared& prepared) {
-    if (zones.empty() || prepared.refined) return {};
+std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones,
+                                    const OperatorOptions& options) {
+    if (zones.empty()) return {};
     const bool asked = options.refine.when == RefineFirst::When::to_size;
     if (!asked && options.method == Method::deform) return {};  // which is there not to add nodes
     RefineOptions o;

@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "operators/operation.h"
+#include "cutting/rebuild.h"
+#include "operators/options.h"
 #include "operators/refine.h"
 #include "tools/patch.h"
 
@@ -26,10 +27,6 @@ struct Refined {
     std::vector<Index> on_shortcuts;  ///< see refine_where_needed()
     double seconds = 0;               ///< of the call so far
     bool tried_in_vain = false;       ///< `report` has but a warning that says why, and `mesh` is empty
-
-    /// What the operation works on, and what is known of it.
-    const Mesh& mesh_of(const Mesh& input) const { return tried_in_vain ? input : mesh; }
-    Prepared prepared(const Prepared& of_input) const;
 };
 
 /// The zone around a tool's surface where it cuts, that is where `beyond` (if any) is not positive: as the options say,
@@ -46,7 +43,7 @@ std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, cons
 /// pre-refinement step is necessary"). Nothing, when they are not. By default an operation goes on with the mesh as it
 /// is where elements that cannot be bisected are in the way or the number of elements would pass all reason, with a
 /// warning; with a size given these are errors.
-std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones, const OperatorOptions& options,
-                                    const Prepared& prepared);
+std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones,
+                                    const OperatorOptions& options);
 
 }  // namespace femscalpel

@@ -92,6 +92,14 @@ struct Report {
     std::vector<std::string> warnings;
 };
 
+/// Calls visit(index, record) for each group of the input `before` that is not hidden: their records come first, in
+/// order.
+void for_each_record(const Mesh& before, Report& report, auto visit) {
+    std::size_t record = 0;
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+        if (!before.groups[g].hidden) visit(g, report.groups[record++]);
+}
+
 /// A new mesh and what was done to get it.
 struct Result {
     Mesh mesh;

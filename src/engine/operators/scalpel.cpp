@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/scalpel.h"
 
-#include "cutting/locate.h"
+#include "deck/carry_over.h"
+#include "groups/group_report.h"
+#include "mesh/adjacency.h"
 
 namespace femscalpel {
 

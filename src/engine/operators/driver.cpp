@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "cancel.h"
+#include "cutting/checks.h"
+#include "cutting/folded_input.h"
+#include "cutting/snap.h"
+#include "groups/preserve.h"
+#include "mesh/stopwatch.h"
+#include "operators/account.h"
+
+namespace femscalpel {
+namespace {
+
+/// Code_Aster's limit for group names.
+constexpr std::size_t longest_name = 24;
+
+/// The paper's bandwidth: largest distance between an interface node and the tool, in mean edge lengths; at least 2.
+int bandwidth(const Location& location, const Mesh& mesh) {
+    double largest = 0, length = 0;
+    long edges = 0;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (t.dimension < 2 || !t.simplex) continue;
+        const Index* n = b.connectivity.data();
+        for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
+            bool touched = false;
+            for (int k = 0; k < t.corners; ++k) touched = touched || location.level[n[k]] == 0;
+            if (!touched) continue;
+            for (const auto& e : t.edges) {
+                const Index a = n[e[0]], d = n[e[1]];
+                if (location.level[a] != 0 || location.level[d] != 0) continue;
+                length += (mesh.points[a] - mesh.points[d]).norm();
+                ++edges;
+                largest = std::max(largest, std::min(std::abs(location.distance[a]), std::abs(location.distance[d])));
+            }
+        }
+    }
+    if (edges == 0) return 2;
+    return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
+}
+
+/// Throws ToolError when the operator could not call its groups so.
+void check_name(const Mesh& mesh, const std::string& name, const Naming& naming) {
+    if (name.empty()) throw ToolError("name is empty; the new groups need one");
+    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
+        std::string::npos)
+        throw ToolError(
+            "name '" + name +
+            "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
+    std::set<std::string> groups;
+    for (const auto& list : naming.groups) groups.insert(list.begin(), list.end());
+    if (!naming.front.empty()) groups.insert(naming.front);
+    for (const std::string& group : groups) {
+        if (group.size() > longest_name)
+            throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " +
+                            std::to_string(group.size()) + " characters, at most " + std::to_string(longest_name) +
+                            " are allowed");
+        if (mesh.find_group(group))
+            throw ToolError("name '" + name + "' is taken: the mesh already has a group '" + group +
+                            "'; choose another");
+    }
+}
+
+void check_options(const OperatorOptions& options) {
+    if (options.transition && (*options.transition < 1 || *options.transition > 20))
+        throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20");
+    if (!(options.feature_angle > 0 && options.feature_angle < 180))
+        throw ToolError("feature_angle must lie between 0 and 180 degrees");
+}
+
+/// Band, node constraints and contacts around the blades of a recipe.
+class Ground {
+public:
+    Ground(const OperatorOptions& options, Edit& edit, const Refined* refined, const std::vector<bool>& drifting)
+        : options_(options), edit_(edit), refined_(refined), drifting_(drifting) {}
+
+    /// Finds the band of the recipe's blades. With the option band_only, `edit` goes on with that alone.
+    void find_band(const Recipe& recipe) {
+        const std::span<const Blade> blades = recipe.blades();
+        location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency());
+        if (!options_.transition && options_.method == Method::deform) {
+            width_ = bandwidth(location_, edit_.mesh());
+            if (width_ > 2) location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency());
+        }
+        removed_ = recipe.removed(edit_.whole(), location_.level);
+        if (options_.band_only) edit_.keep_band(location_, removed_);
+    }
+
+    Index crossed() const { return location_.crossed; }
+
+    /// The band, and what its nodes have to keep to. Nodes on the first blade, where it is unbounded, are in contact
+    /// with it. Throws as extract_band() and check_input_shape() do.
+    Workpiece workpiece(std::span<const Blade> blades) {
+        const Mesh& mesh = edit_.mesh();
+        const Tool& first = *blades.front().tool;
+        Workpiece f{.d = Deformable(extract_band(mesh, location_.level, edit_.adjacency()), mesh, constraints()),
+                    .tool = &first,
+                    .tolerance = location_.tolerance,
+                    .bandwidth = width_};
+        f.deep_inside = std::move(removed_);
+        f.distance.resize(static_cast<std::size_t>(f.d.band.size()));
+        check_cancelled();
+        for (int v = 0; v < f.d.band.size(); ++v) {
+            f.distance[v] = location_.distance[f.d.band.nodes[v].global];
+            if (std::abs(f.distance[v]) > location_.rounding) continue;
+            if (!blades.front().bound) put_on_tool(f, v, first);
+            f.distance[v] = 0;
+        }
+        check_input_shape(f, mesh);
+        check_skin(f);
+        return f;
+    }
+
+private:
+    ConstraintOptions constraints() const {
+        ConstraintOptions out = edit_.constraints();
+        out.feature_angle = options_.feature_angle;
+        out.drifting_groups = drifting_;
+        if (refined_) out.on_shortcuts = refined_->on_shortcuts;
+        out.shape = options_.skin;
+        out.tolerance = location_.tolerance;
+        out.rounding = location_.rounding > location_.tolerance ? location_.rounding : 0;
+        return out;
+    }
+
+    const OperatorOptions& options_;
+    Edit& edit_;
+    const Refined* refined_;
+    const std::vector<bool>& drifting_;
+    int width_ = options_.transition.value_or(2);
+    Location location_;
+    std::vector<CellRef> removed_;
+};
+
+/// Runs a recipe on the mesh as it is. Nothing when the recipe had it refined meanwhile.
+std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOptions& options, const Prepared& known,
+                              const Refined* refined, Stopwatch::Time started,
+                              const std::function<bool(std::span<const RefineZone>)>& refine) {
+    Laps seconds;
+    if (refined) seconds.add("refine", refined->seconds);
+    Stopwatch watch(seconds, started);
+    watch.lap("locate");
+    Edit edit(mesh, known);
+    if (mesh.solver_input) watch.lap("mark deck");
+    const std::vector<bool> drifting = drifting_groups(edit.mesh(), options.preserve);
+    edit.start_copy(!options.band_only);
+    Ground ground(options, edit, refined, drifting);
+    ground.find_band(recipe);
+    watch.lap("locate");
+    const std::span<const Blade> blades = recipe.blades();
+    Workpiece f = ground.workpiece(blades);
+    Account account(recipe.kind(), options, edit, refined, drifting);
+    account.open(f);
+    for (const Blade& b : blades) split_at_fixed_middles(f, b, edit.mesh());
+    watch.lap("constraints");
+    const Site site{edit.mesh(), edit.whole(), ground.crossed(), refine};
+    if (!recipe.cut(f, site)) return {};
+    watch.lap("check", f.seconds);
+    const Opening opening = recipe.open(f, site);
+    account.judge(f, blades, opening);
+    watch.lap("open");
+    const Naming naming = recipe.naming();
+    Edited edited = edit.finish(f, opening, naming, options.strict, watch);
+    Result result{{}, account.close(f, blades, opening, naming, edited)};
+    result.mesh = std::move(edited.rebuilt.mesh);
+    remove_marks(result.mesh);
+    watch.lap("report");
+    result.report.seconds = seconds.list();
+    return result;
+}
+
+}  // namespace
+
+Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
+    Stopwatch::Time started = Stopwatch::now();
+    recipe.start(input);
+    check_name(input, options.name, recipe.naming());
+    check_options(options);
+    (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    std::optional<Refined> refined;
+    const auto refine = [&](std::span<const RefineZone> zones) {
+        if (refined) return false;
+        refined = refine_first(input, zones, options);
+        if (!refined) return false;
+        refined->seconds = Stopwatch::since(started);
+        return true;
+    };
+    refine(recipe.zones());
+    for (;;) {
+        const bool finer = refined && !refined->tried_in_vain;
+        if (refined) started = Stopwatch::now();
+        if (finer) recipe.start(refined->mesh);
+        if (auto result = attempt(recipe, finer ? refined->mesh : input, options, finer ? Prepared{} : known,
+                                  refined ? &*refined : nullptr, started, refine))
+            return std::move(*result);
+    }
+}
+
+}  // namespace femscalpel
