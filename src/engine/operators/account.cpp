@@ -309,8 +309,7 @@ void Account::find_warnings(const Workpiece& f, std::span<const Blade> blades, c
     else
         for (std::size_t g = 0; g < meaningless.size(); ++g) unjudged[g] = unjudged[g] || meaningless[g];
     const Mesh& mesh = edit_.mesh();
-    if (!options_.skin)
-        warn_of_changed_size(edit_.whole(), mesh, edited.before, edited.after, f, unjudged, report_);
+    if (!options_.skin) warn_of_changed_size(edit_.whole(), mesh, edited.before, edited.after, f, unjudged, report_);
     warn_of_emptied_groups(mesh, meaningless, report_);
     for (const std::vector<std::string>* warnings : {&f.warnings, &opening.warnings, &edited.deck_warnings})
         for (const std::string& w : *warnings)

@@ -267,8 +267,7 @@ private:
                                        tool + " into the material"));
         if (!has_elements(f.d.band) && removed >= solid_count(site.whole))
             throw ToolError(tool +
-                            " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move "
-                            "it");
+                            " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
     }
 
     const char* kind_;

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "cutting/bisection.h"
 #include "operators/report.h"
-#include "tools/cad_shape.h"
-#include "tools/tool.h"
 
 namespace femscalpel {
 
-/// Distance from a point to what a mesh is refined around, in the mesh's unit. May be signed: an edge whose ends
-/// have different signs is at distance 0.
-using DistanceField = std::function<double(const Vec3&)>;
-
-/// Distance to the nearest of some tools, which must outlive the field. Throws ToolError when there is none.
-DistanceField distance_to(std::vector<const Tool*> tools);
-
-/// Distance to the nearest of some points. Throws ToolError when there is none or one is not finite.
-DistanceField distance_to(std::vector<Vec3> points);
-
-struct RefineOptions {
-    double size = 0;                 ///< longest edge wanted near the tool, in the mesh's unit
-    double gradation = 0.5;          ///< how much longer edges may be per unit of distance from the tool
-    double reach = 0;                ///< `size` holds up to this distance, and grows from there
-    bool relax = true;               ///< move new nodes for better shape, where that changes no surface or border
-    Index max_elements = 5'000'000;  ///< ToolError instead of a larger mesh
-    double feature_angle = 30;       ///< degrees; a skin edge sharper than this is a feature line
-    const CadShape* skin = nullptr;  ///< the shape the mesh was made from: new nodes of the skin are put on it
-    bool strict = false;  ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+struct RefineOptions : BisectionOptions {
+    double feature_angle = 30;  ///< degrees; a skin edge sharper than this is a feature line
+    bool strict = false;        ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
 };
 
 /// Bisects edges until none is longer than size + gradation * max(0, d - reach), d the smallest distance of

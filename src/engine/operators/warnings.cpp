@@ -217,7 +217,6 @@ void warn_of_held_nodes(const Workpiece& f, const Mesh& before, Report& report) 
     report.warnings.push_back(message.str());
 }
 
-
 void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaningless, Report& report) {
     for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
         if (r.status == "became empty" && (meaningless.empty() || !meaningless[g]))
