@@ -7,6 +7,8 @@
 //     cancel_latency [PART OF THE MESH'S NAME [PART OF THE OPERATION'S NAME]]
 #include <execinfo.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -20,6 +22,7 @@
 #include "mesh/quality.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
+#include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
 #include "tools/torus.h"
@@ -100,6 +103,29 @@ void measure(const char* name, const std::function<void()>& run) {
     std::fflush(stdout);
 }
 
+/// The same mesh in second order, without its groups of nodes, as curved as the smooth map of space that its nodes went
+/// through.
+Mesh curved(const Mesh& mesh) {
+    Mesh out = checks::second_order(mesh);
+    std::ranges::fill(out.node_families, 0);
+    for (Vec3& x : out.points)
+        x += 0.2 * Vec3(std::sin(x[1]) + std::sin(x[2]), std::sin(x[2]) + std::sin(x[0]), std::sin(x[0] + x[1]));
+    return out;
+}
+
+void measure_curved(const Mesh& linear) {
+    const Mesh mesh = curved(linear);
+    const Plane plane({7.3, 5, 5}, {0.9, 0.3, 0.2});
+    const Cylinder hole({6, 5, 5}, {0.1, 0.2, 1}, 2);
+    const Tool* tools[] = {&hole};
+    measure("crack, curved", [&] { crack(mesh, plane); });
+    measure("drill, curved", [&] { drill(mesh, tools); });
+    RefineOptions o;
+    o.size = 0.2;
+
+    measure("refine, curved", [&] { refine(mesh, distance_to(std::vector<const Tool*>{&hole}), o); });
+}
+
 void measure_all(const std::filesystem::path& path) {
     const Mesh mesh = read(path);
     std::printf("%s: %lld elements\n", path.filename().c_str(), static_cast<long long>(mesh.cell_count()));
@@ -135,6 +161,7 @@ void measure_all(const std::filesystem::path& path) {
     o.size = 1e-9;
     o.gradation = 100;
     measure("refine, nothing to do", [&] { refine(mesh, distance_to(std::vector<Vec3>{{1000, 0, 0}}), o); });
+    if (mesh.cell_count() < 100'000) measure_curved(mesh);
     measure("virtual boundaries", [&] {
         const VirtualBoundaryFinder finder(mesh);
         for (std::size_t g = 0; g < mesh.groups.size(); ++g) finder.find(static_cast<GroupIndex>(g));

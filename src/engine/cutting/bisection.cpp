@@ -34,7 +34,7 @@ constexpr double spoilt = 0.02;
 }  // namespace
 
 Bisector::Bisector(Deformable& d, const Mesh& mesh, const SizeField& field, const BisectionOptions& options,
-         std::vector<double> distance, bool may_grow)
+                   std::vector<double> distance, bool may_grow)
     : d_(d),
       band_(d.band),
       mesh_(mesh),
@@ -44,7 +44,6 @@ Bisector::Bisector(Deformable& d, const Mesh& mesh, const SizeField& field, cons
       may_grow_(may_grow),
       blocked_(blocked_edges(mesh, d.band)),
       geometry_(d.band, d.mids, mesh) {}
-
 
 bool Bisector::run() {
     const int rounds = options_.relax ? 3 : 1;
@@ -74,8 +73,7 @@ Vec3 Bisector::mid_side(int a, int b) const {
 }
 
 Bisector::Edge Bisector::edge(int a, int b) const {
-    return {static_cast<float>((band_.nodes[a].at - band_.nodes[b].at).squaredNorm()), std::min(a, b),
-            std::max(a, b)};
+    return {static_cast<float>((band_.nodes[a].at - band_.nodes[b].at).squaredNorm()), std::min(a, b), std::max(a, b)};
 }
 
 bool Bisector::exceeded(int a, int b) const {
@@ -155,8 +153,7 @@ bool Bisector::split(int a, int b) {
     d_.split_edge(a, b, at, {});
     strayed_.push_back(on_shape || strayed_[a] || strayed_[b]);
     distance_.push_back(field_.distance(at));
-    if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <=
-        options_.max_elements + count_at_start_)
+    if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_)
         return true;
     std::ostringstream message;
     message << "size " << options_.size << " would make more than " << options_.max_elements

@@ -28,7 +28,8 @@ struct BisectionOptions {
 /// How long edges may be: size + gradation * max(0, d - reach), d the smallest distance of their ends and middle.
 class SizeField {
 public:
-    SizeField(const DistanceField& distance, const BisectionOptions& options) : distance_(distance), options_(options) {}
+    SizeField(const DistanceField& distance, const BisectionOptions& options)
+        : distance_(distance), options_(options) {}
 
     double distance(const Vec3& x) const { return distance_(x); }
 
@@ -54,13 +55,13 @@ private:
     const BisectionOptions& options_;
 };
 
-/// Bisects the edges of a band that are longer than a size field wants: longest edges first, and an edge only when it is
-/// the longest of all elements around it; otherwise theirs go first (Rivara, "New longest-edge algorithms for the
+/// Bisects the edges of a band that are longer than a size field wants: longest edges first, and an edge only when it
+/// is the longest of all elements around it; otherwise theirs go first (Rivara, "New longest-edge algorithms for the
 /// refinement and/or improvement of unstructured triangulations", Int. J. Numer. Meth. Engng. 40 (1997)).
 class Bisector {
 public:
-    /// `distance` is that of the band's nodes. All but it must outlive this. Where `may_grow`, run() may ask for a larger
-    /// band; otherwise propagation ends at the band's rim.
+    /// `distance` is that of the band's nodes. All but it must outlive this. Where `may_grow`, run() may ask for a
+    /// larger band; otherwise propagation ends at the band's rim.
     Bisector(Deformable& d, const Mesh& mesh, const SizeField& field, const BisectionOptions& options,
              std::vector<double> distance, bool may_grow);
 

@@ -123,6 +123,9 @@ private:
     /// Which image of each second-order edge keeps the edge's own mid-side node: the uncopied one where an
     /// element still has it.
     void find_mid_owners() {
+        // Growing step by step, a map of millions of edges would be rehashed for a good part of a second.
+        if (!band_.mid_nodes.empty())
+            mids_.reserve(static_cast<std::size_t>(1.3 * band_.tetras.size() + 1.6 * band_.triangles.size()));
         const auto look = [&](const auto& corners, const auto& images, CellType type) {
             check_();
             const CellTraits& t = traits(type);
@@ -130,10 +133,8 @@ private:
             for (const auto& e : t.edges) {
                 const std::uint64_t base = edge_key(corners[e[0]], corners[e[1]]),
                                     image = edge_key(images[e[0]], images[e[1]]);
-                if (image == base)
-                    owner_[base] = base;
-                else
-                    owner_.emplace(base, image);
+                MidNodes& mids = mids_.try_emplace(base, image).first->second;
+                if (image == base) mids.owner = base;
             }
         };
         for (int t = 0; t < band_.tetras.size(); ++t)
@@ -168,18 +169,16 @@ private:
     /// The mid-side node between the images of two band nodes.
     Index mid_node(int a, int b, int image_a, int image_b) {
         const std::uint64_t base = edge_key(a, b), image = edge_key(image_a, image_b);
-        MidNodes& mids = mids_[base];
-        if (mids.nodes.empty()) {
-            mids.nodes.push_back({owner_.at(base), make_mid_node(a, b)});
-        }
-        for (const auto& [key, node] : mids.nodes)
+        MidNodes& mids = mids_.at(base);
+        if (mids.node < 0) mids.node = make_mid_node(a, b);
+        if (image == mids.owner) return mids.node;
+        for (const auto& [key, node] : mids.copies)
             if (key == image) return node;
         Mesh& mesh = out_.mesh;
-        const Index source = mids.nodes[0].second;
-        out_.changes.copies.push_back({next_node_, mesh.node_ids[source]});
-        const Index copy = mesh.add_node(mesh.points[source], next_node_++, mesh.node_families[source]);
+        out_.changes.copies.push_back({next_node_, mesh.node_ids[mids.node]});
+        const Index copy = mesh.add_node(mesh.points[mids.node], next_node_++, mesh.node_families[mids.node]);
         ++out_.nodes_doubled;
-        mids.nodes.push_back({image, copy});
+        mids.copies.push_back({image, copy});
         return copy;
     }
 
@@ -320,7 +319,7 @@ private:
                     family = mesh.families.with(family, group);
                     continue;
                 }
-                const CellType type = owner_.contains(edge_key(ends[0], ends[1])) ? CellType::line3 : CellType::line;
+                const CellType type = mids_.contains(edge_key(ends[0], ends[1])) ? CellType::line3 : CellType::line;
                 const Index made =
                     mesh.add_cell(type, connectivity(type, ends, ends), next_cell_++, mesh.families.with(0, group));
                 out_.after.push_back({type, made});
@@ -457,10 +456,13 @@ private:
     std::vector<CellRef> removed_;
     std::unordered_map<int, std::vector<Index>> ancestors_;  // by new band node
     struct MidNodes {
-        std::vector<std::pair<std::uint64_t, Index>> nodes;  // (image edge, node), the owner first
+        explicit MidNodes(std::uint64_t image) : owner(image) {}
+
+        std::uint64_t owner;                                  // the image of the edge that keeps its node
+        Index node = -1;                                      // that one, once it is known
+        std::vector<std::pair<std::uint64_t, Index>> copies;  // those of other images
     };
-    std::unordered_map<std::uint64_t, MidNodes> mids_;        // by uncopied edge
-    std::unordered_map<std::uint64_t, std::uint64_t> owner_;  // uncopied edge -> image that keeps its node
+    std::unordered_map<std::uint64_t, MidNodes> mids_;  // of second-order edges, by uncopied edge
 };
 
 }  // namespace
