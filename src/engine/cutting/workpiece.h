@@ -14,7 +14,7 @@
 
 namespace femscalpel {
 
-/// How element faces are brought onto the tool (DESIGN 3, step 2).
+/// How element faces are brought onto the tool (resources/docs/architecture.md, "cut").
 enum class Method {
     snap,    ///< move near nodes onto the tool, split what still crosses; succeeds on any sound mesh
     deform,  ///< the paper's: choose element faces near the tool, then move their nodes; may end in QualityError
@@ -22,6 +22,7 @@ enum class Method {
 
 /// Method of that name ("snap" or "deform"); throws ToolError otherwise.
 Method method_from_name(const std::string& name);
+/// "snap" or "deform".
 std::string_view to_string(Method method);
 
 /// A surface that element faces are to be made of.
@@ -77,6 +78,7 @@ struct Workpiece {
         return std::max(close_beside, node < static_cast<int>(may_hold.size()) ? may_hold[node] : 0.0);
     }
 
+    /// An element of the input that is folded or strongly curved.
     struct FoldedElement {
         Index id;      ///< number in the mesh
         double ratio;  ///< its curved_ratio() there

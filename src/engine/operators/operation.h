@@ -44,8 +44,9 @@ struct Naming {
     std::array<const char*, 4> sets{"ICN", "ECN", "ITN", "ETN"};
 };
 
-/// The steps that all operators share (DESIGN 3): locating, constraints, and, when the operator has done its own,
-/// putting the band back, carrying the solver's input over, and the report.
+/// The steps that all operators share (resources/docs/architecture.md, "An operation, step by step"): locating,
+/// constraints, and, when the operator has done its own, putting the band back, carrying the solver's input over, and
+/// the report.
 class Operation {
 public:
     /// Checks the options; `suffixes` are those of the groups the operator makes, `started` is when it was called.
@@ -74,6 +75,8 @@ public:
     /// further attempts.
     void take_laps(const Laps& laps) { watch_.lap("check", laps); }
 
+    /// Puts the band back, with new nodes and elements and their groups, carries the solver's input over, and makes the
+    /// report. Throws Error, if options.strict, where a card cannot follow.
     Result finish(Workpiece& f, const Opening& opening, const Naming& naming);
 
 private:

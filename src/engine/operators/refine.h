@@ -22,6 +22,7 @@ DistanceField distance_to(std::vector<const Tool*> tools);
 /// Distance to the nearest of some points. Throws ToolError when there is none or one is not finite.
 DistanceField distance_to(std::vector<Vec3> points);
 
+/// What the user of refine() can choose.
 struct RefineOptions {
     double size = 0;                 ///< longest edge wanted near the tool, in the mesh's unit
     double gradation = 0.5;          ///< how much longer edges may be per unit of distance from the tool
