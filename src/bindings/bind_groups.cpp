@@ -75,23 +75,28 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
 }  // namespace
 
 void bind_groups(py::module_& module) {
-    module.def("elementary_groups", [](const Mesh& mesh) {
-        const std::vector<ElementaryGroup> found = interruptible([&] { return elementary_groups(mesh); });
-        py::list out;
-        for (const ElementaryGroup& g : found) {
-            py::tuple names(g.groups.size());
-            for (std::size_t i = 0; i < g.groups.size(); ++i)
-                names[i] = mesh.groups[static_cast<std::size_t>(g.groups[i])].name;
-            out.append(py::make_tuple(std::string(to_string(g.kind)), g.dimension, names, to_array(g.members)));
-        }
-        return out;
-    });
-    module.def("virtual_boundaries",
-               [](const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& groups) {
-                   std::vector<GroupIndex> indices;
-                   for (const auto& [name, kind] : groups) indices.push_back(require_group(mesh, name, kind));
-                   return boundaries(mesh, indices);
-               });
+    module.def(
+        "elementary_groups",
+        [](const Mesh& mesh) {
+            const std::vector<ElementaryGroup> found = interruptible([&] { return elementary_groups(mesh); });
+            py::list out;
+            for (const ElementaryGroup& g : found) {
+                py::tuple names(g.groups.size());
+                for (std::size_t i = 0; i < g.groups.size(); ++i)
+                    names[i] = mesh.groups[static_cast<std::size_t>(g.groups[i])].name;
+                out.append(py::make_tuple(std::string(to_string(g.kind)), g.dimension, names, to_array(g.members)));
+            }
+            return out;
+        },
+        py::arg("mesh"));
+    module.def(
+        "virtual_boundaries",
+        [](const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& groups) {
+            std::vector<GroupIndex> indices;
+            for (const auto& [name, kind] : groups) indices.push_back(require_group(mesh, name, kind));
+            return boundaries(mesh, indices);
+        },
+        py::arg("mesh"), py::arg("groups"));
 }
 
 }  // namespace femscalpel::bindings

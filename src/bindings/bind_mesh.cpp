@@ -179,37 +179,48 @@ void bind_mesh(py::module_& module) {
                      if (!g.hidden) out.emplace_back(g.name, to_string(g.kind));
                  return out;
              })
-        .def("group_ids",
-             [](const Mesh& mesh, const std::string& name, const std::string& kind) {
-                 const GroupIndex group = require_group(mesh, name, kind);
-                 return to_array(interruptible([&] { return group_members(mesh, group); }));
-             })
-        .def("add_group",
-             [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
-                 const GroupMembers members = members_from(kind_from_name(kind), name, ids);
-                 const GroupIndex group = mesh.add_group(name, members.kind);
-                 try {
-                     set_group_members(mesh, group, members);
-                 } catch (...) {
-                     remove_group(mesh, group);
-                     throw;
-                 }
-             })
-        .def("set_group_ids",
-             [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
-                 set_group_members(mesh, require_group(mesh, name, kind),
-                                   members_from(kind_from_name(kind), name, ids));
-             })
-        .def("remove_group", [](Mesh& mesh, const std::string& name,
-                                const std::string& kind) { remove_group(mesh, require_group(mesh, name, kind)); })
-        .def("rename_group",
-             [](Mesh& mesh, const std::string& old_name, const std::string& new_name, const std::string& kind) {
-                 const GroupIndex group = require_group(mesh, old_name, kind);
-                 const auto taken = mesh.find_group(new_name, kind_from_name(kind));
-                 if (taken && *taken != group)
-                     throw Error("the mesh already has a " + kind + " group '" + new_name + "'");
-                 mesh.groups[static_cast<std::size_t>(group)].name = new_name;
-             });
+        .def(
+            "group_ids",
+            [](const Mesh& mesh, const std::string& name, const std::string& kind) {
+                const GroupIndex group = require_group(mesh, name, kind);
+                return to_array(interruptible([&] { return group_members(mesh, group); }));
+            },
+            py::arg("name"), py::arg("kind"))
+        .def(
+            "add_group",
+            [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
+                const GroupMembers members = members_from(kind_from_name(kind), name, ids);
+                const GroupIndex group = mesh.add_group(name, members.kind);
+                try {
+                    set_group_members(mesh, group, members);
+                } catch (...) {
+                    remove_group(mesh, group);
+                    throw;
+                }
+            },
+            py::arg("name"), py::arg("kind"), py::arg("ids"))
+        .def(
+            "set_group_ids",
+            [](Mesh& mesh, const std::string& name, const std::string& kind, const IndexArray& ids) {
+                set_group_members(mesh, require_group(mesh, name, kind), members_from(kind_from_name(kind), name, ids));
+            },
+            py::arg("name"), py::arg("kind"), py::arg("ids"))
+        .def(
+            "remove_group",
+            [](Mesh& mesh, const std::string& name, const std::string& kind) {
+                remove_group(mesh, require_group(mesh, name, kind));
+            },
+            py::arg("name"), py::arg("kind"))
+        .def(
+            "rename_group",
+            [](Mesh& mesh, const std::string& old_name, const std::string& new_name, const std::string& kind) {
+                const GroupIndex group = require_group(mesh, old_name, kind);
+                const auto taken = mesh.find_group(new_name, kind_from_name(kind));
+                if (taken && *taken != group)
+                    throw Error("the mesh already has a " + kind + " group '" + new_name + "'");
+                mesh.groups[static_cast<std::size_t>(group)].name = new_name;
+            },
+            py::arg("old_name"), py::arg("new_name"), py::arg("kind"));
 }
 
 }  // namespace femscalpel::bindings

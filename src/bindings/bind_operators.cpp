@@ -141,13 +141,18 @@ void bind_operators(py::module_& module) {
         out.within = within;
         return out;
     };
-    module.def("crack", [=](const Mesh& mesh, const Tool& tool, const CommonOptions& common, const Within* within) {
-        return run([&, o = crack_options(common, within)] { return crack(mesh, tool, o); });
-    });
-    module.def("drill",
-               [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
-                   return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
-               });
+    module.def(
+        "crack",
+        [=](const Mesh& mesh, const Tool& tool, const CommonOptions& common, const Within* within) {
+            return run([&, o = crack_options(common, within)] { return crack(mesh, tool, o); });
+        },
+        py::arg("mesh"), py::arg("tool"), py::arg("common"), py::arg("within"));
+    module.def(
+        "drill",
+        [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
+            return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
+        },
+        py::arg("mesh"), py::arg("tools"), py::arg("common"), py::arg("depth"));
 
     // Two tools, or a plane and a width.
     const auto cut_options = [](const CommonOptions& common, const Tool* bottom) {
@@ -155,55 +160,75 @@ void bind_operators(py::module_& module) {
         out.bottom = bottom;
         return out;
     };
-    module.def("cut", [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common,
-                          const Tool* bottom) {
-        return run([&, o = cut_options(common, bottom)] { return cut(mesh, positive, negative, o); });
-    });
-    module.def("cut", [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common,
-                          const Tool* bottom) {
-        return run([&, o = cut_options(common, bottom)] { return cut(mesh, plane, width, o); });
-    });
+    module.def(
+        "cut",
+        [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common,
+            const Tool* bottom) {
+            return run([&, o = cut_options(common, bottom)] { return cut(mesh, positive, negative, o); });
+        },
+        py::arg("mesh"), py::arg("positive"), py::arg("negative"), py::arg("common"), py::arg("bottom"));
+    module.def(
+        "cut",
+        [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
+            return run([&, o = cut_options(common, bottom)] { return cut(mesh, plane, width, o); });
+        },
+        py::arg("mesh"), py::arg("plane"), py::arg("width"), py::arg("common"), py::arg("bottom"));
 
-    module.def("refine", [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points,
-                            double size, double gradation, double reach, bool relax, Index max_elements,
-                            double feature_angle, bool strict, const CadShape* skin) {
-        RefineOptions o;
-        o.size = size;
-        o.gradation = gradation;
-        o.reach = reach;
-        o.relax = relax;
-        o.max_elements = max_elements;
-        o.feature_angle = feature_angle;
-        o.strict = strict;
-        o.skin = skin;
-        std::vector<Vec3> at;
-        for (py::ssize_t i = 0; i < points.size() / 3; ++i) at.emplace_back(points.data() + 3 * i);
-        return run([&] { return refine(mesh, tools.empty() ? distance_to(std::move(at)) : distance_to(tools), o); });
-    });
+    module.def(
+        "refine",
+        [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size,
+           double gradation, double reach, bool relax, Index max_elements, double feature_angle, bool strict,
+           const CadShape* skin) {
+            RefineOptions o;
+            o.size = size;
+            o.gradation = gradation;
+            o.reach = reach;
+            o.relax = relax;
+            o.max_elements = max_elements;
+            o.feature_angle = feature_angle;
+            o.strict = strict;
+            o.skin = skin;
+            std::vector<Vec3> at;
+            for (py::ssize_t i = 0; i < points.size() / 3; ++i) at.emplace_back(points.data() + 3 * i);
+            return run(
+                [&] { return refine(mesh, tools.empty() ? distance_to(std::move(at)) : distance_to(tools), o); });
+        },
+        py::arg("mesh"), py::arg("tools"), py::arg("points"), py::arg("size"), py::arg("gradation"), py::arg("reach"),
+        py::arg("relax"), py::arg("max_elements"), py::arg("feature_angle"), py::arg("strict"), py::arg("skin"));
 
     py::class_<Scalpel>(module, "Scalpel")
         // The session gets its own copy, so that groups added to the Python mesh later do not reach it.
         .def(py::init([](const Mesh& mesh) {
-            return interruptible([&] { return Scalpel(std::make_shared<const Mesh>(mesh)); });
-        }))
+                 return interruptible([&] { return Scalpel(std::make_shared<const Mesh>(mesh)); });
+             }),
+             py::arg("mesh"))
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
-        .def("crack",
-             [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
-                 return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });
-             })
-        .def("drill",
-             [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
-                 return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
-             })
-        .def("cut",
-             [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common,
-                 const Tool* bottom) {
-                 return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
-             })
-        .def("cut", [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common,
-                        const Tool* bottom) {
-            return run([&, o = cut_options(common, bottom)] { return scalpel.cut(plane, width, o); });
-        });
+        .def(
+            "crack",
+            [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
+                return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });
+            },
+            py::arg("tool"), py::arg("common"), py::arg("within"))
+        .def(
+            "drill",
+            [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
+                return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
+            },
+            py::arg("tools"), py::arg("common"), py::arg("depth"))
+        .def(
+            "cut",
+            [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common,
+                const Tool* bottom) {
+                return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
+            },
+            py::arg("positive"), py::arg("negative"), py::arg("common"), py::arg("bottom"))
+        .def(
+            "cut",
+            [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common,
+                const Tool* bottom) {
+                return run([&, o = cut_options(common, bottom)] { return scalpel.cut(plane, width, o); });
+            },
+            py::arg("plane"), py::arg("width"), py::arg("common"), py::arg("bottom"));
 }
 
 }  // namespace femscalpel::bindings

@@ -203,6 +203,11 @@ def test_bricks_in_the_way():
         fs.crack(fs.Mesh(points, {"hexahedron": [range(8)]}), fs.Plane((0.5, 0, 0), (1, 0, 0)))
 
 
+def test_all_that_the_package_has_is_named_public():
+    own = {n for n, v in vars(fs).items() if str(getattr(v, "__module__", "")).startswith("femscalpel")}
+    assert sorted(n for n in own if not n.startswith("_")) == sorted(fs.__all__)
+
+
 def test_everything_public_is_documented():
     for name in fs.__all__:
         item = getattr(fs, name)

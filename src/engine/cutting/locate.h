@@ -11,7 +11,7 @@
 
 namespace femscalpel {
 
-/// Where tools meet a mesh (DESIGN 3, step 1).
+/// Where tools meet a mesh (resources/docs/architecture.md, "locate").
 struct Location {
     std::vector<double> distance;  ///< signed, to the first tool, by node
     std::vector<std::int8_t>

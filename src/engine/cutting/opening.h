@@ -9,8 +9,8 @@
 
 namespace femscalpel {
 
-/// A band taken apart along its interface (DESIGN 3, step 6; paper, 3.1.3): which elements get copies of
-/// which nodes, and the two lips. Node numbers from BandMesh::size() on are copies.
+/// A band taken apart along its interface (resources/docs/architecture.md, "open"; paper, 3.1.3): which elements get
+/// copies of which nodes, and the two lips. Node numbers from BandMesh::size() on are copies.
 struct Opening {
     std::vector<int> copy_of;  ///< source of each copied node
 
@@ -29,9 +29,10 @@ struct Opening {
     std::vector<Twin<3>> triangle_twins;
     std::vector<Twin<2>> line_twins;
 
+    static constexpr int fresh = 1 << 30;  ///< Face::element where no element lies yet
+
     /// A face (edge, for shells) of a lip. `element`: slot of an element that already lies there, or
     /// minus one minus the index of a twin, or `fresh`.
-    static constexpr int fresh = 1 << 30;
     template <std::size_t N>
     struct Face {
         std::array<int, N> nodes;

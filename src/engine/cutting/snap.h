@@ -19,8 +19,8 @@ void put_on_tool(Workpiece& workpiece, int node, const Tool& tool);
 /// around it reach to the tool's other side; up to the part `part` of that it is.
 inline bool is_beside(double distance, double reach, double part) { return std::abs(distance) <= part * reach; }
 
-/// DESIGN's `snap`: nodes near the tool are moved onto it along their constraints, nearest first; edges
-/// that still cross are bisected on it, longest first; then the band is relaxed.
+/// The method `snap` (resources/docs/architecture.md): nodes near the tool are moved onto it along their constraints,
+/// nearest first; edges that still cross are bisected on it, longest first; then the band is relaxed.
 void snap_to_tool(Workpiece& workpiece, const Blade& blade, Index mesh_elements);
 
 }  // namespace femscalpel

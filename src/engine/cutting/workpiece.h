@@ -67,6 +67,7 @@ struct Workpiece {
         return std::max(close_beside, node < static_cast<int>(may_hold.size()) ? may_hold[node] : 0.0);
     }
 
+    /// An element of the input that is folded or strongly curved.
     struct FoldedElement {
         Index id;      ///< number in the mesh
         double ratio;  ///< its curved_ratio() there

@@ -67,9 +67,11 @@ std::string parameters_key(const Card& card);
 /// First letters of the names of all hidden groups of mark_deck().
 inline constexpr std::string_view mark_prefix = "*MARK#";
 
-/// Names of the hidden groups of mark_deck() for the faces, or for the elements named by number, that lines of
-/// card `card` load alike: same label but for the face, same entries after it.
+/// Name of the hidden group of mark_deck() for the faces that lines of card `card` load alike: same label but for the
+/// face, same entries after it.
 std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest);
+
+/// The same for elements named by number.
 std::string element_mark(std::size_t card, const LoadLabel& label, std::string_view rest);
 
 }  // namespace femscalpel

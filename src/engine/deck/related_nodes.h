@@ -11,6 +11,7 @@ namespace femscalpel {
 
 /// A linear equation between nodes, as a *EQUATION card has it.
 struct NodeEquation {
+    /// One summand: `factor` times a degree of freedom of a node.
     struct Term {
         Index node;  ///< number
         Index dof;

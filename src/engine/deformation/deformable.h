@@ -75,9 +75,10 @@ struct Deformable {
     }
 };
 
-/// Mean ratios of a band's tetrahedra and shells with its nodes where they are; negative when inverted
-/// (a shell: when turned over against the input's normal).
+/// Mean ratio of a tetrahedron of the band with its nodes where they are; negative when inverted.
 double tetra_quality(const Deformable& d, int tetra);
+
+/// The same of a shell; negative when turned over against the input's normal.
 double shell_quality(const Deformable& d, int triangle);
 
 /// tetra_quality(d, tetra) < limit, at less cost.

@@ -22,6 +22,7 @@ enum class NodeFreedom : std::uint8_t {
     fixed,    ///< a corner, an end, an isolated group node, a point where something else is attached
 };
 
+/// What a moving node has to keep to.
 struct NodeConstraint {
     NodeFreedom freedom = NodeFreedom::free;
     int shape = -1;  ///< surface or curve the node stays on
@@ -46,7 +47,7 @@ struct ConstraintOptions {
 };
 
 /// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of
-/// groups (DESIGN 3, step 4; paper, 3.1.2 and 4.1), and each node's place on it.
+/// groups (resources/docs/architecture.md, "constrain"; paper, 3.1.2 and 4.1), and each node's place on it.
 ///
 /// Surfaces are the input's own triangles, taken apart at feature lines and group borders; a surface
 /// whose triangles are coplanar is treated as the exact plane. Second-order faces are followed as the

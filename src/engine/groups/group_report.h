@@ -35,6 +35,7 @@ struct GroupRecord {
 
 /// Number and measure of the members of each elementary group (family), by dimension.
 struct FamilyTotals {
+    /// Of one family.
     struct Entry {
         Index nodes = 0;
         std::array<Index, 4> cells{};

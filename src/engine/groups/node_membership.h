@@ -8,8 +8,8 @@
 
 namespace femscalpel {
 
-/// The node groups that each node of a band is in while the band is split (DESIGN 4; paper, 4.2): a node born on
-/// an edge is in those of both its ends, which are the ones with the edge in LE, in BE or inside BE (see
+/// The node groups that each node of a band is in while the band is split (resources/docs/groups.md; paper, 4.2): a
+/// node born on an edge is in those of both its ends, which are the ones with the edge in LE, in BE or inside BE (see
 /// virtual_boundary()); one that was the edge's mid-side node keeps its own. Hidden groups count as well.
 class NodeMembership {
 public:

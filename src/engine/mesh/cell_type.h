@@ -32,6 +32,7 @@ enum class CellType : std::uint8_t {
     hexahedron27,
 };
 
+/// How many CellTypes there are.
 inline constexpr int cell_type_count = 19;
 
 /// What is fixed for an element type.

@@ -8,7 +8,9 @@
 
 namespace femscalpel {
 
+/// Index into Mesh::groups.
 using GroupIndex = std::int32_t;
+/// Index of a set of groups in FamilyTable; 0 is the empty one.
 using FamilyIndex = std::int32_t;
 
 /// The distinct sets of groups that entities of a mesh belong to. An entity stores one family index;

@@ -20,9 +20,12 @@ namespace femscalpel {
 
 class SolverInput;
 
+/// Numbers, counts and indices of nodes and elements.
 using Index = std::int64_t;
+/// A point or vector, in the mesh's unit.
 using Vec3 = Eigen::Vector3d;
 
+/// What a group's members are.
 enum class GroupKind : std::uint8_t { node, element, facet };
 
 /// "node", "element" or "facet".

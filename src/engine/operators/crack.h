@@ -8,6 +8,7 @@
 
 namespace femscalpel {
 
+/// What the user of crack() can choose.
 struct CrackOptions : OperatorOptions {
     CrackOptions() { name = "CRACK"; }  // new groups: NAME_P, NAME_N, NAME_FRONT
 

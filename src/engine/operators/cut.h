@@ -8,6 +8,7 @@
 
 namespace femscalpel {
 
+/// What the user of cut() can choose.
 struct CutOptions : OperatorOptions {
     CutOptions() { name = "CUT"; }  // new groups: NAME_P, NAME_N, NAME_BOTTOM
 

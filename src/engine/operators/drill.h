@@ -12,6 +12,7 @@
 
 namespace femscalpel {
 
+/// What the user of drill() can choose.
 struct DrillOptions : OperatorOptions {
     DrillOptions() { name = "HOLE"; }  // new groups: NAME_WALL, NAME_BOTTOM
 

@@ -22,7 +22,7 @@ struct RefineFirst {
     double size = 0;
 };
 
-/// How element faces are brought onto the tool (architecture.md, an operation step by step).
+/// How element faces are brought onto the tool (resources/docs/architecture.md, "cut").
 enum class Method {
     snap,    ///< move near nodes onto the tool, split what still crosses; succeeds on any sound mesh
     deform,  ///< the paper's: choose element faces near the tool, then move their nodes; may end in QualityError
@@ -30,6 +30,7 @@ enum class Method {
 
 /// Method of that name ("snap" or "deform"); throws ToolError otherwise.
 Method method_from_name(const std::string& name);
+/// "snap" or "deform".
 std::string_view to_string(Method method);
 
 /// What every operator lets the user choose.

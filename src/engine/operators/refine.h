@@ -9,6 +9,7 @@
 
 namespace femscalpel {
 
+/// What the user of refine() can choose.
 struct RefineOptions : BisectionOptions {
     double feature_angle = 30;  ///< degrees; a skin edge sharper than this is a feature line
     bool strict = false;        ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)

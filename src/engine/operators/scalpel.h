@@ -28,6 +28,7 @@ public:
 
     /// As femscalpel::cut().
     Result cut(const Tool& positive, const Tool& negative, const CutOptions& options = {}) const;
+    /// As femscalpel::cut(), a slot around a plane.
     Result cut(const Plane& plane, double width, const CutOptions& options = {}) const;
 
 private:

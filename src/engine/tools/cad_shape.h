@@ -31,12 +31,14 @@ public:
         Eigen::Vector3d direction;
     };
 
-    /// The point closest to `x` of a face, which goes on beyond its border, or of an edge.
+    /// The point closest to `x` of a face, which goes on beyond its border.
     Foot on_face(int face, const Eigen::Vector3d& x) const;
+    /// The same of an edge.
     Foot on_edge(int edge, const Eigen::Vector3d& x) const;
 
-    /// Faces and edges less than `tolerance` away from `x`, their borders and ends included.
+    /// Faces less than `tolerance` away from `x`, their borders included.
     std::vector<int> faces_at(const Eigen::Vector3d& x, double tolerance) const;
+    /// Edges less than `tolerance` away from `x`, their ends included.
     std::vector<int> edges_at(const Eigen::Vector3d& x, double tolerance) const;
 
     bool is_plane(int face) const;

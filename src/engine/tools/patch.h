@@ -28,6 +28,7 @@ struct Patch {
     /// Half the least width, or infinity: of a disk the radius. The mesh must be finer than this to show its shape.
     double feature_size = std::numeric_limits<double>::infinity();
 
+    /// Whether `tool` is one of the sides.
     bool has(const Tool* tool) const;
 };
 
@@ -44,6 +45,7 @@ public:
 /// A disk in a plane.
 class Disk final : public Within {
 public:
+    /// Throws ToolError when the radius is not positive.
     Disk(const Eigen::Vector3d& center, double radius);
     Patch on(const Tool& tool) const override;
 
@@ -55,6 +57,7 @@ private:
 /// An ellipse in a plane, `direction` along the first of its two half axes.
 class Ellipse final : public Within {
 public:
+    /// `first` and `second` are the half axes. Throws ToolError when they are not positive, or `direction` is zero.
     Ellipse(const Eigen::Vector3d& center, double first, double second, const Eigen::Vector3d& direction);
     Patch on(const Tool& tool) const override;
 
@@ -78,6 +81,7 @@ private:
 /// `direction`.
 class HalfPlane final : public Within {
 public:
+    /// Throws ToolError when `direction` is zero.
     HalfPlane(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
     Patch on(const Tool& tool) const override;
 
@@ -89,6 +93,7 @@ private:
 /// `end` (degrees, start < end < start + 360) about its axis, measured from `zero`, right-handed.
 class CylinderPart final : public Within {
 public:
+    /// From `start` to `end`, in degrees about the axis, right-handed, measured from the direction `zero`.
     struct Angles {
         double start, end;
         Eigen::Vector3d zero;

@@ -9,14 +9,20 @@ from . import _arguments, _engine
 class Shape(_engine.CadShape):
     """The CAD shape a mesh was made from, by OpenCASCADE, for the operators' option ``skin``.
 
+    Give the same object to several operators: finding one's way on the shape is prepared once.
+
     Parameters
     ----------
     source : path, FreeCAD shape, or text
         A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, a ``Part.Shape``, or the text of a ``.brep`` file. It must be
         where the mesh is, and in its unit; lengths of a STEP file are taken in millimetres.
 
-    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no
-    face in it. Give the same object to several operators: finding one's way on the shape is prepared once.
+    Raises
+    ------
+    ReadError
+        The file cannot be read.
+    ToolError
+        There is no face in it.
     """
 
     def __init__(self, source):

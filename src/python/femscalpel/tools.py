@@ -31,7 +31,10 @@ class Plane(_engine.Plane):
     normal : three numbers
         Direction of the positive side; any length.
 
-    Raises :class:`femscalpel.ToolError` when the normal is zero.
+    Raises
+    ------
+    ToolError
+        The normal is zero.
     """
 
     def __init__(self, origin: Sequence[float], normal: Sequence[float]):
@@ -65,7 +68,10 @@ class Cylinder(_engine.Cylinder):
     radius : number
         In the mesh's unit.
 
-    Raises :class:`femscalpel.ToolError` when the axis is zero or the radius not positive.
+    Raises
+    ------
+    ToolError
+        The axis is zero or the radius not positive.
     """
 
     def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float):
@@ -99,7 +105,10 @@ class Sphere(_engine.Sphere):
     radius : number
         In the mesh's unit.
 
-    Raises :class:`femscalpel.ToolError` when the radius is not positive.
+    Raises
+    ------
+    ToolError
+        The radius is not positive.
     """
 
     def __init__(self, center: Sequence[float], radius: float):
@@ -128,8 +137,10 @@ class Torus(_engine.Torus):
     major_radius, minor_radius : number
         Radius of the circle and of the tube around it, in the mesh's unit.
 
-    Raises :class:`femscalpel.ToolError` when the axis is zero, a radius not positive, or the minor radius not smaller
-    than the major one.
+    Raises
+    ------
+    ToolError
+        The axis is zero, a radius not positive, or the minor radius not smaller than the major one.
     """
 
     def __init__(self, center: Sequence[float], axis: Sequence[float], major_radius: float, minor_radius: float):
@@ -160,6 +171,8 @@ class Torus(_engine.Torus):
 class Cone(_engine.Cone):
     """A circular cone, from its apex on without end; its positive side is outside.
 
+    The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
+
     Parameters
     ----------
     origin : three numbers
@@ -171,8 +184,10 @@ class Cone(_engine.Cone):
     half_angle : number
         Degrees between the axis and the surface.
 
-    Raises :class:`femscalpel.ToolError` when the axis is zero, the radius not positive or the angle not between 0 and
-    90. The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
+    Raises
+    ------
+    ToolError
+        The axis is zero, the radius not positive or the angle not between 0 and 90.
     """
 
     def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float, half_angle: float):
@@ -208,8 +223,7 @@ class Face(_engine.Face):
     """A face or shell of a CAD model, by OpenCASCADE; its positive side is the one its normals point to.
 
     A crack along it goes as far as the face does: where its border lies inside the material it is the crack's front,
-    and
-    ``name_FRONT`` has the segments along it (see ``within`` of :func:`crack`); corners of the border become nodes.
+    and ``name_FRONT`` has the segments along it (see ``within`` of :func:`crack`); corners of the border become nodes.
 
     Parameters
     ----------
@@ -217,8 +231,12 @@ class Face(_engine.Face):
         A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, or a ``Part.Shape``: all faces in it, which must meet
         smoothly. Lengths of a STEP file are taken in millimetres.
 
-    Raises :class:`femscalpel.ReadError` when the file cannot be read, :class:`femscalpel.ToolError` when there is no
-    face in it, or faces that meet at an angle.
+    Raises
+    ------
+    ReadError
+        The file cannot be read.
+    ToolError
+        There is no face in it, or faces that meet at an angle.
     """
 
     def __init__(self, source):

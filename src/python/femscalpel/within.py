@@ -57,7 +57,11 @@ class Polygon(_engine.Polygon):
     corners : sequence of three or more points of the plane
         In order around it, either way. Each becomes a node if it is in the material.
 
-    A crack within a polygon whose sides cross is a :class:`femscalpel.ToolError`.
+    Raises
+    ------
+    ToolError
+        Fewer than three corners, or one that is repeated; when a crack is made within it, sides that cross, or an area
+        of zero.
     """
 
     def __init__(self, corners: Sequence[Sequence[float]]):
