@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <tuple>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -99,21 +98,29 @@ py::dict to_dict(const Report& report) {
     return out;
 }
 
-/// (name, method, transition, feature_angle, preserve, strict, band_only, refine, skin), as _common_options() in
-/// operators.py makes it; refine is nothing, 0 (never) or a length.
-using CommonOptions =
-    std::tuple<std::string, std::string, std::optional<int>, double, std::optional<std::vector<std::string>>, bool,
-               bool, std::optional<double>, const CadShape*>;
-
+/// An operator's own options with those that all have.
 template <class Options>
-Options options(const CommonOptions& common) {
+Options with(const OperatorOptions& common) {
     Options out;
-    std::string method;
-    std::optional<double> size;
-    std::tie(out.name, method, out.transition, out.feature_angle, out.preserve, out.strict, out.band_only, size,
-             out.skin) = common;
-    if (size) out.refine = {*size > 0 ? RefineFirst::When::to_size : RefineFirst::When::never, *size};
-    out.method = method_from_name(method);
+    static_cast<OperatorOptions&>(out) = common;
+    return out;
+}
+
+CrackOptions crack_options(const OperatorOptions& common, const Within* within) {
+    auto out = with<CrackOptions>(common);
+    out.within = within;
+    return out;
+}
+
+DrillOptions drill_options(const OperatorOptions& common, std::optional<double> depth) {
+    auto out = with<DrillOptions>(common);
+    out.depth = depth;
+    return out;
+}
+
+CutOptions cut_options(const OperatorOptions& common, const Tool* bottom) {
+    auto out = with<CutOptions>(common);
+    out.bottom = bottom;
     return out;
 }
 
@@ -127,58 +134,69 @@ py::tuple run(Operation operation) {
     return py::make_tuple(mesh, to_dict(report));
 }
 
-}  // namespace
+using Tools = std::vector<const Tool*>;
 
-void bind_operators(py::module_& module) {
-    using Tools = std::vector<const Tool*>;
-    const auto drill_options = [](const CommonOptions& common, std::optional<double> depth) {
-        auto out = options<DrillOptions>(common);
-        out.depth = depth;
-        return out;
+/// Members are called as in options.py, whose functions check what they are set to.
+void bind_options(py::module_& module) {
+    const auto refine = [](const OperatorOptions& o) -> std::optional<double> {
+        if (o.refine.when == RefineFirst::When::automatic) return {};
+        return o.refine.when == RefineFirst::When::never ? 0 : o.refine.size;
     };
-    const auto crack_options = [](const CommonOptions& common, const Within* within) {
-        auto out = options<CrackOptions>(common);
-        out.within = within;
-        return out;
+    const auto set_refine = [](OperatorOptions& o, std::optional<double> size) {
+        o.refine = {};
+        if (size) o.refine = {*size > 0 ? RefineFirst::When::to_size : RefineFirst::When::never, *size};
     };
+    py::class_<OperatorOptions>(module, "Options", "What every operator lets its user choose.")
+        .def(py::init<>())
+        .def_readwrite("name", &OperatorOptions::name)
+        .def_property(
+            "method", [](const OperatorOptions& o) { return std::string(to_string(o.method)); },
+            [](OperatorOptions& o, const std::string& method) { o.method = method_from_name(method); })
+        .def_readwrite("transition", &OperatorOptions::transition)
+        .def_readwrite("feature_angle", &OperatorOptions::feature_angle)
+        .def_readwrite("strict", &OperatorOptions::strict)
+        .def_readwrite("preserve", &OperatorOptions::preserve)
+        .def_readwrite("band_only", &OperatorOptions::band_only)
+        .def_property("refine", refine, set_refine, "Nothing: automatic; 0: never; or a length.")
+        .def_property(
+            "skin", [](const OperatorOptions& o) { return o.skin; },
+            py::cpp_function([](OperatorOptions& o, const CadShape* skin) { o.skin = skin; }, py::keep_alive<1, 2>()));
+}
+
+void bind_functions(py::module_& module) {
     module.def(
         "crack",
-        [=](const Mesh& mesh, const Tool& tool, const CommonOptions& common, const Within* within) {
-            return run([&, o = crack_options(common, within)] { return crack(mesh, tool, o); });
+        [](const Mesh& mesh, const Tool& tool, const OperatorOptions& options, const Within* within) {
+            return run([&, o = crack_options(options, within)] { return crack(mesh, tool, o); });
         },
-        py::arg("mesh"), py::arg("tool"), py::arg("common"), py::arg("within"));
+        py::arg("mesh"), py::arg("tool"), py::arg("options"), py::arg("within"));
     module.def(
         "drill",
-        [=](const Mesh& mesh, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
-            return run([&, o = drill_options(common, depth)] { return drill(mesh, tools, o); });
+        [](const Mesh& mesh, const Tools& tools, const OperatorOptions& options, std::optional<double> depth) {
+            return run([&, o = drill_options(options, depth)] { return drill(mesh, tools, o); });
         },
-        py::arg("mesh"), py::arg("tools"), py::arg("common"), py::arg("depth"));
-
+        py::arg("mesh"), py::arg("tools"), py::arg("options"), py::arg("depth"));
     // Two tools, or a plane and a width.
-    const auto cut_options = [](const CommonOptions& common, const Tool* bottom) {
-        auto out = options<CutOptions>(common);
-        out.bottom = bottom;
-        return out;
-    };
     module.def(
         "cut",
-        [=](const Mesh& mesh, const Tool& positive, const Tool& negative, const CommonOptions& common,
-            const Tool* bottom) {
-            return run([&, o = cut_options(common, bottom)] { return cut(mesh, positive, negative, o); });
+        [](const Mesh& mesh, const Tool& positive, const Tool& negative, const OperatorOptions& options,
+           const Tool* bottom) {
+            return run([&, o = cut_options(options, bottom)] { return cut(mesh, positive, negative, o); });
         },
-        py::arg("mesh"), py::arg("positive"), py::arg("negative"), py::arg("common"), py::arg("bottom"));
+        py::arg("mesh"), py::arg("positive"), py::arg("negative"), py::arg("options"), py::arg("bottom"));
     module.def(
         "cut",
-        [=](const Mesh& mesh, const Plane& plane, double width, const CommonOptions& common, const Tool* bottom) {
-            return run([&, o = cut_options(common, bottom)] { return cut(mesh, plane, width, o); });
+        [](const Mesh& mesh, const Plane& plane, double width, const OperatorOptions& options, const Tool* bottom) {
+            return run([&, o = cut_options(options, bottom)] { return cut(mesh, plane, width, o); });
         },
-        py::arg("mesh"), py::arg("plane"), py::arg("width"), py::arg("common"), py::arg("bottom"));
+        py::arg("mesh"), py::arg("plane"), py::arg("width"), py::arg("options"), py::arg("bottom"));
+}
 
+void bind_refine(py::module_& module) {
     module.def(
         "refine",
-        [](const Mesh& mesh, const std::vector<const Tool*>& tools, const RealArray& points, double size,
-           double gradation, double reach, bool relax, Index max_elements, double feature_angle, bool strict,
-           const CadShape* skin) {
+        [](const Mesh& mesh, const Tools& tools, const RealArray& points, double size, double gradation, double reach,
+           bool relax, Index max_elements, double feature_angle, bool strict, const CadShape* skin) {
             RefineOptions o;
             o.size = size;
             o.gradation = gradation;
@@ -195,7 +213,9 @@ void bind_operators(py::module_& module) {
         },
         py::arg("mesh"), py::arg("tools"), py::arg("points"), py::arg("size"), py::arg("gradation"), py::arg("reach"),
         py::arg("relax"), py::arg("max_elements"), py::arg("feature_angle"), py::arg("strict"), py::arg("skin"));
+}
 
+void bind_session(py::module_& module) {
     py::class_<Scalpel>(module, "Scalpel")
         // The session gets its own copy, so that groups added to the Python mesh later do not reach it.
         .def(py::init([](const Mesh& mesh) {
@@ -205,30 +225,40 @@ void bind_operators(py::module_& module) {
         .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
         .def(
             "crack",
-            [=](const Scalpel& scalpel, const Tool& tool, const CommonOptions& common, const Within* within) {
-                return run([&, o = crack_options(common, within)] { return scalpel.crack(tool, o); });
+            [](const Scalpel& scalpel, const Tool& tool, const OperatorOptions& options, const Within* within) {
+                return run([&, o = crack_options(options, within)] { return scalpel.crack(tool, o); });
             },
-            py::arg("tool"), py::arg("common"), py::arg("within"))
+            py::arg("tool"), py::arg("options"), py::arg("within"))
         .def(
             "drill",
-            [=](const Scalpel& scalpel, const Tools& tools, const CommonOptions& common, std::optional<double> depth) {
-                return run([&, o = drill_options(common, depth)] { return scalpel.drill(tools, o); });
+            [](const Scalpel& scalpel, const Tools& tools, const OperatorOptions& options,
+               std::optional<double> depth) {
+                return run([&, o = drill_options(options, depth)] { return scalpel.drill(tools, o); });
             },
-            py::arg("tools"), py::arg("common"), py::arg("depth"))
+            py::arg("tools"), py::arg("options"), py::arg("depth"))
         .def(
             "cut",
-            [=](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const CommonOptions& common,
-                const Tool* bottom) {
-                return run([&, o = cut_options(common, bottom)] { return scalpel.cut(positive, negative, o); });
+            [](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const OperatorOptions& options,
+               const Tool* bottom) {
+                return run([&, o = cut_options(options, bottom)] { return scalpel.cut(positive, negative, o); });
             },
-            py::arg("positive"), py::arg("negative"), py::arg("common"), py::arg("bottom"))
+            py::arg("positive"), py::arg("negative"), py::arg("options"), py::arg("bottom"))
         .def(
             "cut",
-            [=](const Scalpel& scalpel, const Plane& plane, double width, const CommonOptions& common,
-                const Tool* bottom) {
-                return run([&, o = cut_options(common, bottom)] { return scalpel.cut(plane, width, o); });
+            [](const Scalpel& scalpel, const Plane& plane, double width, const OperatorOptions& options,
+               const Tool* bottom) {
+                return run([&, o = cut_options(options, bottom)] { return scalpel.cut(plane, width, o); });
             },
-            py::arg("plane"), py::arg("width"), py::arg("common"), py::arg("bottom"));
+            py::arg("plane"), py::arg("width"), py::arg("options"), py::arg("bottom"));
+}
+
+}  // namespace
+
+void bind_operators(py::module_& module) {
+    bind_options(module);
+    bind_functions(module);
+    bind_refine(module);
+    bind_session(module);
 }
 
 }  // namespace femscalpel::bindings

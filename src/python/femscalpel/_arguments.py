@@ -33,6 +33,13 @@ def text(value, name):
     return value
 
 
+def flag(value, name):
+    """True or False."""
+    if not isinstance(value, bool):
+        raise TypeError(f"{name} must be True or False, not {describe(value)}")
+    return value
+
+
 def real(value, name):
     """A finite number as float."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):

@@ -1,25 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
-import os
 from dataclasses import dataclass
-from typing import Any, Iterable, Optional, Sequence, Union
+from typing import Optional, Sequence, Union
 
 import numpy as np
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
+from .options import ShapeOption, on_session, takes_options
 from .report import Report
-from .skin import Shape, check_skin
+from .skin import check_skin
 from .tools import Plane, Tool, check_tool
 from .within import Within, check_within
-
-METHODS = ("snap", "deform")
-
-#: Whether elements near the tool are bisected first: None, False or a length.
-RefineOption = Union[None, bool, float]
-#: The shape a mesh was made from: None, a Shape, or what one is made of.
-ShapeOption = Union[None, Shape, str, os.PathLike, Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,55 +28,15 @@ class Result:
         return cls(Mesh._wrap(mesh), Report._from_engine(fields))
 
 
-def _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin) -> tuple:
-    _arguments.text(name, "name")
-    if method not in METHODS:
-        raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(method)}")
-    if transition is not None:
-        transition = _arguments.whole(transition, "transition", 1)
-    feature_angle = _arguments.real(feature_angle, "feature_angle")
-    if not 0 < feature_angle < 180:
-        raise ValueError(f"feature_angle must be between 0 and 180 degrees, not {feature_angle}")
-    if preserve is not None:
-        if isinstance(preserve, str) or not isinstance(preserve, Iterable):
-            raise TypeError(f"preserve must be a list of group names, not {_arguments.describe(preserve)}")
-        preserve = [_arguments.text(group, "preserve") for group in preserve]
-    if not isinstance(strict, bool):
-        raise TypeError(f"strict must be True or False, not {_arguments.describe(strict)}")
-    if not isinstance(band_only, bool):
-        raise TypeError(f"band_only must be True or False, not {_arguments.describe(band_only)}")
-    return name, method, transition, feature_angle, preserve, strict, band_only, _refine_size(refine), check_skin(skin)
+def _run(operator, mesh, *arguments) -> Result:
+    """The Result of an engine's operator on a mesh or a session."""
+    if isinstance(mesh, Scalpel):
+        return Result._wrap(getattr(mesh._session, operator)(*arguments))
+    return Result._wrap(getattr(_engine, operator)(check_mesh(mesh), *arguments))
 
 
-def _refine_size(refine) -> Optional[float]:
-    """Nothing: automatic; 0: never; or a length."""
-    if refine is None:
-        return None
-    if refine is False:
-        return 0.0
-    if refine is True:
-        raise TypeError(
-            "refine must be None (where the tool is finer than the mesh), False (never) or a length, not True"
-        )
-    if (size := _arguments.real(refine, "refine")) <= 0:
-        raise ValueError(f"refine must be a positive length, not {size}; False is for never")
-    return size
-
-
-def crack(
-    mesh: Mesh,
-    tool: Tool,
-    name: str = "CRACK",
-    method: str = "snap",
-    transition: Optional[int] = None,
-    feature_angle: float = 30.0,
-    strict: bool = False,
-    preserve: Optional[Iterable[str]] = None,
-    band_only: bool = False,
-    within: Optional[Within] = None,
-    refine: RefineOption = None,
-    skin: ShapeOption = None,
-) -> Result:
+@takes_options("CRACK", after={"within": "band_only"})
+def crack(mesh: Mesh, tool: Tool, within: Optional[Within] = None, *, options) -> Result:
     """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -107,44 +60,11 @@ def crack(
         Prefix of the new groups: ``name_P`` and ``name_N``, the lip faces on the tool's positive and negative
         side, and, if the sides hang together at some nodes, ``name_FRONT`` with these. The groups' names must be new
         and fit 24 characters.
-    method : {"snap", "deform"}
-        "snap" moves nodes near the tool onto it and splits what still crosses; it always succeeds on a sound
-        mesh. "deform" only moves nodes (the paper, 3.1.1) and may end in QualityError.
-    transition : int, optional
-        How many rings of nodes around those on the tool may move (the paper's bandwidth i, 3.1.2), 1 to 20. When not
-        given: with "deform" as in the paper, the largest distance of an interface node from the tool over the mean edge
-        length, at least 2; with "snap", which moves nodes by less than an edge and splits the rest, 2: more do not make
-        better elements.
-    feature_angle : float
-        Degrees; a skin edge sharper than this is a feature line that keeps its shape.
-    strict : bool
-        For a mesh read from a CalculiX deck: what its cards say is carried over to new nodes and elements, and
-        where that is not possible the report warns with file and line. With strict=True that is an Error.
-    preserve : names, optional
-        The groups whose boundary keeps its shape when nodes move; the boundaries of others may drift, which leaves
-        more freedom for the elements' shape. All are kept when not given; ``preserve=()`` keeps none. The skin and
-        its feature lines are kept always, and so is what a deck's cards name by number.
-    band_only : bool
-        For previews: the result's mesh is only the elements near the tool, exactly as the whole operation would make
-        them, with their numbers, coordinates and groups. The report is that of the whole operation, but without what
-        carrying a CalculiX deck over has to say. With a :class:`Scalpel` this costs little more than the elements near
-        the tool.
-
     within : Disk, Ellipse, Polygon, HalfPlane or CylinderPart, optional
         The part of the tool that cracks; the whole when not given. Its border is the crack front: nodes there lie on it
         and stay single, and ``name_FRONT`` is an element group of segments along it, in order (in a shell mesh, the
         nodes at its tips). It may reach out of the mesh.
-    refine : None, False or number
-        Whether elements near the tool are bisected first, as :func:`refine` does. None: where the tool is finer than
-        the mesh, that is where edges are longer than half its radius (of a crack within a part of a tool, than a
-        quarter of that part's width); a plane has no radius, and method "deform" never refines of itself. A number:
-        where edges are longer than this; of a crack within a part of a tool, around its front. False: never.
-        ``result.report.refinement`` says what was done.
-    skin : Shape, path or FreeCAD shape, optional
-        The CAD shape the mesh was made from. Nodes of the skin that are born or move come to lie on its faces and
-        edges, not on the mesh's triangles, so that the skin gets better than the input's; all others stay where they
-        are. Edges between triangles of one face are no feature lines, whatever their angle. What of the skin lies on no
-        face of the shape is kept as it is, with a warning.
+    {options}
 
     Returns
     -------
@@ -172,14 +92,7 @@ def crack(
     >>> result = crack(mesh, Plane(origin=(7.3, 5, 5), normal=(0.9, 0.3, 0.2)))
     >>> result.mesh.groups["CRACK_P"].ids
     """
-    return Result._wrap(
-        _engine.crack(
-            check_mesh(mesh),
-            check_tool(tool),
-            _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-            check_within(within),
-        )
-    )
+    return _run("crack", mesh, check_tool(tool), options, check_within(within))
 
 
 def _tools(tools) -> list:
@@ -201,20 +114,8 @@ def _depth(depth) -> Optional[float]:
     return None if depth is None else _arguments.real(depth, "depth")
 
 
-def drill(
-    mesh: Mesh,
-    tools: Union[Tool, Sequence[Tool]],
-    name: str = "HOLE",
-    method: str = "snap",
-    transition: Optional[int] = None,
-    feature_angle: float = 30.0,
-    strict: bool = False,
-    preserve: Optional[Iterable[str]] = None,
-    depth: Optional[float] = None,
-    band_only: bool = False,
-    refine: RefineOption = None,
-    skin: ShapeOption = None,
-) -> Result:
+@takes_options("HOLE", after={"depth": "preserve"})
+def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], depth: Optional[float] = None, *, options) -> Result:
     """Drills one or several holes.
 
     What lies on the negative side of a tool (inside a cylinder) is removed, with everything only the removed elements
@@ -255,14 +156,7 @@ def drill(
     >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
     >>> result.mesh.groups["HOLE_WALL"].ids
     """
-    return Result._wrap(
-        _engine.drill(
-            check_mesh(mesh),
-            _tools(tools),
-            _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-            _depth(depth),
-        )
-    )
+    return _run("drill", mesh, _tools(tools), options, _depth(depth))
 
 
 def _walls(tool, width, other, bottom) -> tuple:
@@ -278,21 +172,15 @@ def _walls(tool, width, other, bottom) -> tuple:
     return tool, _arguments.real(width, "width"), bottom
 
 
+@takes_options("CUT")
 def cut(
     mesh: Mesh,
     tool: Tool,
     width: Optional[float] = None,
     other: Optional[Tool] = None,
     bottom: Optional[Tool] = None,
-    name: str = "CUT",
-    method: str = "snap",
-    transition: Optional[int] = None,
-    feature_angle: float = 30.0,
-    strict: bool = False,
-    preserve: Optional[Iterable[str]] = None,
-    band_only: bool = False,
-    refine: RefineOption = None,
-    skin: ShapeOption = None,
+    *,
+    options,
 ) -> Result:
     """Cuts a slot: an incision between two planes.
 
@@ -340,15 +228,7 @@ def cut(
     >>> saw.mesh.groups["CUT_BOTTOM"].ids
     """
     first, second, bottom = _walls(tool, width, other, bottom)
-    return Result._wrap(
-        _engine.cut(
-            check_mesh(mesh),
-            first,
-            second,
-            _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-            bottom,
-        )
-    )
+    return _run("cut", mesh, first, second, options, bottom)
 
 
 def refine(
@@ -408,9 +288,6 @@ def refine(
     """
     engine_mesh = check_mesh(mesh)
     tools, points = _near(near)
-    for name, value in (("relax", relax), ("strict", strict)):
-        if not isinstance(value, bool):
-            raise TypeError(f"{name} must be True or False, not {_arguments.describe(value)}")
     return Result._wrap(
         _engine.refine(
             engine_mesh,
@@ -419,10 +296,10 @@ def refine(
             _arguments.real(size, "size"),
             _arguments.real(gradation, "gradation"),
             _arguments.real(reach, "reach"),
-            relax,
+            _arguments.flag(relax, "relax"),
             _arguments.whole(max_elements, "max_elements", 1),
             _arguments.real(feature_angle, "feature_angle"),
-            strict,
+            _arguments.flag(strict, "strict"),
             check_skin(skin),
         )
     )
@@ -466,75 +343,6 @@ class Scalpel:
         """A copy of the mesh the session works on."""
         return Mesh._wrap(self._session.mesh)
 
-    def crack(
-        self,
-        tool: Tool,
-        name: str = "CRACK",
-        method: str = "snap",
-        transition: Optional[int] = None,
-        feature_angle: float = 30.0,
-        strict: bool = False,
-        preserve: Optional[Iterable[str]] = None,
-        band_only: bool = False,
-        within: Optional[Within] = None,
-        refine: RefineOption = None,
-        skin: ShapeOption = None,
-    ) -> Result:
-        """As :func:`femscalpel.crack`, on the session's mesh."""
-        return Result._wrap(
-            self._session.crack(
-                check_tool(tool),
-                _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-                check_within(within),
-            )
-        )
-
-    def drill(
-        self,
-        tools: Union[Tool, Sequence[Tool]],
-        name: str = "HOLE",
-        method: str = "snap",
-        transition: Optional[int] = None,
-        feature_angle: float = 30.0,
-        strict: bool = False,
-        preserve: Optional[Iterable[str]] = None,
-        depth: Optional[float] = None,
-        band_only: bool = False,
-        refine: RefineOption = None,
-        skin: ShapeOption = None,
-    ) -> Result:
-        """As :func:`femscalpel.drill`, on the session's mesh."""
-        return Result._wrap(
-            self._session.drill(
-                _tools(tools),
-                _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-                _depth(depth),
-            )
-        )
-
-    def cut(
-        self,
-        tool: Tool,
-        width: Optional[float] = None,
-        other: Optional[Tool] = None,
-        bottom: Optional[Tool] = None,
-        name: str = "CUT",
-        method: str = "snap",
-        transition: Optional[int] = None,
-        feature_angle: float = 30.0,
-        strict: bool = False,
-        preserve: Optional[Iterable[str]] = None,
-        band_only: bool = False,
-        refine: RefineOption = None,
-        skin: ShapeOption = None,
-    ) -> Result:
-        """As :func:`femscalpel.cut`, on the session's mesh."""
-        first, second, bottom = _walls(tool, width, other, bottom)
-        return Result._wrap(
-            self._session.cut(
-                first,
-                second,
-                _common_options(name, method, transition, feature_angle, strict, preserve, band_only, refine, skin),
-                bottom,
-            )
-        )
+    crack = on_session(crack)
+    drill = on_session(drill)
+    cut = on_session(cut)
