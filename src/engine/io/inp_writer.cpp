@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <zlib.h>
-
 #include <algorithm>
-#include <charconv>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
@@ -13,59 +8,16 @@
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
-#include "io/atomic_file.h"
 #include "io/inp.h"
+#include "io/inp_file.h"
+#include "io/inp_numbers.h"
 
 namespace femscalpel {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t coordinate_width = 20;  // CalculiX reads (f20.0)
 constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-/// Appends `value` in at most 20 characters, exactly if that is possible.
-void append_coordinate(std::string& out, double value) {
-    char text[32];
-    const char* end = std::to_chars(text, text + sizeof text, value).ptr;
-    if (end - text <= static_cast<std::ptrdiff_t>(coordinate_width)) {
-        out.append(text, static_cast<std::size_t>(end - text));
-        return;
-    }
-    for (int digits_wanted = 17;; --digits_wanted) {
-        end =
-            digits_wanted == 17
-                ? std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr
-                : std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits_wanted - 1).ptr;
-        const char* mantissa_end = std::find(text, const_cast<char*>(end), 'e');
-        std::string digits, sign;
-        for (const char* p = text; p < mantissa_end; ++p) {
-            if (*p == '-')
-                sign = "-";
-            else if (*p != '.')
-                digits += *p;
-        }
-        while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
-        const int exponent = std::atoi(std::string(mantissa_end + 1, end).c_str());
-        // 12345e-9 and .0012345 are shorter than 1.2345e-05.
-        const std::string forms[] = {
-            sign + digits.substr(0, 1) + "." + digits.substr(1) + "e" + std::to_string(exponent),
-            exponent < 0 ? sign + "." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits
-                         : std::string(),
-            sign + digits + "e" + std::to_string(exponent - static_cast<int>(digits.size()) + 1),
-        };
-        for (const std::string& form : forms)
-            if (!form.empty() && form.size() <= coordinate_width) {
-                out += form;
-                return;
-            }
-    }
-}
-
-void append_integer(std::string& out, Index value) {
-    char text[24];
-    out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 /// What an element becomes in the deck.
 enum class Fate : std::uint8_t { card, free, face, edge, point };
@@ -836,29 +788,6 @@ private:
     SparseCheck check_;
 };
 
-void save(const fs::path& path, const std::string& text) {
-    AtomicFile file(path);
-    std::string extension = path.extension().string();
-    if (extension == ".gz" || extension == ".GZ") {
-        std::unique_ptr<gzFile_s, int (*)(gzFile)> out(gzopen(file.temporary().c_str(), "wb6"), gzclose);
-        bool good = out != nullptr;
-        for (std::size_t at = 0; good && at < text.size();) {
-            check_cancelled();
-            const auto part = static_cast<unsigned>(std::min<std::size_t>(text.size() - at, 1u << 18));
-            good = gzwrite(out.get(), text.data() + at, part) == static_cast<int>(part);
-            at += part;
-        }
-        if (out) good = gzclose(out.release()) == Z_OK && good;
-        if (!good) throw WriteError(path.string() + ": writing failed (disk full?)");
-    } else {
-        std::ofstream out(file.temporary(), std::ios::binary);
-        write_obeying(out, text);
-        out.close();
-        if (!out) throw WriteError(path.string() + ": writing failed (disk full?)");
-    }
-    file.commit();
-}
-
 }  // namespace
 
 void write_inp(const Mesh& mesh, const fs::path& path) {
@@ -868,7 +797,7 @@ void write_inp(const Mesh& mesh, const fs::path& path) {
     } catch (const WriteError& error) {
         throw WriteError(path.string() + ": " + error.what());
     }
-    save(path, text);
+    save_text(path, text);
 }
 
 }  // namespace femscalpel
