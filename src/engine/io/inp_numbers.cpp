@@ -28,7 +28,7 @@ void append_coordinate(std::string& out, double value) {
         std::string digits, sign;
         for (const char* p = text; p < mantissa_end; ++p) {
             if (*p == '-')
-                sign = "-";
+                sign = '-';
             else if (*p != '.')
                 digits += *p;
         }
