@@ -177,25 +177,13 @@ private:
     void write_element_card(std::size_t c, const Card& card) {
         write_head(c, card, "ELSET");
         const auto type = deck_element_type(*card.parameter("TYPE"));
-        if (!type) {  // user elements, all kept beside the mesh
-            CardReader line(card);
-            while (line.next_line()) {
-                if (line.is_data()) release_tail();
-                if (line.is_data())
-                    put(line.raw());
-                else
-                    tail_.push_back(line.raw());
-            }
-            return;
-        }
-        const CellBlock& block = mesh_.block(type->cell);
-        const auto count = static_cast<std::size_t>(traits(type->cell).nodes);
+        if (!type) return put_data_lines(card);  // user elements, all kept beside the mesh
         std::unordered_set<Index> others;
         for (const OtherElement& e : input_->other_elements())
             if (e.card == c) others.insert(e.number);
         std::vector<char>& written = element_written_[static_cast<int>(type->cell)];
-        if (written.empty()) written.assign(static_cast<std::size_t>(block.size()), 0);
-        std::vector<Index> wanted(count);
+        if (written.empty()) written.assign(static_cast<std::size_t>(mesh_.block(type->cell).size()), 0);
+        std::vector<Index> wanted(static_cast<std::size_t>(traits(type->cell).nodes));
         std::vector<std::string_view> record;
         CardReader line(card);
         while (line.next_line()) {
@@ -207,45 +195,61 @@ private:
             if (!line.integer(id)) continue;
             const auto found = numbers_.cell(id);
             const bool here = found && places_.card_of_family[mesh_.block(found->type).families[found->cell]] == c;
-            if (here) check_type(*found, *type, card);
-            const bool keep = here || others.contains(id);
-            bool same = true;
             if (here) {
-                const auto nodes = block.nodes(found->cell);
+                check_type(*found, *type, card);
+                const auto nodes = mesh_.block(found->type).nodes(found->cell);
                 std::ranges::transform(nodes, wanted.begin(), [this](Index n) { return mesh_.node_ids[n]; });
                 swap_node_order(type->cell, wanted);
                 written[static_cast<std::size_t>(found->cell)] = 1;
             }
+            const bool keep = here || others.contains(id);
             if (keep) release_tail();
-            record.assign(1, line.raw());
-            for (std::size_t k = 0; k < count;) {
-                if (line.at_end()) {
-                    if (!line.next_line()) break;
-                    if (line.is_data())
-                        record.push_back(line.raw());
-                    else if (keep)
-                        record.push_back(line.raw());
-                    else
-                        tail_.push_back(line.raw());
-                    continue;
-                }
-                Index node = 0;
-                if (!line.is_data() || !line.integer(node)) {
-                    line.field();
-                    continue;
-                }
-                if (here && wanted[k] != node) same = false;
-                ++k;
-            }
+            const bool same = read_element(line, wanted, keep, record) || !here;
             if (keep && same)
                 for (std::string_view raw : record) put(raw);
             else if (keep)
-                put_element({type->cell, found->cell});
+                put_element(*found);
         }
         for (Index id : plan_.members_of_card[c]) {
             const CellRef ref = *numbers_.cell(id);
             check_type(ref, *type, card);
             if (!written[static_cast<std::size_t>(ref.cell)]) put_element(ref);
+        }
+    }
+
+    /// Reads on behind an element's number to its last node; whether its nodes are `wanted`. Its lines come to
+    /// `record`, with the comments between them if it is kept; these come to the tail otherwise.
+    bool read_element(CardReader& line, std::span<const Index> wanted, bool keep,
+                      std::vector<std::string_view>& record) {
+        bool same = true;
+        record.assign(1, line.raw());
+        for (std::size_t k = 0; k < wanted.size();) {
+            if (line.at_end()) {
+                if (!line.next_line()) break;
+                (line.is_data() || keep ? record : tail_).push_back(line.raw());
+                continue;
+            }
+            Index node = 0;
+            if (!line.is_data() || !line.integer(node)) {
+                line.field();
+                continue;
+            }
+            if (wanted[k] != node) same = false;
+            ++k;
+        }
+        return same;
+    }
+
+    /// The lines of a card behind its head as they are, but what follows the data may have to wait for new cards.
+    void put_data_lines(const Card& card) {
+        CardReader line(card);
+        while (line.next_line()) {
+            if (line.is_data()) {
+                release_tail();
+                put(line.raw());
+            } else {
+                tail_.push_back(line.raw());
+            }
         }
     }
 
@@ -289,18 +293,8 @@ private:
     void write_set_card(const Card& card) {
         const auto s = set_index(card);
         if (!s || plan_.roles[*s].state == SetRole::by_cards) {
-            // The whole card as it is, but what follows its data may have to wait for new cards.
             put(card.text.front().text.substr(0, card.head));
-            CardReader line(card);
-            while (line.next_line()) {
-                if (line.is_data()) {
-                    release_tail();
-                    put(line.raw());
-                } else {
-                    tail_.push_back(line.raw());
-                }
-            }
-            return;
+            return put_data_lines(card);
         }
         if (plan_.roles[*s].state == SetRole::replaced && !is_written_[*s]) write_replaced_set(*s);
         CardReader line(card);
