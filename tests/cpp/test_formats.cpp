@@ -68,8 +68,8 @@ TEST(Formats, ReadGivesBackWhatWriteWrote) {
         }
     EXPECT_GE(both, 3);
     EXPECT_THAT([&] { write(mesh, folder / "mesh.xyz"); },
-                ThrowsMessage<WriteError>(HasSubstr("mesh.xyz: the format is told by the extension, one of " +
-                                                    extensions_written())));
+                ThrowsMessage<WriteError>(
+                    HasSubstr("mesh.xyz: the format is told by the extension, one of " + extensions_written())));
     EXPECT_FALSE(fs::exists(folder / "mesh.xyz"));
     fs::remove_all(folder);
 }
