@@ -83,6 +83,13 @@ private:
     std::vector<CellRef> lip(const char* suffix) const;
     const std::set<Key3>& lip_keys();
     void lips();
+    void lip_element(const CellRef& c, bool positive);
+    /// Nodes of the negative lip and of the positive.
+    using LipNodes = std::array<std::map<Place, std::set<Index>>, 2>;
+    /// Both copies of a node are in the same groups.
+    void lip_twins(const LipNodes& nodes);
+    /// The interface nodes of the report are the originals of the lips' corner nodes.
+    void interface_nodes(const LipNodes& nodes);
     /// Whether a lip element is the double of an element the input had there, whose direction it keeps.
     bool same_name_twin(const CellRef& c) const;
     void section();

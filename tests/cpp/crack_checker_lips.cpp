@@ -30,49 +30,53 @@ const std::set<Key3>& CrackChecker::lip_keys() {
 }
 
 void CrackChecker::lips() {
-    const std::vector<CellRef> positive = lip("_P"), negative = lip("_N");
-    if (positive.empty() || negative.empty()) {
+    if (lip("_P").empty() || lip("_N").empty()) {
         bad_.add("lips", "there are none");
         return;
     }
     std::map<std::vector<Place>, int> faces;
-    std::map<Place, std::set<Index>> nodes[2];
+    LipNodes nodes;
     for (int side = 0; side < 2; ++side)
-        for (const CellRef& c : side ? positive : negative) {
-            const auto n = out_.block(c.type).nodes(c.cell);
-            const bool wanted =
-                (model_.solid && is_triangle(c.type)) || ((!model_.solid || model_.mixed) && is_line(c.type));
-            const Index number = out_.block(c.type).ids[c.cell];
-            if (!wanted) bad_.add("lips", "element ", number, " is of the wrong type");
+        for (const CellRef& c : lip(side ? "_P" : "_N")) {
             std::vector<Place> key;
-            for (const Index k : n) {
+            for (const Index k : out_.block(c.type).nodes(c.cell)) {
                 key.push_back(place(k));
                 nodes[side][key.back()].insert(k);
                 if (!on_plane(k)) bad_.add("lip node", "node ", id(k), " is ", distance_[k], " off the plane");
             }
             std::ranges::sort(key);
             faces[key] += side ? 1 : -1;
-            if (!is_triangle(c.type)) continue;
-            const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {},
-                                                       [](const TetraFace& f) { return f.key; });
-            if (host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]}))
-                continue;  // found by attached()
-            if ((host + 1) != faces_.end() && (host + 1)->key == host->key)
-                bad_.add("lips", "element ", number, " is not on the outside");
-            double depth = 0;
-            for (const Index k : out_.block(host->cell.type).nodes(host->cell.cell)) depth += distance_[k];
-            if ((depth > 0) != (side == 1)) bad_.add("lips", "element ", number, " is on the other side's tetrahedron");
-            const Vec3 normal = (out_.points[n[1]] - out_.points[n[0]]).cross(out_.points[n[2]] - out_.points[n[0]]);
-            // Only faces the crack made have a direction of their own.
-            if (number > model_.largest_cell && (normal.dot(plane_.normal) < 0) != (side == 1) && !same_name_twin(c))
-                bad_.add("lips", "element ", number, " points into the material");
+            lip_element(c, side == 1);
         }
     for (const auto& [key, balance] : faces)
-        if (balance != 0) {
+        if (balance != 0)
             bad_.add("lips", "a face of one lip has no partner on the other at (", key[0][0], ", ", key[0][1], ", ",
                      key[0][2], ")");
-        }
-    // Both copies of a node are in the same groups.
+    lip_twins(nodes);
+    interface_nodes(nodes);
+}
+
+void CrackChecker::lip_element(const CellRef& c, bool positive) {
+    const auto n = out_.block(c.type).nodes(c.cell);
+    const bool wanted = (model_.solid && is_triangle(c.type)) || ((!model_.solid || model_.mixed) && is_line(c.type));
+    const Index number = out_.block(c.type).ids[c.cell];
+    if (!wanted) bad_.add("lips", "element ", number, " is of the wrong type");
+    if (!is_triangle(c.type)) return;
+    const auto host = std::ranges::lower_bound(faces_, ascending(Key3{n[0], n[1], n[2]}), {},
+                                               [](const TetraFace& f) { return f.key; });
+    if (host == faces_.end() || host->key != ascending(Key3{n[0], n[1], n[2]})) return;  // found by attached()
+    if ((host + 1) != faces_.end() && (host + 1)->key == host->key)
+        bad_.add("lips", "element ", number, " is not on the outside");
+    double depth = 0;
+    for (const Index k : out_.block(host->cell.type).nodes(host->cell.cell)) depth += distance_[k];
+    if ((depth > 0) != positive) bad_.add("lips", "element ", number, " is on the other side's tetrahedron");
+    const Vec3 normal = (out_.points[n[1]] - out_.points[n[0]]).cross(out_.points[n[2]] - out_.points[n[0]]);
+    // Only faces the crack made have a direction of their own.
+    if (number > model_.largest_cell && (normal.dot(plane_.normal) < 0) != positive && !same_name_twin(c))
+        bad_.add("lips", "element ", number, " points into the material");
+}
+
+void CrackChecker::lip_twins(const LipNodes& nodes) {
     const std::vector<std::string> names = family_names(out_, made_);
     for (const auto& [at, twins] : nodes[1]) {
         const auto other = nodes[0].find(at);
@@ -85,7 +89,9 @@ void CrackChecker::lips() {
                              names[out_.node_families[p]], "' and '", names[out_.node_families[n]], "'");
             }
     }
-    // The interface nodes of the report are the originals of the lips' corner nodes.
+}
+
+void CrackChecker::interface_nodes(const LipNodes& nodes) {
     std::set<Index> named;
     for (const char* set : {"ICN", "ECN"})
         if (report_.node_sets.contains(set))

@@ -59,6 +59,145 @@ std::map<std::string, double> border_lengths(const Mesh& mesh, const std::functi
     return lengths;
 }
 
+namespace {
+
+/// The face that a triangle element is.
+Model::Face face_of(const Mesh& mesh, std::span<const Index> n) {
+    return make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1});
+}
+
+Model::Segment segment_of(const Mesh& mesh, std::span<const Index> n) {
+    const Vec3 &a = mesh.points[n[0]], &b = mesh.points[n[1]];
+    return {{a, b}, n.size() == 3 ? mesh.points[n[2]] : Vec3((a + b) / 2), {}, {}, {}, 0};
+}
+
+/// Calls visit(face, outside) for each face of the skin and of the borders between groups: once, as one of its
+/// tetrahedra sees it.
+void for_each_border_face(const Mesh& mesh, auto visit) {
+    const std::vector<std::string> names = family_names(mesh);
+    const auto name = [&](const TetraFace& f) { return names[mesh.block(f.cell.type).families[f.cell.cell]]; };
+    runs(tetra_faces(mesh), [&](auto first, auto last) {
+        const bool outside = last - first == 1;
+        if (outside || name(*first) != name(*(first + 1))) visit(*first, outside);
+    });
+}
+
+/// Skin, borders, and the shells beside solids.
+void find_skin(Model& m) {
+    if (m.solid)
+        for_each_border_face(m.mesh, [&](const TetraFace& f, bool outside) {
+            (outside ? m.skin : m.borders).push_back(make_face(m.mesh, f.outward, f.mid));
+        });
+    std::set<Key3> host_faces;
+    if (m.solid)
+        for (const TetraFace& f : tetra_faces(m.mesh)) host_faces.insert(f.key);
+    const std::vector<std::string> names = family_names(m.mesh);
+    for_each_cell(m.mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
+        if (m.solid && !host_faces.contains(ascending(Key3{n[0], n[1], n[2]}))) {
+            m.mixed = true;
+            m.loose_kinds.insert(names[m.mesh.block(type).families[c]]);
+        }
+        if (!m.solid) m.skin.push_back(face_of(m.mesh, n));
+    });
+}
+
+/// Edges where skin faces meet at more than 30 degrees, and edges where a border ends in the skin.
+std::vector<Model::Segment> feature_lines(const Mesh& mesh) {
+    std::map<Key2, std::vector<Vec3>> meeting, inward;
+    for_each_border_face(mesh, [&](const TetraFace& f, bool) {
+        for (int k = 0; k < 3; ++k) {
+            const Key2 key = ascending(Key2{f.outward[k], f.outward[(k + 1) % 3]});
+            meeting[key].push_back(make_face(mesh, f.outward, f.mid).normal);
+            const Vec3 &a = mesh.points[key[0]], along = mesh.points[key[1]] - a;
+            const Vec3 across = mesh.points[f.outward[(k + 2) % 3]] - a;
+            inward[key].push_back((across - across.dot(along) / along.squaredNorm() * along).normalized());
+        }
+    });
+    std::vector<Model::Segment> lines;
+    for (const auto& [key, normals] : meeting) {
+        bool feature = normals.size() != 2;
+        for (const Vec3& n : normals) feature = feature || n.dot(normals[0]) < std::cos(std::numbers::pi / 6);
+        if (!feature) continue;
+        const Vec3 &a = mesh.points[key[0]], &b = mesh.points[key[1]];
+        lines.push_back({{a, b}, (a + b) / 2, normals, inward.at(key), {}, 0});
+    }
+    return lines;
+}
+
+/// Whether nodes lie in one plane: that of three far apart.
+bool are_planar(const Mesh& mesh, const std::set<Index>& nodes, double size) {
+    const Vec3 &first = mesh.points[*nodes.begin()], &last = mesh.points[*nodes.rbegin()];
+    Vec3 normal = Vec3::Zero();
+    for (const Index n : nodes) {
+        const Vec3 candidate = (last - first).cross(mesh.points[n] - first);
+        if (candidate.norm() > normal.norm()) normal = candidate;
+    }
+    if (normal.norm() > 1e-6 * size * size) normal.normalize();
+    return std::ranges::all_of(nodes,
+                               [&](Index n) { return std::abs(normal.dot(mesh.points[n] - first)) < rounding * size; });
+}
+
+/// Triangles and line elements of a group of elements.
+void find_shapes(Model& m, GroupIndex group) {
+    const Mesh& mesh = m.mesh;
+    const auto is_in = [&](CellType type, Index c) {
+        return mesh.families.contains(mesh.block(type).families[c], group);
+    };
+    for_each_cell(mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
+        if (is_in(type, c)) m.group_faces[group].push_back(face_of(mesh, n));
+    });
+    for_each_cell(mesh, is_line, [&](CellType type, Index c, std::span<const Index> n) {
+        if (is_in(type, c)) m.group_segments[group].push_back(segment_of(mesh, n));
+    });
+}
+
+/// Members of a node group without neighbours in it, and the element group that has its name and nodes.
+void describe_nodes(Model& m, GroupIndex group, const std::set<Key2>& neighbours, const std::set<Index>& corners) {
+    const Mesh& mesh = m.mesh;
+    std::set<Index> members;
+    for (std::size_t n = 0; n < mesh.points.size(); ++n)
+        if (mesh.families.contains(mesh.node_families[n], group)) members.insert(static_cast<Index>(n));
+    std::set<Index> accompanied;
+    for (const Key2& e : neighbours)
+        if (members.contains(e[0]) && members.contains(e[1])) accompanied.insert(e.begin(), e.end());
+    for (const Index n : members)
+        if (!accompanied.contains(n) && corners.contains(n)) m.isolated_nodes.push_back(n);
+    const auto twin = mesh.find_group(mesh.groups[group].name, GroupKind::element);
+    if (!twin) return;
+    std::set<Index> of_elements;
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c)
+            if (mesh.families.contains(b.families[c], *twin)) of_elements.insert(b.nodes(c).begin(), b.nodes(c).end());
+    if (of_elements != members) return;
+    m.group_twin[group] = *twin;
+    m.group_planar[group] = m.sums[*twin].dimension == 3 || are_planar(mesh, members, m.size);
+}
+
+/// What is known of each group.
+void describe_groups(Model& m, const std::set<Key2>& neighbours) {
+    const Mesh& mesh = m.mesh;
+    m.sums = group_sums(mesh);
+    m.group_slack.assign(mesh.groups.size(), 0);
+    for (const auto& [kind, slack] : m.curved_slack)
+        for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+            if (kind.find(mesh.groups[g].name + ';') != std::string::npos) m.group_slack[g] += slack.area;
+    m.group_faces.resize(mesh.groups.size());
+    m.group_segments.resize(mesh.groups.size());
+    m.group_twin.assign(mesh.groups.size(), -1);
+    m.group_planar.assign(mesh.groups.size(), 0);
+    std::set<Index> corners;
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c)
+            corners.insert(b.nodes(c).begin(), b.nodes(c).begin() + corners_of(b.type));
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+        if (mesh.groups[g].hidden) continue;
+        if (mesh.groups[g].kind == GroupKind::element && !m.flat) find_shapes(m, static_cast<GroupIndex>(g));
+        if (mesh.groups[g].kind == GroupKind::node) describe_nodes(m, static_cast<GroupIndex>(g), neighbours, corners);
+    }
+}
+
+}  // namespace
+
 Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
     solid = mesh.block(CellType::tetra).size() + mesh.block(CellType::tetra10).size() > 0;
     low = high = mesh.points.front();
@@ -71,135 +210,21 @@ Model::Model(Mesh input, bool is_flat) : mesh(std::move(input)), flat(is_flat) {
     size = (high - low).norm();
     for (const CellBlock& b : mesh.blocks())
         for (const Index i : b.ids) largest_cell = std::max(largest_cell, i);
-
-    std::set<Key3> host_faces;
-    const std::vector<std::string> names = family_names(mesh);
-    if (solid) {
-        const std::vector<TetraFace> faces = tetra_faces(mesh);
-        runs(faces, [&](auto first, auto last) {
-            host_faces.insert(first->key);
-            const auto family = [&](const TetraFace& f) { return mesh.block(f.cell.type).families[f.cell.cell]; };
-            if (last - first == 1)
-                skin.push_back(make_face(mesh, first->outward, first->mid));
-            else if (names[family(*first)] != names[family(*(first + 1))])
-                borders.push_back(make_face(mesh, first->outward, first->mid));
-        });
-    }
-    for_each_cell(mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
-        if (solid && !host_faces.contains(ascending(Key3{n[0], n[1], n[2]}))) {
-            mixed = true;
-            loose_kinds.insert(names[mesh.block(type).families[c]]);
-        }
-        if (!solid)
-            skin.push_back(
-                make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
-    });
+    find_skin(*this);
     std::set<Key2> neighbours;
     for (const Edge& e : edges_of(mesh, [](CellType t) { return is_tetra(t) || is_triangle(t); }))
         neighbours.insert(e.key);
-    const auto segment = [&](std::span<const Index> n) {
-        Segment s{{mesh.points[n[0]], mesh.points[n[1]]}, (mesh.points[n[0]] + mesh.points[n[1]]) / 2, {}, {}, {}, 0};
-        if (n.size() == 3) s.mid = mesh.points[n[2]];
-        return s;
-    };
     for_each_cell(mesh, is_line, [&](CellType type, Index c, std::span<const Index> n) {
         if (!neighbours.contains(ascending(Key2{n[0], n[1]}))) loose_cells.insert(mesh.block(type).ids[c]);
     });
-    if (!solid) {
+    if (solid) {
+        lines = feature_lines(mesh);
+    } else {
         border_lengths(
             mesh, [](const Key2&) { return false; }, {}, &lines);
         find_bends();
-    } else {
-        // Feature lines: edges where skin faces meet at more than 30 degrees, and edges where a border ends in the
-        // skin.
-        std::map<Key2, std::vector<Vec3>> meeting, inward;
-        runs(tetra_faces(mesh), [&](auto first, auto last) {
-            const auto family = [&](const TetraFace& f) { return mesh.block(f.cell.type).families[f.cell.cell]; };
-            const bool outside = last - first == 1;
-            if (!outside && names[family(*first)] == names[family(*(first + 1))]) return;
-            for (int k = 0; k < 3; ++k) {
-                const Key2 key = ascending(Key2{first->outward[k], first->outward[(k + 1) % 3]});
-                meeting[key].push_back(make_face(mesh, first->outward, first->mid).normal);
-                const Vec3 &a = mesh.points[key[0]], along = mesh.points[key[1]] - a;
-                const Vec3 across = mesh.points[first->outward[(k + 2) % 3]] - a;
-                inward[key].push_back((across - across.dot(along) / along.squaredNorm() * along).normalized());
-            }
-        });
-        for (const auto& [key, normals] : meeting) {
-            bool feature = normals.size() != 2;
-            for (const Vec3& n : normals) feature = feature || n.dot(normals[0]) < std::cos(std::numbers::pi / 6);
-            if (feature)
-                lines.push_back({{mesh.points[key[0]], mesh.points[key[1]]},
-                                 (mesh.points[key[0]] + mesh.points[key[1]]) / 2,
-                                 normals,
-                                 inward.at(key),
-                                 {},
-                                 0});
-        }
     }
-
-    sums = group_sums(mesh);
-    group_slack.assign(mesh.groups.size(), 0);
-    for (const auto& [kind, slack] : curved_slack)
-        for (std::size_t g = 0; g < mesh.groups.size(); ++g)
-            if (kind.find(mesh.groups[g].name + ';') != std::string::npos) group_slack[g] += slack.area;
-    group_faces.resize(mesh.groups.size());
-    group_segments.resize(mesh.groups.size());
-    group_twin.assign(mesh.groups.size(), -1);
-    group_planar.assign(mesh.groups.size(), 0);
-    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-        const auto group = static_cast<GroupIndex>(g);
-        if (mesh.groups[g].hidden) continue;
-        if (mesh.groups[g].kind == GroupKind::element && !flat) {
-            for_each_cell(mesh, is_triangle, [&](CellType type, Index c, std::span<const Index> n) {
-                if (mesh.families.contains(mesh.block(type).families[c], group))
-                    group_faces[g].push_back(
-                        make_face(mesh, {n[0], n[1], n[2]}, n.size() == 6 ? Key3{n[3], n[4], n[5]} : Key3{-1, -1, -1}));
-            });
-            for_each_cell(mesh, is_line, [&](CellType type, Index c, std::span<const Index> n) {
-                if (mesh.families.contains(mesh.block(type).families[c], group))
-                    group_segments[g].push_back(segment(n));
-            });
-        }
-        if (mesh.groups[g].kind != GroupKind::node) continue;
-        std::set<Index> members;
-        for (std::size_t n = 0; n < mesh.points.size(); ++n)
-            if (mesh.families.contains(mesh.node_families[n], group)) members.insert(static_cast<Index>(n));
-        std::set<Index> accompanied;
-        for (const Key2& e : neighbours)
-            if (members.contains(e[0]) && members.contains(e[1])) accompanied.insert(e.begin(), e.end());
-        std::set<Index> corners;
-        for (const CellBlock& b : mesh.blocks())
-            for (Index c = 0; c < b.size(); ++c)
-                corners.insert(b.nodes(c).begin(), b.nodes(c).begin() + corners_of(b.type));
-        for (const Index n : members)
-            if (!accompanied.contains(n) && corners.contains(n)) isolated_nodes.push_back(n);
-        const auto twin = mesh.find_group(mesh.groups[g].name, GroupKind::element);
-        if (!twin) continue;
-        std::set<Index> of_elements;
-        for (const CellBlock& b : mesh.blocks())
-            for (Index c = 0; c < b.size(); ++c)
-                if (mesh.families.contains(b.families[c], *twin))
-                    of_elements.insert(b.nodes(c).begin(), b.nodes(c).end());
-        if (of_elements != members) continue;
-        group_twin[g] = *twin;
-        if (sums[*twin].dimension == 3) {
-            group_planar[g] = 1;
-            continue;
-        }
-        // The plane of three members far apart, if all others are in it.
-        const std::vector<Index> list(members.begin(), members.end());
-        Vec3 normal = Vec3::Zero();
-        for (const Index n : list) {
-            const Vec3 candidate = (mesh.points[list.back()] - mesh.points[list.front()])
-                                       .cross(mesh.points[n] - mesh.points[list.front()]);
-            if (candidate.norm() > normal.norm()) normal = candidate;
-        }
-        if (normal.norm() > 1e-6 * size * size) normal.normalize();
-        group_planar[g] = std::ranges::all_of(list, [&](Index n) {
-            return std::abs(normal.dot(mesh.points[n] - mesh.points[list[0]])) < rounding * size;
-        });
-    }
+    describe_groups(*this, neighbours);
 }
 
 /// Lines that turn a little from segment to segment are curves to the mesh's author: nodes slide along them, and what
