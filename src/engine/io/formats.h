@@ -16,8 +16,8 @@ namespace femscalpel {
 struct Format {
     std::string_view title;  ///< for file dialogs, in every language: "MED: Code_Aster, SALOME"
     /// In lower case, with the dot, the usual one first: ".inp", ".inp.gz". Empty ones end the list.
-    std::array<std::string_view, 2> listed;
-    Mesh (*read)(const std::filesystem::path&);                 ///< null for a format that is written only
+    std::array<std::string_view, 4> listed;
+    Mesh (*read)(const std::filesystem::path&);                ///< null for a format that is written only
     void (*write)(const Mesh&, const std::filesystem::path&);  ///< null for a format that is read only
 
     /// The extensions without the empty ones.
