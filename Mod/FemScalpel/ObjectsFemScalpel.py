@@ -403,9 +403,10 @@ def renameGroup(obj, old, new, kind=None):
 
 
 def exportMesh(obj, path):
-    """Writes the mesh of `obj` with its groups and numbers to a .med, .inp or .vtu file.
+    """Writes the mesh of `obj` with its groups and numbers to a file whose ending says the format.
 
-    Raises femscalpel.WriteError when the file cannot be written or the ending is another.
+    femscalpel.formats() lists them. Raises femscalpel.WriteError when the file cannot be written or no format has its
+    ending.
     """
     femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
 

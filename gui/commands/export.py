@@ -16,28 +16,33 @@ class Export(Command):
     NAME = "FemScalpel_Export"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Export mesh…")
     TOOLTIP = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)"
+        "FemScalpel", "Writes the FEM mesh with its groups to a file, in a format of solvers or viewers"
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
         "FemScalpel",
-        "Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster "
-        "and SALOME, inp for CalculiX, vtu for ParaView.",
+        "Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.",
     )
     ACCEL = "S, E"
 
     def run(self, mesh):
-        filters = ";;".join(
-            (
-                translate("FemScalpel", "MED, Code_Aster and SALOME (*.med)"),
-                translate("FemScalpel", "CalculiX (*.inp)"),
-                translate("FemScalpel", "ParaView (*.vtu)"),
-            )
-        )
+        endings = self.endings()
         path, chosen = QtGui.QFileDialog.getSaveFileName(
-            FreeCADGui.getMainWindow(), translate("FemScalpel", "Export mesh"), mesh.Label + ".med", filters
+            FreeCADGui.getMainWindow(),
+            translate("FemScalpel", "Export mesh"),
+            mesh.Label + next(iter(endings.values())),
+            ";;".join(endings),
         )
         if path:
-            self.write(mesh, path if "." in path.rsplit("/", 1)[-1] else path + chosen[chosen.index("*") + 1 : -1])
+            self.write(mesh, path if "." in path.rsplit("/", 1)[-1] else path + endings[chosen])
+
+    @staticmethod
+    def endings():
+        """Each filter of the file dialog, and the ending a name without one gets under it."""
+        return {
+            f"{f.title} ({' '.join('*' + e for e in f.extensions)})": f.extensions[0]
+            for f in femscalpel.formats()
+            if f.writes
+        }
 
     @staticmethod
     def write(mesh, path):

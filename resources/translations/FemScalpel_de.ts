@@ -202,10 +202,6 @@
       <translation>Nach Güte</translation>
     </message>
     <message>
-      <source>CalculiX (*.inp)</source>
-      <translation>CalculiX (*.inp)</translation>
-    </message>
-    <message>
       <source>Change</source>
       <translation>Änderung</translation>
     </message>
@@ -350,10 +346,6 @@
       <translation>Zählt die Gruppen des FEM-Netzes auf, mit Art, Größe, Maß und dem, was sie benutzt. Angekreuzte Gruppen sind zu sehen; ein Doppelklick auf einen Namen benennt die Gruppe um, auf eine Farbe ändert sie. Elementare Gruppen sind die Teile, die genau denselben Gruppen angehören; umrandende, verbindende und einzelne Teile sind das, was eine Operation in Form halten muss.</translation>
     </message>
     <message>
-      <source>MED, Code_Aster and SALOME (*.med)</source>
-      <translation>MED, Code_Aster und SALOME (*.med)</translation>
-    </message>
-    <message>
       <source>Mean ratio</source>
       <translation>Mean ratio</translation>
     </message>
@@ -404,10 +396,6 @@
     <message>
       <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
       <translation>Öffnet das FEM-Netz entlang einer Ebene. Die Ebene durch Zahlen angeben, aus der Ansicht holen (drei Knoten, ebene Fläche, Kante, Bezugselement, Skizze, Blickrichtung) oder an den Griffen ziehen; die Vorschau zeigt das Netz, wie es wird. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
-    </message>
-    <message>
-      <source>ParaView (*.vtu)</source>
-      <translation>ParaView (*.vtu)</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
@@ -542,12 +530,12 @@
       <translation>Schlechter als Ihre Schwelle von %1.</translation>
     </message>
     <message>
-      <source>Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)</source>
-      <translation>Schreibt das FEM-Netz mit seinen Gruppen für Code_Aster (MED), CalculiX (inp) oder ParaView (vtu)</translation>
+      <source>Writes the FEM mesh with its groups to a file, in a format of solvers or viewers</source>
+      <translation>Schreibt das FEM-Netz mit seinen Gruppen in eine Datei, in einem Format von Lösern oder Betrachtern</translation>
     </message>
     <message>
-      <source>Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster and SALOME, inp for CalculiX, vtu for ParaView.</source>
-      <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt: med für Code_Aster und SALOME, inp für CalculiX, vtu für ParaView.</translation>
+      <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
+      <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt. Der Dateidialog zählt die Formate auf.</translation>
     </message>
     <message>
       <source>became empty</source>

@@ -202,10 +202,6 @@
       <translation>Par qualité</translation>
     </message>
     <message>
-      <source>CalculiX (*.inp)</source>
-      <translation>CalculiX (*.inp)</translation>
-    </message>
-    <message>
       <source>Change</source>
       <translation>Variation</translation>
     </message>
@@ -350,10 +346,6 @@
       <translation>Liste les groupes du maillage EF avec leur genre, leur taille, leur mesure et ce qui les utilise. Cochez des groupes pour les voir, double-cliquez sur un nom pour renommer le groupe et sur une couleur pour la changer. Les groupes élémentaires réunissent les entités qui sont exactement dans les mêmes groupes ; les entités de bord, de liaison et isolées sont celles dont une opération doit garder la forme.</translation>
     </message>
     <message>
-      <source>MED, Code_Aster and SALOME (*.med)</source>
-      <translation>MED, Code_Aster et SALOME (*.med)</translation>
-    </message>
-    <message>
       <source>Mean ratio</source>
       <translation>Mean ratio</translation>
     </message>
@@ -404,10 +396,6 @@
     <message>
       <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
       <translation>Ouvre le maillage EF le long d'un plan. Donnez le plan par des nombres, prenez-le dans la vue (trois nœuds, une face plane, une arête, une référence, une esquisse, la direction de vue) ou tirez les poignées ; l'aperçu montre le maillage tel qu'il sera. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
-    </message>
-    <message>
-      <source>ParaView (*.vtu)</source>
-      <translation>ParaView (*.vtu)</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
@@ -542,12 +530,12 @@
       <translation>Pire que votre seuil de %1.</translation>
     </message>
     <message>
-      <source>Writes the FEM mesh with its groups for Code_Aster (MED), CalculiX (inp) or ParaView (vtu)</source>
-      <translation>Écrit le maillage EF avec ses groupes pour Code_Aster (MED), CalculiX (inp) ou ParaView (vtu)</translation>
+      <source>Writes the FEM mesh with its groups to a file, in a format of solvers or viewers</source>
+      <translation>Écrit le maillage EF avec ses groupes dans un fichier, dans un format de solveur ou de visualiseur</translation>
     </message>
     <message>
-      <source>Writes the mesh with its groups to a file whose ending says the format: med for Code_Aster and SALOME, inp for CalculiX, vtu for ParaView.</source>
-      <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format : med pour Code_Aster et SALOME, inp pour CalculiX, vtu pour ParaView.</translation>
+      <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
+      <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format. Le dialogue de fichiers énumère les formats.</translation>
     </message>
     <message>
       <source>became empty</source>

@@ -5,6 +5,7 @@
 
 #include "bindings.h"
 #include "interruptible.h"
+#include "io/formats.h"
 #include "io/io.h"
 
 namespace py = pybind11;
@@ -21,6 +22,16 @@ void bind_io(py::module_& module) {
     module.def(
         "write", [](const Mesh& mesh, const std::filesystem::path& path) { interruptible([&] { write(mesh, path); }); },
         py::arg("mesh"), py::arg("path"));
+    module.def("formats", [] {  // (title, extensions, read, written)
+        py::list rows;
+        for (const Format& f : formats()) {
+            py::list extensions;
+            for (const std::string_view e : f.extensions()) extensions.append(std::string(e));
+            rows.append(
+                py::make_tuple(std::string(f.title), py::tuple(extensions), f.read != nullptr, f.write != nullptr));
+        }
+        return rows;
+    });
 }
 
 }  // namespace femscalpel::bindings

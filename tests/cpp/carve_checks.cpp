@@ -10,9 +10,6 @@
 namespace femscalpel::checks {
 namespace {
 
-using Key2 = std::array<Index, 2>;
-using Key3 = std::array<Index, 3>;
-
 class Checker {
 public:
     Checker(const Model& model, const Carved& carved, const Result& result)

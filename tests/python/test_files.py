@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import pathlib
+import re
 
 import numpy as np
 import pytest
@@ -7,8 +8,18 @@ import pytest
 import femscalpel as fs
 from meshes import box_with_groups
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-@pytest.mark.parametrize("suffix", [".med", ".inp", ".inp.gz"])
+
+def listed(way):
+    """The extensions of the formats that can be read ("reads") or written ("writes"), as messages name them."""
+    return ", ".join(e for f in fs.formats() if getattr(f, way) for e in f.extensions)
+
+
+BOTH_WAYS = [e for f in fs.formats() if f.reads and f.writes for e in f.extensions]
+
+
+@pytest.mark.parametrize("suffix", BOTH_WAYS)
 @pytest.mark.parametrize("as_path", [str, pathlib.Path])
 def test_round_trip(tmp_path, suffix, as_path):
     mesh = box_with_groups()
@@ -23,9 +34,33 @@ def test_round_trip(tmp_path, suffix, as_path):
         np.testing.assert_array_equal(back.groups[group.name, group.kind].ids, group.ids)
 
 
-def test_writes_vtu(tmp_path):
-    fs.write(box_with_groups(), tmp_path / "box.vtu")
-    assert (tmp_path / "box.vtu").stat().st_size > 1000
+def test_formats():
+    assert fs.formats()[:3] == [
+        ("MED: Code_Aster, SALOME", (".med",), True, True),
+        ("CalculiX", (".inp", ".inp.gz"), True, True),
+        ("ParaView", (".vtu",), False, True),
+    ]
+
+
+@pytest.mark.parametrize("suffix", [e for f in fs.formats() if not f.reads for e in f.extensions])
+def test_formats_that_are_written_only(tmp_path, suffix):
+    path = tmp_path / ("box" + suffix)
+    fs.write(box_with_groups(), path)
+    assert path.stat().st_size > 1000
+    with pytest.raises(fs.ReadError, match=f"the format is told by the extension, one of {listed('reads')}$"):
+        fs.read(path)
+
+
+def test_readme_lists_the_formats():
+    rows = re.findall(r"^\| ([^|]+) \| (`\.[^|]+`) \| ([^|]*) \|$", (ROOT / "README.md").read_text(), re.M)
+    assert rows == [
+        (
+            f.title,
+            ", ".join(f"`{e}`" for e in f.extensions),
+            ", ".join(["read"] * f.reads + ["written"] * f.writes),
+        )
+        for f in fs.formats()
+    ]
 
 
 def test_errors(tmp_path):
@@ -33,7 +68,8 @@ def test_errors(tmp_path):
         fs.read(tmp_path / "nowhere.med")
     with pytest.raises(fs.ReadError, match="box.xyz"):
         fs.read(tmp_path / "box.xyz")
-    with pytest.raises(fs.WriteError, match="box.xyz"):
+    known = f"box.xyz: the format is told by the extension, one of {listed('writes')}$"
+    with pytest.raises(fs.WriteError, match=known):
         fs.write(box_with_groups(), tmp_path / "box.xyz")
     with pytest.raises(fs.WriteError):
         fs.write(box_with_groups(), tmp_path / "no" / "folder" / "box.med")

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The engine's folders include each other one way only, and what is outside it uses the engine, never the other way."""
 
+import ast
 import collections
 import pathlib
 import re
 import xml.etree.ElementTree
+
+import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ENGINE = ROOT / "src" / "engine"
@@ -72,17 +75,46 @@ def test_headers_of_a_folder_make_no_circle():
     for path, name in includes():
         if path.suffix == ".h":
             uses[str(path)].add(str(name))
+    assert_no_circle(uses)
+
+
+def imports_of(path, packages):
+    """Modules of one of the packages that a Python file imports, also inside functions, as dotted names."""
+    package = path.relative_to(packages).parent.parts
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            module = ".".join((*base, *(node.module or "").split("."))).strip(".")
+            yield module
+            yield from (f"{module}.{alias.name}" for alias in node.names)
+
+
+@pytest.mark.parametrize("folder", ["src/python/femscalpel", "Mod/FemScalpel/femscalpelobjects", "gui"])
+def test_python_modules_import_each_other_in_no_circle(folder):
+    folder = ROOT / folder
+    uses = collections.defaultdict(set)
+    files = {".".join(p.relative_to(folder.parent).with_suffix("").parts): p for p in folder.rglob("*.py")}
+    for name, path in files.items():
+        uses[name] = {other for other in imports_of(path, folder.parent) if other in files}
+    assert sum(map(len, uses.values())) > 5
+    assert_no_circle(uses)
+
+
+def assert_no_circle(uses):
+    """`uses`: name -> names it needs."""
     done, under_way = set(), []
 
-    def visit(header):
-        assert header not in under_way, " -> ".join([*under_way[under_way.index(header) :], header])
-        if header in done:
+    def visit(name):
+        assert name not in under_way, " -> ".join([*under_way[under_way.index(name) :], name])
+        if name in done:
             return
-        under_way.append(header)
-        for other in sorted(uses[header]):
+        under_way.append(name)
+        for other in sorted(uses[name]):
             visit(other)
         under_way.pop()
-        done.add(header)
+        done.add(name)
 
-    for header in sorted(uses):
-        visit(header)
+    for name in sorted(uses):
+        visit(name)

@@ -5,8 +5,8 @@ FreeCAD does not put an old mesh back when a transaction is undone (see undo.py)
 property of the object, RenamedGroups, which does come back, and the names in the mesh follow it.
 """
 
-from . import undo
 from .analysis import transaction
+from .ours import is_ours
 
 _PROPERTY = "RenamedGroups"  # "node:FIX" -> "SUPPORT": kind and first name, and what it is called now
 _OUTPUT = 8
@@ -17,7 +17,7 @@ _shown = {}
 
 def rename_group(obj, old, new, kind=None):
     """See ObjectsFemScalpel.renameGroup()."""
-    if undo.is_ours(obj):
+    if is_ours(obj):
         raise ValueError(
             f"'{obj.Label}' makes its groups anew with its mesh. Rename the group in the source mesh, or change "
             f"GroupName"

@@ -8,13 +8,11 @@ from, it is recomputed.
 
 import FreeCAD
 
+from .group_names import follow_all
+from .ours import is_ours
+
 # Not inputs.
 _ASIDE = {"FemMesh", "Label", "Label2", "Visibility", "ExpressionEngine", "Placement", "Proxy", "Replaced"}
-
-
-def is_ours(obj):
-    """Whether a document object is one of FemScalpel's."""
-    return getattr(getattr(obj, "Proxy", None), "Type", "").startswith("FemScalpel::")
 
 
 def _inputs(obj):
@@ -49,8 +47,6 @@ class _Watch:
         self._made_from = {key: value for key, value in self._made_from.items() if key[0] != document.Name}
 
     def _mend(self, document):
-        from .group_names import follow_all
-
         follow_all(document)
         outdated = [
             o

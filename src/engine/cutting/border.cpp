@@ -212,10 +212,9 @@ private:
             root_between(value_[a], value_[b], 1e-3 * f_.tolerance, [&](double t) { return patch_.distance(at(t)); }));
     }
 
-    /// Makes a corner of the patch a node of the interface, if the interface gets there.
-    void place_corner(const Patch::Corner& corner) {
-        check_cancelled();
-        // The face of the interface it lies in: where it is least outside.
+    /// The face of the interface a corner of the patch lies in, where it is least outside, and how far, in heights of
+    /// the face; -1 for none.
+    std::pair<int, double> face_at(const Vec3& corner) const {
         int face = -1;
         double least = 0.1;
         for (int s = 0; s < band_.cut_faces.size(); ++s) {
@@ -224,17 +223,24 @@ private:
             const Vec3 &a = band_.nodes[n[0]].at, &b = band_.nodes[n[1]].at, &c = band_.nodes[n[2]].at;
             const Vec3 normal = (b - a).cross(c - a);
             const double area2 = normal.squaredNorm();
-            if (std::abs(normal.dot(corner.at - a)) > 0.5 * area2 / std::sqrt(std::sqrt(area2))) continue;
+            if (std::abs(normal.dot(corner - a)) > 0.5 * area2 / std::sqrt(std::sqrt(area2))) continue;
             double outside = 0;
             for (int k = 0; k < 3; ++k) {
                 const Vec3 &p = band_.nodes[n[k]].at, &q = band_.nodes[n[(k + 1) % 3]].at;
-                outside = std::max(outside, -(q - p).cross(corner.at - p).dot(normal) / area2);
+                outside = std::max(outside, -(q - p).cross(corner - p).dot(normal) / area2);
             }
             if (outside < least) {
                 least = outside;
                 face = s;
             }
         }
+        return {face, least};
+    }
+
+    /// Makes a corner of the patch a node of the interface, if the interface gets there.
+    void place_corner(const Patch::Corner& corner) {
+        check_cancelled();
+        const auto [face, least] = face_at(corner.at);
         // Outside the mesh; but a faceted surface may pass a corner by.
         if (face < 0 || (least > 1e-6 && !std::isfinite(f_.tool->feature_size()))) return;
         Contact tools =
@@ -284,6 +290,23 @@ private:
     const Patch& patch_;
     std::vector<double> value_;  // by band node: signed distance to the border
 };
+
+/// Throws QualityError when the interface does not get to a node on a corner of the patch.
+void check_corners(const Workpiece& f, const Patch& patch) {
+    const BandMesh& band = f.d.band;
+    const auto on_corner = [&](int v) {
+        return std::ranges::any_of(patch.corners, [&](const Patch::Corner& c) {
+            return (c.at - band.nodes[v].at).norm() <= 100 * f.tolerance;
+        });
+    };
+    for (int v = 0; v < band.size(); ++v)
+        if (f.d.contact[v].count() == 3 && band.cut_faces.around(v).empty() && on_corner(v)) {
+            std::ostringstream message;
+            message << "the crack front cannot be led around its corner at (" << band.nodes[v].at.transpose()
+                    << "): the mesh is too coarse there. Refine it near the corner first";
+            throw QualityError(message.str());
+        }
+}
 
 /// Inside the patch: its node farthest from the border is, or its middle when all are on it.
 bool is_inside(const Workpiece& f, const Patch& patch, const auto& nodes) {
@@ -415,11 +438,6 @@ void keep_patch(Workpiece& f, const Patch& patch) {
     };
     drop(band.cut_faces);
     drop(band.cut_edges);
-    const auto on_corner = [&](int v) {
-        return std::ranges::any_of(patch.corners, [&](const Patch::Corner& c) {
-            return (c.at - band.nodes[v].at).norm() <= 100 * f.tolerance;
-        });
-    };
     double radius = std::numeric_limits<double>::infinity();
     for (const auto& side : patch.sides) radius = std::min(radius, side->feature_size());
     for (int s = 0; s < band.cut_faces.size(); ++s) {
@@ -437,13 +455,7 @@ void keep_patch(Workpiece& f, const Patch& patch) {
                 too_coarse("its front would be cut short by up to " + std::to_string(off));
         }
     }
-    for (int v = 0; v < band.size(); ++v)
-        if (f.d.contact[v].count() == 3 && band.cut_faces.around(v).empty() && on_corner(v)) {
-            std::ostringstream message;
-            message << "the crack front cannot be led around its corner at (" << band.nodes[v].at.transpose()
-                    << "): the mesh is too coarse there. Refine it near the corner first";
-            throw QualityError(message.str());
-        }
+    check_corners(f, patch);
     part_closed_faces(f, patch);
     std::vector<int> released;
     for (int v = 0; v < band.size(); ++v)

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "cancel.h"
+#include "cutting/node_parts.h"
 
 namespace femscalpel {
 namespace {
@@ -194,85 +193,50 @@ private:
         for (const int t : band_.triangles.around(v))
             if (is_shell(t)) items.push_back(t);
         const int count = static_cast<int>(items.size());
-        std::vector<int> part(static_cast<std::size_t>(count)), item_side(static_cast<std::size_t>(count));
-        std::iota(part.begin(), part.end(), 0);
-        const auto find = [&](int i) {
-            while (part[i] != i) i = part[i] = part[part[i]];
-            return i;
-        };
-        std::vector<char> touches(static_cast<std::size_t>(count), 0);
-        for (int i = 0; i < count; ++i) {
-            const auto visit = [&](const auto& nodes, int where) {
-                item_side[i] = where > 0 ? 1 : -1;
-                for (const int w : nodes) {
-                    if (w == v) continue;
-                    // Elements that share an edge belong together, unless the edge is open and they
-                    // are on different sides of it.
-                    const bool open = on_tool(w) && open_edges_.contains(edge_key(v, w));
-                    if (open) touches[i] = 1;
-                    // First item met with this neighbour, on this side if the edge is open.
-                    FirstItem& first = first_item_[3 * static_cast<std::size_t>(w) + (open ? item_side[i] + 1 : 1)];
-                    if (first.around != v) {
-                        first = {v, i};
-                    } else {
-                        const int a = find(i), b = find(first.item);
-                        part[std::max(a, b)] = std::min(a, b);
-                    }
-                }
-            };
+        NodeParts parts(count);
+        for (int i = 0; i < count; ++i)
             if (i < shells_from)
-                visit(band_.tetras[items[i]], side(band_.tetras[items[i]]));
+                join(parts, i, v, band_.tetras[items[i]], side(band_.tetras[items[i]]));
             else
-                visit(band_.triangles[items[i]], shell_side(items[i]));
-        }
-        struct Part {
-            int size = 0, side = 0;
-            bool touches = false;
-        };
-        std::map<int, Part> parts;
-        for (int i = 0; i < count; ++i) {
-            Part& p = parts[find(i)];
-            ++p.size;
-            p.side += item_side[i];
-            p.touches = p.touches || touches[i];
-        }
-        // Parts that hang on in this node alone go with the largest part of their side.
-        std::map<int, int> goes_to;
-        const auto largest = [&](std::optional<bool> positive) {
-            int best = -1;
-            for (const auto& [root, p] : parts)
-                if (p.touches && (!positive || (p.side > 0) == *positive) && (best < 0 || p.size > parts[best].size))
-                    best = root;
-            return best;
-        };
-        for (const auto& [root, p] : parts) {
-            goes_to[root] = root;
-            if (p.touches) continue;
-            const int with = largest(p.side > 0);
-            goes_to[root] = with >= 0 ? with : largest({});
-        }
-        int keeps = largest(false);
-        if (keeps < 0) keeps = largest({});
+                join(parts, i, v, band_.triangles[items[i]], shell_side(items[i]));
+        parts.sum_up();
         std::map<int, int> copy;
-        for (const auto& [root, p] : parts)
-            if (p.touches && root != keeps) {
-                copy[root] = band_.size() + static_cast<int>(out_.copy_of.size());
-                out_.copy_of.push_back(v);
-                if (p.side > 0) positive_copy_.emplace(v, copy[root]);
-            }
+        for (const auto& [part, positive] : parts.parted()) {
+            copy[part] = band_.size() + static_cast<int>(out_.copy_of.size());
+            out_.copy_of.push_back(v);
+            if (positive) positive_copy_.emplace(v, copy[part]);
+        }
         if (copy.empty()) {
             out_.front_nodes.push_back(v);
             return;
         }
         doubled_[v] = 1;
         for (int i = 0; i < count; ++i) {
-            const auto it = copy.find(goes_to[find(i)]);
+            const auto it = copy.find(parts.goes_with(i));
             if (it == copy.end()) continue;
             if (i < shells_from)
                 std::ranges::replace(out_.tetras[items[i]], v, it->second);
             else
                 std::ranges::replace(out_.triangles[items[i]], v, it->second);
         }
+    }
+
+    /// Elements that share an edge at v belong together, unless the edge is open and they are on different sides of it.
+    void join(NodeParts& parts, int item, int v, const auto& nodes, int where) {
+        const int half = where > 0 ? 1 : -1;
+        bool touches = false;
+        for (const int w : nodes) {
+            if (w == v) continue;
+            const bool open = on_tool(w) && open_edges_.contains(edge_key(v, w));
+            touches = touches || open;
+            // First item met with this neighbour, on this side if the edge is open.
+            FirstItem& first = first_item_[3 * static_cast<std::size_t>(w) + (open ? half + 1 : 1)];
+            if (first.around == v)
+                parts.unite(item, first.item);
+            else
+                first = {v, item};
+        }
+        parts.describe(item, half, touches);
     }
 
     /// The nodes, copies in place, that the hosts of an attached element give it: one entry per side.

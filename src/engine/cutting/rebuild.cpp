@@ -203,7 +203,6 @@ private:
         Mesh& mesh = out_.mesh;
         written.assign(static_cast<std::size_t>(list.size()), -1);
         std::vector<char> seated(cells.size(), 0);
-        std::vector<int> changed;
         SparseCheck check;
         for (int s = 0; s < list.size(); ++s) {
             check();

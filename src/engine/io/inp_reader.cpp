@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <zlib.h>
-
 #include <algorithm>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
@@ -13,6 +9,7 @@
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
 #include "io/inp.h"
+#include "io/inp_cards.h"
 
 namespace femscalpel {
 namespace {
@@ -21,179 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr Index largest_number = 2147483647;  // CalculiX counts in 32 bits
 
-std::string unzip(const std::string& packed, const std::string& shown) {
-    z_stream stream{};
-    if (inflateInit2(&stream, 15 + 16) != Z_OK) throw ReadError(shown + ": cannot start unpacking gzip");
-    const std::unique_ptr<z_stream, int (*)(z_streamp)> end(&stream, inflateEnd);
-    std::string out;
-    std::vector<char> buffer(1 << 18);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-    std::size_t left = packed.size();
-    int status = Z_OK;
-    while (true) {
-        if (stream.avail_in == 0 && left > 0) {
-            stream.avail_in = static_cast<uInt>(std::min<std::size_t>(left, 1u << 30));
-            left -= stream.avail_in;
-        }
-        stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
-        stream.avail_out = static_cast<uInt>(buffer.size());
-        check_cancelled();
-        status = inflate(&stream, Z_NO_FLUSH);
-        if (status != Z_OK && status != Z_STREAM_END) break;
-        out.append(buffer.data(), buffer.size() - stream.avail_out);
-        if (status == Z_STREAM_END) {
-            if (stream.avail_in == 0 && left == 0) break;
-            inflateReset(&stream);  // gzip files may be several in a row
-        }
-    }
-    if (status != Z_STREAM_END) throw ReadError(shown + ": the gzip'd file is truncated or damaged");
-    return out;
-}
-
-std::string load(const fs::path& path) {
-    const std::string shown = path.string();
-    std::error_code error;
-    if (!fs::exists(path, error)) throw ReadError(shown + ": no such file");
-    if (!fs::is_regular_file(path, error)) throw ReadError(shown + ": not a regular file");
-    std::ifstream in(path, std::ios::binary);
-    const auto size = fs::file_size(path, error);
-    if (!in || error) throw ReadError(shown + ": cannot be opened for reading");
-    std::string text(size, '\0');
-    constexpr std::size_t piece = 1 << 23;
-    for (std::size_t at = 0; at < size; at += piece) {
-        check_cancelled();
-        const auto wanted = static_cast<std::streamsize>(std::min<std::size_t>(piece, size - at));
-        in.read(text.data() + at, wanted);
-        if (in.gcount() != wanted) throw ReadError(shown + ": reading failed");
-    }
-    if (text.starts_with("\x1f\x8b")) return unzip(text, shown);
-    return text;
-}
-
-/// Splits a deck into cards and puts included files in place.
-class CardSplitter {
-public:
-    explicit CardSplitter(const fs::path& deck) : folder_(deck.parent_path()) {
-        cards_.emplace_back();
-        read(deck);
-        if (cards_.front().text.empty()) cards_.erase(cards_.begin());
-    }
-
-    std::vector<Card> take() { return std::move(cards_); }
-
-private:
-    void read(const fs::path& path) {
-        std::error_code error;
-        open_.push_back(fs::weakly_canonical(path, error));
-        const auto file = std::make_shared<const DeckFile>(DeckFile{path.string(), load(path)});
-        const char* p = file->text.data();
-        const char* const end = p + file->text.size();
-        const char* piece = p;
-        Index line = 1, piece_line = 1;
-        const auto finish_piece = [&](const char* to) {
-            if (to > piece)
-                cards_.back().text.push_back({file, {piece, static_cast<std::size_t>(to - piece)}, piece_line});
-        };
-        const auto next_line = [end](const char* from) {
-            const void* newline = std::memchr(from, '\n', static_cast<std::size_t>(end - from));
-            return newline ? static_cast<const char*>(newline) + 1 : end;
-        };
-        SparseCheck check(1 << 12);
-        while (p < end) {
-            check();
-            const char* next = next_line(p);
-            const char* first = p;
-            while (first < next && (*first == ' ' || *first == '\t')) ++first;
-            const char* second = first + 1;
-            while (second < next && (*second == ' ' || *second == '\t')) ++second;
-            if (first == next || *first != '*' || (second < next && *second == '*')) {
-                p = next;
-                ++line;
-                continue;
-            }
-            finish_piece(p);
-            std::string head(p, next);
-            Index head_lines = 1;
-            const char* head_end = next;
-            while (head_end < end && ends_with_comma(head) && continues(head_end, next_line(head_end))) {
-                const char* more = next_line(head_end);
-                head.append(head_end, more);
-                head_end = more;
-                ++head_lines;
-            }
-            std::string keyword;
-            std::vector<CardParameter> parameters;
-            parse_keyword(head, keyword, parameters);
-            if (keyword == "INCLUDE") {
-                include(file->path + ":" + std::to_string(line) + ": ", path, parameters);
-                piece = head_end;
-                piece_line = line + head_lines;
-            } else {
-                cards_.emplace_back();
-                cards_.back().keyword = std::move(keyword);
-                cards_.back().parameters = std::move(parameters);
-                cards_.back().head = static_cast<std::size_t>(head_end - p);
-                piece = p;
-                piece_line = line;
-            }
-            p = head_end;
-            line += head_lines;
-        }
-        finish_piece(end);
-        open_.pop_back();
-    }
-
-    static bool ends_with_comma(std::string_view s) {
-        while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r' || s.back() == '\n'))
-            s.remove_suffix(1);
-        return s.ends_with(',');
-    }
-
-    /// A keyword line that ends in a comma goes on if the next line holds parameters. CalculiX itself
-    /// takes the comma for nothing and the line for data, so a line of numbers or set names is data.
-    static bool continues(const char* from, const char* to) {
-        const std::string_view line(from, static_cast<std::size_t>(to - from));
-        const std::size_t first = line.find_first_not_of(" \t");
-        if (first == line.npos || line[first] == '*') return false;
-        if (line.find('=') != line.npos) return true;
-        std::string word;
-        std::vector<CardParameter> unused;
-        parse_keyword(line, word, unused);
-        while (!word.empty() && word.back() == '\n') word.pop_back();
-        return word == "GENERATE";
-    }
-
-    void include(const std::string& where, const fs::path& from, const std::vector<CardParameter>& parameters) {
-        std::string name;
-        for (const CardParameter& p : parameters)
-            if (p.name == "INPUT") name = p.value;
-        if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-        if (name.empty()) throw ReadError(where + "*INCLUDE needs INPUT=file");
-        std::string bare = name;
-        std::erase(bare, ' ');  // CalculiX reads file names without blanks
-        std::error_code error;
-        for (const std::string& spelling : {name, bare})
-            for (const fs::path& base : {from.parent_path(), folder_}) {
-                const fs::path path = base / spelling;
-                if (!fs::is_regular_file(path, error)) continue;
-                if (std::ranges::find(open_, fs::weakly_canonical(path, error)) != open_.end())
-                    throw ReadError(where + "'" + name + "' includes itself");
-                if (open_.size() > 50) throw ReadError(where + "includes are nested more than 50 deep");
-                read(path);
-                return;
-            }
-        throw ReadError(where + "the included file '" + name + "' does not exist");
-    }
-
-    fs::path folder_;
-    std::vector<fs::path> open_;
-    std::vector<Card> cards_;
-};
-
 class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
-        input_->cards() = CardSplitter(path).take();
+        input_->cards() = read_cards(path);
         fs::path stem = path.filename();
         if (stem.extension() == ".gz" || stem.extension() == ".GZ") stem = stem.stem();
         mesh_.name = stem.stem().string();

@@ -4,48 +4,27 @@
 #include <string>
 
 #include "error.h"
-#include "io/inp.h"
-#include "io/med.h"
-#include "io/vtu.h"
+#include "io/formats.h"
 
 namespace femscalpel {
 namespace {
 
-/// The extension in lower case; ".inp.gz" counts as one.
-std::string extension(const std::filesystem::path& path) {
-    std::string out = path.extension().string();
-    const auto lower = [](std::string& text) {  // ASCII only, whatever the locale
-        for (char& c : text)
-            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    };
-    lower(out);
-    if (out == ".gz") {
-        std::string inner = path.stem().extension().string();
-        lower(inner);
-        out = inner + out;
-    }
-    return out;
-}
-
-std::string unknown(const std::filesystem::path& path, const char* known) {
+std::string unknown(const std::filesystem::path& path, const std::string& known) {
     return path.string() + ": the format is told by the extension, one of " + known;
 }
 
 }  // namespace
 
 Mesh read(const std::filesystem::path& path) {
-    const std::string format = extension(path);
-    if (format == ".med") return read_med(path);
-    if (format == ".inp" || format == ".inp.gz") return read_inp(path);
-    throw ReadError(unknown(path, ".med, .inp, .inp.gz"));
+    const Format* format = format_of(path);
+    if (!format || !format->read) throw ReadError(unknown(path, extensions_read()));
+    return format->read(path);
 }
 
 void write(const Mesh& mesh, const std::filesystem::path& path) {
-    const std::string format = extension(path);
-    if (format == ".med") return write_med(mesh, path);
-    if (format == ".inp" || format == ".inp.gz") return write_inp(mesh, path);
-    if (format == ".vtu") return write_vtu(mesh, path);
-    throw WriteError(unknown(path, ".med, .inp, .inp.gz, .vtu"));
+    const Format* format = format_of(path);
+    if (!format || !format->write) throw WriteError(unknown(path, extensions_written()));
+    format->write(mesh, path);
 }
 
 }  // namespace femscalpel

@@ -7,11 +7,11 @@
 
 namespace femscalpel {
 
-/// Reads a mesh; the format follows the extension, case ignored: .med, .inp, also .inp.gz.
+/// Reads a mesh; the format follows the extension, case ignored, see formats.h.
 /// Throws ReadError that names the file and, for text, the line.
 Mesh read(const std::filesystem::path& path);
 
-/// Writes a mesh; the format follows the extension: .med, .inp, .vtu, also .inp.gz.
+/// Writes a mesh; the format follows the extension, case ignored, see formats.h.
 /// A temporary file beside `path` is renamed when complete, so `path` is whole or untouched.
 /// Throws WriteError.
 void write(const Mesh& mesh, const std::filesystem::path& path);

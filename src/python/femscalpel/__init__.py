@@ -17,7 +17,7 @@ from .cancel import CancelToken
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
-from .meshfile import read, write
+from .meshfile import Format, formats, read, write
 from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, HeldNodes, PoorPlace, Quality, QualitySummary, Refinement, Report
@@ -40,6 +40,7 @@ __all__ = [
     "ElementQuality",
     "Error",
     "Face",
+    "Format",
     "Group",
     "GroupRecord",
     "Groups",
@@ -69,6 +70,7 @@ __all__ = [
     "crack",
     "cut",
     "drill",
+    "formats",
     "from_meshio",
     "mean_ratio",
     "measure",

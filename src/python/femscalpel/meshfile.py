@@ -2,7 +2,7 @@
 """Reading and writing mesh files."""
 
 import os
-from typing import Union
+from typing import List, NamedTuple, Tuple, Union
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
@@ -16,11 +16,29 @@ def _path(path) -> str:
     return os.fsdecode(path)
 
 
-def read(path: Path) -> Mesh:
-    """Reads a mesh; the format follows the extension, case ignored.
+class Format(NamedTuple):
+    """A file format, see :func:`formats`."""
 
-    .med (Code_Aster, SALOME), .inp and .inp.gz (CalculiX, Abaqus). A mesh read from an .inp keeps every card
-    of the input file, and writing it back to .inp keeps them in place.
+    #: For file dialogs, in every language.
+    title: str
+    #: In lower case, with the dot, the usual one first: (".inp", ".inp.gz").
+    extensions: Tuple[str, ...]
+    #: Whether :func:`read` knows it.
+    reads: bool
+    #: Whether :func:`write` knows it.
+    writes: bool
+
+
+def formats() -> List[Format]:
+    """The file formats there are."""
+    return [Format(*row) for row in _engine.formats()]
+
+
+def read(path: Path) -> Mesh:
+    """Reads a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
+
+    A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
+    them in place.
 
     Raises :class:`femscalpel.ReadError`, which names the file and, for text, the line.
     """
@@ -28,7 +46,7 @@ def read(path: Path) -> Mesh:
 
 
 def write(mesh: Mesh, path: Path) -> None:
-    """Writes a mesh; the format follows the extension: .med, .inp, .inp.gz, or .vtu for ParaView.
+    """Writes a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
     The file is complete or, after an error, what it was before.
 

@@ -583,8 +583,8 @@ class Export(GuiTest):
 
         mesh = self.add_mesh(long_box())
         with tempfile.TemporaryDirectory() as folder:
-            for ending in ("med", "inp", "vtu"):
-                path = os.path.join(folder, "mesh." + ending)
+            for ending in (e for f in fs.formats() if f.writes for e in f.extensions):
+                path = os.path.join(folder, "mesh" + ending)
                 Command.write(mesh, path)
                 self.assertGreater(os.path.getsize(path), 1000)
             again = fs.read(os.path.join(folder, "mesh.med"))
@@ -592,6 +592,30 @@ class Export(GuiTest):
             self.assertEqual(set(again.groups), {"LEFT", "RIGHT", "CORE", "FIX", "TOP"})
             with self.assertRaises(Unusable):
                 Command.write(mesh, os.path.join(folder, "mesh.xyz"))
+
+    def test_dialog(self):
+        from femscalpelgui.commands.export import Export as Command
+
+        mesh = self.add_mesh(long_box())
+        asked = []
+        with tempfile.TemporaryDirectory() as folder:
+
+            def answer(parent, title, name, filters):
+                asked[:] = [name, filters]
+                return os.path.join(folder, "mesh"), filters.split(";;")[1]
+
+            ask = QtGui.QFileDialog.getSaveFileName
+            QtGui.QFileDialog.getSaveFileName = staticmethod(answer)
+            try:
+                Command().run(mesh)
+            finally:
+                QtGui.QFileDialog.getSaveFileName = ask
+            self.assertEqual(os.listdir(folder), ["mesh.inp"])
+        self.assertEqual(asked[0], mesh.Label + ".med")
+        self.assertEqual(
+            asked[1].split(";;")[:3],
+            ["MED: Code_Aster, SALOME (*.med)", "CalculiX (*.inp *.inp.gz)", "ParaView (*.vtu)"],
+        )
 
 
 class Preferences(GuiTest):

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// A file format: a row of the table in formats.cpp, which is all that the engine, the Python package and the workbench
+/// know of formats. A new one needs a pair of files with its functions, its row there and in README's list.
+struct Format {
+    std::string_view title;  ///< for file dialogs, in every language: "MED: Code_Aster, SALOME"
+    /// In lower case, with the dot, the usual one first: ".inp", ".inp.gz". Empty ones end the list.
+    std::array<std::string_view, 4> listed;
+    Mesh (*read)(const std::filesystem::path&);                ///< null for a format that is written only
+    void (*write)(const Mesh&, const std::filesystem::path&);  ///< null for a format that is read only
+
+    /// The extensions without the empty ones.
+    std::span<const std::string_view> extensions() const;
+};
+
+/// All formats.
+std::span<const Format> formats();
+
+/// The format that a file's extension tells, case ignored; null if none has it.
+const Format* format_of(const std::filesystem::path& path);
+
+/// Extensions of the formats that are read (written), as a list for messages: ".med, .inp, .inp.gz".
+std::string extensions_read();
+std::string extensions_written();
+
+}  // namespace femscalpel

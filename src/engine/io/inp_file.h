@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace femscalpel {
+
+/// The text of a file, unpacked if it is gzip'd, whatever its name. Throws ReadError that names the file, and
+/// Cancelled.
+std::string load_text(const std::filesystem::path& path);
+
+/// Writes a text file by way of AtomicFile, gzip'd if `path` ends in ".gz". Throws WriteError that names the file, and
+/// Cancelled.
+void save_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace femscalpel

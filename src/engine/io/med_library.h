@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <med.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+
+#include "mesh/cell_type.h"
+
+/// What reading and writing MED share: MED-fichier and HDF5 kept in order, and MED's element types.
+namespace femscalpel {
+
+/// Waits for the libraries, neither of which is thread-safe, and keeps other threads out while the lock is held. Throws
+/// Cancelled.
+std::unique_lock<std::timed_mutex> lock_libraries();
+
+/// Keeps HDF5 from printing its error stack. MED-fichier does so too, with an older call that leaves HDF5
+/// confused when it closes at the end of the program; hence once more at the end.
+struct QuietHdf5 {
+    QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+    ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+};
+
+/// An element type as MED knows it.
+struct MedType {
+    med_geometry_type geometry;
+    const char* name;
+    /// Node k of our element is node order[k] of MED's.
+    std::array<std::int8_t, 27> order;
+};
+
+/// MED's for one of ours.
+const MedType& med_type(CellType type);
+
+/// An open MED file. MED-fichier leaves HDF5 objects open when it fails, which would keep the file open
+/// and let a later read of the same path see stale data; so all of them are closed here.
+class MedFile {
+public:
+    /// `id`: of MEDfileOpen() or H5Fopen(); negative where that failed, nothing is closed then.
+    explicit MedFile(med_idt id) : id_(id) {}
+    ~MedFile() { close(); }
+    MedFile(const MedFile&) = delete;
+    MedFile& operator=(const MedFile&) = delete;
+
+    med_idt id() const { return id_; }
+
+    /// False when closing failed, and what was written is not on the disk.
+    bool close();
+
+private:
+    med_idt id_;
+};
+
+}  // namespace femscalpel

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "io/med_soundness.h"
+
+#include <cstring>
+
+#include "io/med_library.h"
+
+namespace femscalpel {
+namespace {
+
+/// Longest path below the file's root that MED-fichier's buffers hold.
+constexpr std::size_t longest_path = 200;
+
+herr_t check_attribute(hid_t object, const char* name, const H5A_info_t*, void*) {
+    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    if (attribute < 0) return -1;
+    const hid_t space = H5Aget_space(attribute);
+    const bool single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+    if (space >= 0) H5Sclose(space);
+    H5Aclose(attribute);
+    return single ? 0 : -1;
+}
+
+bool check_dataset(hid_t object) {
+    const hid_t space = H5Dget_space(object);
+    if (space < 0) return false;
+    const bool good = H5Sget_simple_extent_ndims(space) == 1;
+    H5Sclose(space);
+    return good;
+}
+
+herr_t visit_link(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
+
+/// MED-fichier finds families by the order they were made in, an index that can be damaged by itself.
+bool check_creation_order(hid_t group) {
+    const hid_t properties = H5Gget_create_plist(group);
+    if (properties < 0) return false;
+    unsigned order = 0;
+    const bool known = H5Pget_link_creation_order(properties, &order) >= 0;
+    H5Pclose(properties);
+    if (!known) return false;
+    hsize_t first = 0;
+    return !(order & H5P_CRT_ORDER_INDEXED) ||
+           H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_NATIVE, &first, visit_link, nullptr) >= 0;
+}
+
+herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void*) {
+    const char* slash = std::strrchr(path, '/');
+    if (std::strlen(slash ? slash + 1 : path) > MED_NAME_SIZE || std::strlen(path) > longest_path) return -1;
+    const bool family_list = slash && (std::strcmp(slash, "/ELEME") == 0 || std::strcmp(slash, "/NOEUD") == 0);
+    if (info->num_attrs == 0 && info->type != H5O_TYPE_DATASET && !family_list) return 0;
+    const hid_t object = H5Oopen(root, path, H5P_DEFAULT);
+    if (object < 0) return -1;
+    hsize_t first = 0;
+    bool good = H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &first, check_attribute, nullptr) >= 0;
+    if (good && info->type == H5O_TYPE_DATASET) good = check_dataset(object);
+    if (good && family_list) good = check_creation_order(object);
+    H5Oclose(object);
+    return good ? 0 : -1;
+}
+
+}  // namespace
+
+bool is_sound_med(const std::string& path) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file < 0) return false;
+    MedFile closer(file);
+    for (const char* part : {"INFOS_GENERALES", "ENS_MAA", "FAS"}) {
+        const htri_t there = H5Lexists(file, part, H5P_DEFAULT);
+        if (there < 0) return false;
+        if (there == 0) continue;
+        const hid_t group = H5Gopen2(file, part, H5P_DEFAULT);
+        if (group < 0) return false;
+        const herr_t walked =
+            H5Ovisit2(group, H5_INDEX_NAME, H5_ITER_NATIVE, check_object, nullptr, H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS);
+        H5Gclose(group);
+        if (walked < 0) return false;
+    }
+    return true;
+}
+
+}  // namespace femscalpel
