@@ -185,77 +185,128 @@ bool allow_to_hold(Workpiece& start, const Workpiece& cut, double part) {
     throw QualityError(text.str());
 }
 
+/// One call of cut_soundly().
+class Tries {
+public:
+    Tries(Workpiece& f, const std::function<void(Workpiece&)>& cut, Index mesh_elements, int attempts, bool whole_tool)
+        : f_(f),
+          cut_(cut),
+          mesh_elements_(static_cast<double>(mesh_elements)),
+          attempts_(attempts),
+          plain_(whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() &&
+                 !std::isfinite(f.tool->feature_size())),
+          best_quality_(plain_ ? -std::numeric_limits<double>::infinity() : degenerate_quality) {
+        // Deformable::visits counts on from one try to the next.
+        f.most_visits = f.d.visits + static_cast<long>(fewest_visits + visits_per_element * elements_);
+        f.most_elements = elements_ + largest_part_after * mesh_elements_;
+        start_ = f;
+    }
+
+    void run() {
+        for (int attempt = 1;; ++attempt) {
+            check_cancelled();
+            cut_(f_);
+            start_->d.visits = f_.d.visits;
+            Slots bad = misfits(f_);
+            // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
+            if (attempt > 1) check_folded_input(f_, newly_folded(f_, folded_elements(f_, least_curved)));
+            const bool sound = bad.empty();
+            if (sound) {
+                const Verdict verdict = judge(bad);
+                if (verdict == Verdict::good) return;
+                if (verdict == Verdict::settled) break;
+            }
+            if (attempt == attempts_ || is_exhausted()) {
+                if (!best_) fail_at(f_, bad);
+                break;
+            }
+            if (!choose_otherwise(bad, sound, attempt)) break;
+            f_ = *start_;
+        }
+        take_best();
+    }
+
+private:
+    enum class Verdict { good, settled, again };
+
+    /// What was cut last.
+    const Workpiece& made() const { return is_best_ ? *best_ : f_; }
+
+    /// Of sound elements: whether they are good enough, or the best there are. Where they are `poor` goes there.
+    Verdict judge(Slots& poor) {
+        const double enough = f_.d.mids.any() ? second_order_quality : poor_quality;
+        const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
+        if (quality >= enough) return Verdict::good;
+        const bool too_many = element_count(f_.d.band) - elements_ > (largest_growth - 1) * mesh_elements_;
+        is_best_ = quality > best_quality_ && !(too_many && best_ && best_quality_ >= hold_quality);
+        if (is_best_) {
+            best_quality_ = quality;
+            best_ = std::move(f_);
+        } else {
+            start_->may_hold.clear();
+        }
+        // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
+        if (plain_ && (tried_to_hold_ || quality >= poor_quality)) return Verdict::settled;
+        const int enough_tries = best_quality_ < poor_quality ? hard_polishings : polishings;
+        return ++polished_ >= enough_tries && best_ ? Verdict::settled : Verdict::again;
+    }
+
+    bool is_exhausted() const {
+        return element_count(start_->d.band) >= most_elements_ || start_->d.visits >= start_->most_visits;
+    }
+
+    /// First the nodes of `bad` elements are not put on the tool, then the elements are refined; a curved tool would
+    /// get farther into elements whose nodes are not put on it. False when nothing else is to be tried.
+    bool choose_otherwise(const Slots& bad, bool sound, int attempt) {
+        std::vector<char>& off_tool = start_->d.off_tool;
+        const bool may_hold = sound && !tried_to_hold_ && best_quality_ < poor_quality;
+        if (may_hold && allow_to_hold(*start_, made(), best_quality_ < hold_quality ? along_beside : poor_beside)) {
+            tried_to_hold_ = true;
+        } else if (plain_ && sound) {
+            return false;
+        } else if (attempt % 2 == 1 && !sound && !std::isfinite(start_->tool->feature_size())) {
+            for_parts(start_->d.band, bad, [&](const auto& nodes) {
+                for (const int v : nodes) off_tool[v] = 1;
+            });
+        } else {
+            refine(*start_, bad, most_elements_);
+            std::ranges::fill(off_tool, 0);
+        }
+        is_best_ = false;
+        return true;
+    }
+
+    void take_best() {
+        f_ = std::move(*best_);
+        if (best_quality_ >= poor_quality || plain_) return;
+        std::ostringstream text;
+        text.precision(2);
+        text << "the " << f_.tool->kind()
+             << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality_
+             << " at best: refine the mesh there for better ones";
+        f_.warnings.push_back(text.str());
+    }
+
+    Workpiece& f_;
+    const std::function<void(Workpiece&)>& cut_;
+    const double mesh_elements_;
+    const int attempts_;
+    const bool plain_;  // flat tool, flat surfaces, straight elements
+    const double elements_ = element_count(f_.d.band);
+    const double most_elements_ = std::min(largest_growth * elements_, elements_ + largest_part * mesh_elements_);
+    std::optional<Workpiece> start_;  // what the next try begins with
+    std::optional<Workpiece> best_;
+    double best_quality_;
+    bool is_best_ = false;  // the last one is: f_ was moved there
+    bool tried_to_hold_ = false;
+    int polished_ = 0;
+};
+
 }  // namespace
 
 void cut_soundly(Workpiece& f, const std::function<void(Workpiece&)>& cut, Index mesh_elements, int attempts,
                  bool whole_tool) {
-    const bool plain =
-        whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() && !std::isfinite(f.tool->feature_size());
-    Workpiece start = f;
-    const double elements = element_count(start.d.band),
-                 most_elements =
-                     std::min(largest_growth * elements, elements + largest_part * static_cast<double>(mesh_elements));
-    std::optional<Workpiece> best;
-    double best_quality = plain ? -std::numeric_limits<double>::infinity() : degenerate_quality;
-    bool tried_to_hold = false;
-    start.most_elements = f.most_elements = elements + largest_part_after * static_cast<double>(mesh_elements);
-    // Deformable::visits counts on from one try to the next.
-    start.most_visits = f.most_visits = f.d.visits + static_cast<long>(fewest_visits + visits_per_element * elements);
-    for (int attempt = 1, polished = 0;; ++attempt) {
-        check_cancelled();
-        cut(f);
-        start.d.visits = f.d.visits;
-        Slots bad = misfits(f);
-        // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
-        if (attempt > 1) check_folded_input(f, newly_folded(f, folded_elements(f, least_curved)));
-        bool polish = false;
-        if (bad.empty()) {
-            const double enough = f.d.mids.any() ? second_order_quality : poor_quality;
-            const double quality = poorest(f, std::max(1.5 * poor_quality, enough), bad);
-            if (quality >= enough) return;
-            polish = true;
-            const bool too_many =
-                element_count(f.d.band) - elements > (largest_growth - 1) * static_cast<double>(mesh_elements);
-            if (quality > best_quality && !(too_many && best && best_quality >= hold_quality)) {
-                best_quality = quality;
-                best = f;
-            } else {
-                start.may_hold.clear();
-            }
-            // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
-            if (plain && (tried_to_hold || quality >= poor_quality)) break;
-            if (++polished >= (best_quality < poor_quality ? hard_polishings : polishings) && best) break;
-        }
-        if (attempt == attempts || element_count(start.d.band) >= most_elements || f.d.visits >= f.most_visits) {
-            if (!best) fail_at(f, bad);
-            break;
-        }
-        // First the nodes of these elements are not put on the tool, then the elements are refined; a curved tool would
-        // get farther into elements whose nodes are not put on it.
-        std::vector<char>& off_tool = start.d.off_tool;
-        const bool may_hold = polish && !tried_to_hold && best_quality < poor_quality;
-        if (may_hold && allow_to_hold(start, f, best_quality < hold_quality ? along_beside : poor_beside)) {
-            tried_to_hold = true;
-        } else if (plain && polish) {
-            break;
-        } else if (attempt % 2 == 1 && !polish && !std::isfinite(f.tool->feature_size())) {
-            for_parts(start.d.band, bad, [&](const auto& nodes) {
-                for (const int v : nodes) off_tool[v] = 1;
-            });
-        } else {
-            refine(start, bad, most_elements);
-            std::ranges::fill(off_tool, 0);
-        }
-        f = start;
-    }
-    f = std::move(*best);
-    if (best_quality >= poor_quality || plain) return;
-    std::ostringstream text;
-    text.precision(2);
-    text << "the " << f.tool->kind()
-         << " meets surfaces and borders so that elements there come out with a mean ratio of " << best_quality
-         << " at best: refine the mesh there for better ones";
-    f.warnings.push_back(text.str());
+    Tries(f, cut, mesh_elements, attempts, whole_tool).run();
 }
 
 }  // namespace femscalpel

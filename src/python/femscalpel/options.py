@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What every operator lets its user choose: one row of `OPTIONS` for each option.
 
-An option is a member of `OperatorOptions` in the engine (operators/options.h), bound under its name, and a row here; all
-operators and the methods of a session have it then, in their signatures and docstrings.
+An option is a member of `OperatorOptions` in the engine (operators/options.h), bound under its name, and a row here;
+all operators and the methods of a session have it then, in their signatures and docstrings.
 """
 
 import functools
@@ -154,8 +154,8 @@ OPTIONS = (
         check_skin,
         "Shape, path or FreeCAD shape, optional",
         "The CAD shape the mesh was made from: a :class:`Shape`, a path or a FreeCAD shape. Nodes of the skin that are "
-        "born or move come to lie on its faces and edges, not on the mesh's triangles, so that the skin gets better than "
-        "the input's; all others stay where they are. Edges between triangles of one face are no feature lines, "
+        "born or move come to lie on its faces and edges, not on the mesh's triangles, so that the skin gets better "
+        "than the input's; all others stay where they are. Edges between triangles of one face are no feature lines, "
         "whatever their angle. What of the skin lies on no face of the shape is kept as it is, with a warning.",
     ),
 )
