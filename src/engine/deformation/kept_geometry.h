@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "deformation/kept_parts.h"
-#include "groups/band_boundaries.h"
 #include "mesh/band_mesh.h"
 #include "tools/cad_shape.h"
 

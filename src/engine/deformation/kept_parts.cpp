@@ -11,6 +11,7 @@
 #include <span>
 
 #include "cancel.h"
+#include "groups/band_boundaries.h"
 
 namespace femscalpel {
 namespace {

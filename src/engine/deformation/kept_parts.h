@@ -4,12 +4,13 @@
 #include <array>
 #include <vector>
 
-#include "groups/band_boundaries.h"
 #include "mesh/band_mesh.h"
 #include "mesh/union_find.h"
 #include "tools/cad_shape.h"
 
 namespace femscalpel {
+
+class BandBoundaries;
 
 /// Which groups' boundaries are kept, and what counts as a feature line.
 struct ConstraintOptions {

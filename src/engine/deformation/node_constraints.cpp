@@ -11,6 +11,7 @@
 
 #include "cancel.h"
 #include "deformation/foot.h"
+#include "groups/band_boundaries.h"
 
 namespace femscalpel {
 namespace {

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "deformation/kept_geometry.h"
-#include "groups/band_boundaries.h"
 #include "mesh/band_mesh.h"
 #include "mesh/family_table.h"
 #include "tools/contact.h"
 
 namespace femscalpel {
+
+class BandBoundaries;
 
 /// The geometry that moving nodes of a band have to keep (KeptGeometry), each node's place on it, and what else holds
 /// nodes: isolated members of groups, equations, what is attached to them.
