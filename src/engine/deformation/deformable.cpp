@@ -23,6 +23,7 @@ Deformable::Deformable(BandMesh b, const Mesh& mesh, const ConstraintOptions& op
       rounding(options.rounding),
       held_off(static_cast<std::size_t>(band.size()), 0) {
     check_cancelled();
+    constraints.geometry().mark(band);
     shell_normals.assign(static_cast<std::size_t>(band.triangles.size()), Vec3::Zero());
     for (int t = 0; t < band.triangles.size(); ++t) {
         const auto& v = band.triangles[t];

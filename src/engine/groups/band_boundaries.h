@@ -81,6 +81,7 @@ public:
     std::span<const std::array<int, 2>> isolated_middles() const { return isolated_middles_; }
 
 private:
+    class Finder;
     FamilyTable sets_;
     std::vector<Face> faces_;
     std::vector<Line> lines_;
