@@ -27,7 +27,7 @@ using Row = std::vector<std::string>;
 /// Fields of all data lines of the cards `keyword`.
 inline std::vector<Row> rows(const Mesh& mesh, const std::string& keyword) {
     std::vector<Row> out;
-    for (const Card& card : mesh.solver_input->cards()) {
+    for (const Card& card : solver_input(mesh)->cards()) {
         if (card.keyword != keyword) continue;
         CardReader line(card);
         while (line.next_data_line()) {
@@ -157,7 +157,7 @@ protected:
         for (const GroupRecord& r : result.report.groups) EXPECT_FALSE(r.name.starts_with("*"));
         write_inp(result.mesh, folder_ / "after.inp");
         Mesh back = read_inp(folder_ / "after.inp");
-        EXPECT_THAT(back.solver_input->warnings(), testing::IsEmpty());
+        EXPECT_THAT(solver_input(back)->warnings(), testing::IsEmpty());
         return back;
     }
 
@@ -195,7 +195,7 @@ inline double surface_area(const Mesh& mesh, const std::string& name, const std:
 /// Text of all cards with a keyword.
 inline std::string text_of(const Mesh& mesh, const std::string& keyword) {
     std::string out;
-    for (const Card& card : mesh.solver_input->cards())
+    for (const Card& card : solver_input(mesh)->cards())
         if (card.keyword == keyword)
             for (const DeckText& t : card.text) out += t.text;
     return out;

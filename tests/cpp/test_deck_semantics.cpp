@@ -220,7 +220,7 @@ TEST_F(DeckSemantics, FaceLoadsBySetAndLabelReachAllPieces) {
     const Mesh after = crack_at(mesh, 1.5, "CRACK", Vec3(1, .3, .4));
     const auto is_pressure = [](const Row& r) { return r[1].starts_with("P"); };
     Mesh pressure_only = after;
-    auto deck = std::make_shared<SolverInput>(*after.solver_input);
+    auto deck = std::make_shared<SolverInput>(*solver_input(after));
     for (Card& card : deck->cards())
         if (card.keyword == "DLOAD") {
             std::string text = "*DLOAD\n";
@@ -231,7 +231,7 @@ TEST_F(DeckSemantics, FaceLoadsBySetAndLabelReachAllPieces) {
                     EXPECT_THAT(r, ElementsAre("EALL", "GRAV", "9.81", "0.", "0.", "-1."));
             card.set_text(text);
         }
-    pressure_only.solver_input = deck;
+    pressure_only.companion = deck;
     EXPECT_NEAR(loaded_area(pressure_only, "DLOAD").at("5."), 8, 1e-12);
 }
 
@@ -386,7 +386,7 @@ TEST_F(DeckSemantics, OtherElementsKeepTheirNodesAndAreReported) {
     const Mesh mesh = block_with(
         "*USER ELEMENT, TYPE=US3, NODES=2, INTEGRATION POINTS=1, MAXDOF=3\n*ELEMENT, TYPE=US3, ELSET=U\n500, " + node +
         ", 1\n");
-    ASSERT_EQ(mesh.solver_input->other_elements().size(), 1u);
+    ASSERT_EQ(solver_input(mesh)->other_elements().size(), 1u);
     crack_at(mesh, 2);
     EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr("node " + node), HasSubstr("element 500 of type US3"))));
 }
@@ -528,7 +528,7 @@ TEST_F(DeckSemantics, LinesKeepTheirPlaceAndNewOnesSayWhereTheyAreFrom) {
     const std::string last = std::to_string(node_at(nx, 0, 0)) + ", 1, 1";
     const Mesh mesh = block_with(cards + "** end of the bottom\n*STEP\n*STATIC\n*END STEP\n");
     const Result result = crack(mesh, Plane(Vec3(1.5, 1, 1), Vec3(1, 0, 0)));
-    for (const Card& card : result.mesh.solver_input->cards()) {
+    for (const Card& card : solver_input(result.mesh)->cards()) {
         if (card.keyword != "BOUNDARY") continue;
         std::string text;
         for (const DeckText& t : card.text) text += t.text;
@@ -552,11 +552,11 @@ TEST_F(DeckSemantics, CardsThatNameNothingTouchedKeepTheirText) {
     const Mesh mesh = block_with(cards);
     const Result result = crack(mesh, Plane(Vec3(2.5, 1, 1), Vec3(1, 0, 0)));
     std::string text;
-    for (const Card& card : result.mesh.solver_input->cards())
+    for (const Card& card : solver_input(result.mesh)->cards())
         if (card_content(card) != CardContent::mesh)
             for (const DeckText& t : card.text) text += t.text;
     EXPECT_EQ(text, cards);
-    EXPECT_EQ(result.mesh.solver_input, mesh.solver_input);
+    EXPECT_EQ(result.mesh.companion, mesh.companion);
 }
 
 TEST_F(DeckSemantics, SurfacesOfTiesContactAndLoadsFollow) {
@@ -734,7 +734,7 @@ TEST(CardContents, EveryCardOfCalculixsDecksIsKnown) {
         } catch (const Error&) {
             continue;
         }
-        for (const Card& card : mesh.solver_input->cards())
+        for (const Card& card : solver_input(mesh)->cards())
             if (!card_content(card)) unknown.insert(card.keyword + " in " + name);
     }
     EXPECT_THAT(unknown, ElementsAre("MEMBRANE in c3d6.inp"));  // CalculiX does not know it either

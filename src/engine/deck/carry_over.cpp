@@ -41,7 +41,7 @@ public:
           old_(before),
           new_numbers_(after),
           origins_(before, old_.numbers(), after, new_numbers_, changes),
-          input_(*before.solver_input),
+          input_(*solver_input(before)),
           edits_(input_.cards().size()),
           changes_(changes) {
         Vec3 low = Vec3::Constant(INFINITY), high = -low;
@@ -60,7 +60,7 @@ public:
         find_marked();
     }
 
-    std::shared_ptr<const SolverInput> run() {
+    std::shared_ptr<const Companion> run() {
         strip_closed_sets();
         find_emptied();
         relate_nodes();
@@ -74,7 +74,7 @@ public:
                 edits_[c].apply(input_.cards()[c]);
                 any = true;
             }
-        if (!any) return before_.solver_input;
+        if (!any) return before_.companion;
         write_closed_sets();
         return std::make_shared<const SolverInput>(std::move(input_));
     }
@@ -98,7 +98,7 @@ private:
     void collect_messages() {
         for (const auto& [key, r] : remarks_) {
             const auto& [card, problem, what] = key;
-            std::string text = r.where + "*" + before_.solver_input->cards()[card].keyword + " names " + r.entity;
+            std::string text = r.where + "*" + old_.input().cards()[card].keyword + " names " + r.entity;
             if (r.count > 1)
                 text += " and " + std::to_string(r.count - 1) + " more, each of which " + what;
             else
@@ -255,7 +255,7 @@ private:
             return out;
         };
         const std::vector<char> had = present(before_), has = present(after_);
-        for (const DeckSet& set : before_.solver_input->sets()) {
+        for (const DeckSet& set : old_.input().sets()) {
             const auto was = before_.find_group(set.group, group_kind(set.type)),
                        is = after_.find_group(set.group, group_kind(set.type));
             if (set.unheld.empty() && was && had[*was] && (!is || !has[*is]))
@@ -1044,9 +1044,10 @@ bool is_mesh_alone(const SolverInput& input) {
 
 void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict,
                 std::vector<std::string>& warnings) {
-    if (!before.solver_input || is_mesh_alone(*before.solver_input)) return;
+    const SolverInput* const deck = solver_input(before);
+    if (!deck || is_mesh_alone(*deck)) return;
     CarryOver carry(before, after, changes);
-    after.solver_input = carry.run();
+    after.companion = carry.run();
     if (strict && !carry.problems().empty()) {
         std::string text = "the solver's input cannot follow the change (strict=True):";
         for (const std::string& problem : carry.problems()) text += "\n  " + problem;

@@ -6,7 +6,11 @@
 namespace femscalpel {
 
 DeckView::DeckView(const Mesh& mesh)
-    : mesh_(mesh), numbers_(mesh), sets_(mesh.solver_input->sets()), planes_(plane_families(mesh, *mesh.solver_input)) {
+    : mesh_(mesh),
+      input_(*solver_input(mesh)),
+      numbers_(mesh),
+      sets_(input_.sets()),
+      planes_(plane_families(mesh, input_)) {
     int step = 0, steps = 0;
     for (const Card& card : cards()) {
         if (card.keyword == "STEP") step = ++steps;

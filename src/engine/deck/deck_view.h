@@ -17,11 +17,11 @@ namespace femscalpel {
 /// A mesh with its deck, to look up what lines name.
 class DeckView {
 public:
-    /// `mesh` must have a solver input.
+    /// `mesh` must have a deck.
     explicit DeckView(const Mesh& mesh);
 
     const Mesh& mesh() const { return mesh_; }
-    const SolverInput& input() const { return *mesh_.solver_input; }
+    const SolverInput& input() const { return input_; }
     const std::vector<Card>& cards() const { return input().cards(); }
     const NumberIndex& numbers() const { return numbers_; }
 
@@ -41,6 +41,7 @@ public:
 
 private:
     const Mesh& mesh_;
+    const SolverInput& input_;
     NumberIndex numbers_;
     DeckSetIndex sets_;
     std::vector<int> steps_;

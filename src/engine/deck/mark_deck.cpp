@@ -214,7 +214,7 @@ private:
 }  // namespace
 
 DeckMarks mark_deck(const Mesh& mesh) {
-    if (!mesh.solver_input) return {};
+    if (!solver_input(mesh)) return {};
     return Marker(mesh).run();
 }
 

@@ -546,7 +546,7 @@ Operation::Operation(const char* kind, const Mesh& input, const OperatorOptions&
     meaningless_ = groups_of(marks_->surface_sets, mesh());
     numbering_ = next_numbers(whole());
     if (prepared.refined) report_.warnings = prepared.refined->report.warnings;
-    if (input.solver_input) watch_.lap("mark deck");
+    if (input.companion) watch_.lap("mark deck");
 }
 
 /// Makes the counts of the report those of refinement and operation together: what both made and removed does not
@@ -680,10 +680,10 @@ Result Operation::finish(Workpiece& f, const Opening& opening, const Naming& nam
     Rebuilt rebuilt = rebuild(mesh(), std::move(*output), f, opening, naming.groups, numbering_, naming.front);
     if (opening.front_chains.empty()) add_front(opening, naming.front, rebuilt);
     if (!marks_->surface_sets.empty())
-        renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
+        renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *solver_input(input_), rebuilt.after);
     watch_.lap("rebuild");
     std::vector<std::string> deck_warnings;
-    if (input_.solver_input && !part_) {
+    if (input_.companion && !part_) {
         carry_deck(mesh(), rebuilt.mesh, rebuilt.changes, options_.strict, deck_warnings);
         watch_.lap("carry deck");
     }

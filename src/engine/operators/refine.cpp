@@ -554,7 +554,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     if (std::ranges::find(core, 0) == core.end()) return {};
     const DeckMarks marks = mark_deck(input);
     const Mesh& mesh = marks.mesh ? *marks.mesh : input;
-    if (input.solver_input) watch.lap("mark deck");
+    if (input.companion) watch.lap("mark deck");
     auto copy = async_obeying(std::launch::async,
                               [&mesh] { return std::pair(std::make_unique<Mesh>(mesh), family_totals(mesh)); });
 
@@ -593,7 +593,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     auto [output, totals] = await(copy);
     Rebuilt rebuilt = rebuild(mesh, std::move(*output), *f, no_opening(f->d.band), {}, next_numbers(mesh));
     if (!marks.surface_sets.empty())
-        renew_surface_sets(rebuilt.mesh, marks.surface_sets, *input.solver_input, rebuilt.after);
+        renew_surface_sets(rebuilt.mesh, marks.surface_sets, *solver_input(input), rebuilt.after);
     watch.lap("rebuild");
     for (int v = f->d.band.original_nodes(); v < f->d.band.size(); ++v)
         if (const Index n = rebuilt.node[v]; n >= 0 && f->d.constraints[v].freedom == NodeFreedom::free &&
@@ -610,7 +610,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
         report.warnings.push_back(
             std::to_string(bisector->off_shape()) +
             " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
-    if (input.solver_input) {
+    if (input.companion) {
         carry_deck(mesh, rebuilt.mesh, rebuilt.changes, options.strict, report.warnings);
         watch.lap("carry deck");
     }
