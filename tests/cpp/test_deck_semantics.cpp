@@ -13,8 +13,11 @@
 #include <set>
 #include <sstream>
 
-#include "deck/card_content.h"
 #include "deck/carry_over.h"
+#include "deck/load_label.h"
+#include "deck/mark_deck.h"
+#include "deck/rules/mesh_cards.h"
+#include "deck/rules/rules.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck_testing.h"
@@ -553,7 +556,7 @@ TEST_F(DeckSemantics, CardsThatNameNothingTouchedKeepTheirText) {
     const Result result = crack(mesh, Plane(Vec3(2.5, 1, 1), Vec3(1, 0, 0)));
     std::string text;
     for (const Card& card : solver_input(result.mesh)->cards())
-        if (card_content(card) != CardContent::mesh)
+        if (!is_mesh_card(card))
             for (const DeckText& t : card.text) text += t.text;
     EXPECT_EQ(text, cards);
     EXPECT_EQ(result.mesh.companion, mesh.companion);
@@ -723,6 +726,7 @@ TEST(LoadLabels, AreTakenApart) {
 TEST(CardContents, EveryCardOfCalculixsDecksIsKnown) {
     const fs::path decks = "/usr/share/doc/calculix-ccx-test/examples/test";
     if (!fs::exists(decks)) GTEST_SKIP() << "Debian package calculix-ccx-test is not installed";
+    const CardRules rules;
     std::set<std::string> unknown;
     for (const auto& entry : fs::directory_iterator(decks)) {
         const std::string name = entry.path().filename();
@@ -735,7 +739,7 @@ TEST(CardContents, EveryCardOfCalculixsDecksIsKnown) {
             continue;
         }
         for (const Card& card : solver_input(mesh)->cards())
-            if (!card_content(card)) unknown.insert(card.keyword + " in " + name);
+            if (!rules.find(card)) unknown.insert(card.keyword + " in " + name);
     }
     EXPECT_THAT(unknown, ElementsAre("MEMBRANE in c3d6.inp"));  // CalculiX does not know it either
 }

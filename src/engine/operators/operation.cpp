@@ -14,6 +14,8 @@
 #include "cutting/folded_input.h"
 #include "cutting/held_inside.h"
 #include "cutting/snap.h"
+#include "deck/carry_over.h"
+#include "deck/solver_input.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "mesh/stopwatch.h"

@@ -19,6 +19,8 @@
 #include "cutting/rebuild.h"
 #include "cutting/workpiece.h"
 #include "deck/carry_over.h"
+#include "deck/mark_deck.h"
+#include "deck/solver_input.h"
 #include "deformation/curved_shape.h"
 #include "deformation/relaxation.h"
 #include "groups/opened_areas.h"
