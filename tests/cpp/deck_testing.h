@@ -117,6 +117,24 @@ inline std::vector<std::pair<Index, int>> top_faces() {
     return out;
 }
 
+/// A sheet 4 x 2 of shell triangles; node numbers 1 + i + 5 j, elements 1 to 16.
+inline std::string sheet(const std::string& type) {
+    std::ostringstream out;
+    out << "*NODE, NSET=NALL\n";
+    for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) out << 1 + i + 5 * j << ", " << i << ", " << j << ", 1\n";
+    out << "*ELEMENT, TYPE=" << type << ", ELSET=EALL\n";
+    int e = 0;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+            const int a = 1 + i + 5 * j;
+            out << e + 1 << ", " << a << ", " << a + 1 << ", " << a + 6 << "\n"
+                << e + 2 << ", " << a << ", " << a + 6 << ", " << a + 5 << "\n";
+            e += 2;
+        }
+    return out.str();
+}
+
 class DeckSemantics : public testing::Test {
 protected:
     void SetUp() override {
