@@ -53,6 +53,13 @@ TEST_F(MpcsRule, ListsLoseRemovedNodes) {
     EXPECT_THAT(after.warnings, ElementsAre("deck.inp:11: *MPC names node 5, which was removed, and leaves the list"));
 }
 
+TEST_F(MpcsRule, LinesThatGoOnNeedNoZeroAndKeepTheirs) {
+    EXPECT_THAT(pinned("*MPC\nPLANE, 1, 2\n3, 4\n"), ElementsAre(1, 2, 3, 4));
+    EXPECT_EQ(carried("*MPC\nPLANE, 3, 4\n1, 2\n", halve_element_1).cards, "*MPC\nPLANE, 3, 4\n1, 2\n0, 6\n");
+    EXPECT_EQ(carried("*MPC\nPLANE, 1, 3\n0, 5, 4\n", remove_element_2).cards, "*MPC\nPLANE, 1, 3\n0, 4\n");
+    EXPECT_EQ(carried("*MPC\nPLANE, 1, 3\n5\n4, 2\n", remove_element_2).cards, "*MPC\nPLANE, 1, 3\n4, 2\n");
+}
+
 TEST_F(MpcsRule, OtherTypesStayAndAreTold) {
     const std::string cards = "*MPC\nMEANROT, 1, 2, 5\n";
     const Carried born = carried(cards, halve_element_1);

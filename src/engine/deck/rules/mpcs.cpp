@@ -23,16 +23,17 @@ std::vector<Mpcs::Mpc> Mpcs::read(const Card& card) {
     CardReader line(card);
     bool more = line.next_data_line();
     while (more) {
-        Index number = 0;
+        const auto starts_with_number = [&] {
+            Index number = 0;
+            CardReader probe = line;
+            return probe.integer(number);
+        };
         Mpc& mpc = out.emplace_back();
-        if (!line.integer(number)) mpc.type = deck_key(line.field());
-        while (true) {
+        if (!starts_with_number()) mpc.type = deck_key(line.field());
+        do {
             mpc.lines.push_back({line, read_entries(line)});
             more = line.next_data_line();
-            CardReader probe = line;
-            if (!more || !probe.integer(number) || number != 0) break;
-            line = probe;
-        }
+        } while (more && starts_with_number());
     }
     return out;
 }
@@ -54,13 +55,7 @@ void Mpcs::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
 
 void Mpcs::carry(std::size_t c, const Card& card, Carrying& carrying) {
     for (const Mpc& mpc : read(card)) {
-        bool names_type = true;
-        for (const Line& line : mpc.lines) {
-            carry_line(c, mpc, line, names_type, carrying);
-            names_type = names_type && std::ranges::none_of(line.entries, [](const NumberOrSet& what) {
-                             return what.is_number() && what.number > 0;
-                         });
-        }
+        for (const Line& line : mpc.lines) carry_line(c, mpc, line, carrying);
         if (mpc.is_list())
             add_new_nodes(c, mpc, carrying);
         else
@@ -68,11 +63,11 @@ void Mpcs::carry(std::size_t c, const Card& card, Carrying& carrying) {
     }
 }
 
-void Mpcs::carry_line(std::size_t c, const Mpc& mpc, const Line& line, bool names_type, Carrying& carrying) {
+void Mpcs::carry_line(std::size_t c, const Mpc& mpc, const Line& line, Carrying& carrying) {
     const auto tell = [&](Index node, const std::string& what) {
         carrying.remarks().add(c, Weight::problem, line.line.where(), node_text(node), what);
     };
-    std::string left = names_type ? mpc.type : "";
+    std::string left = &line == &mpc.lines.front() ? mpc.type : "";
     bool gone = false;
     for (const NumberOrSet& what : line.entries) {
         if (what.is_number() && what.number > 0) {
@@ -87,7 +82,11 @@ void Mpcs::carry_line(std::size_t c, const Mpc& mpc, const Line& line, bool name
         }
         left += (left.empty() ? "" : ", ") + (what.is_number() ? std::to_string(what.number) : what.set);
     }
-    if (gone && mpc.is_list()) carrying.edits(c).replace(line.line, left);
+    if (!gone || !mpc.is_list()) return;
+    if (left.empty())
+        carrying.edits(c).drop(line.line);
+    else
+        carrying.edits(c).replace(line.line, left);
 }
 
 void Mpcs::add_new_nodes(std::size_t c, const Mpc& mpc, Carrying& carrying) {

@@ -9,9 +9,9 @@
 
 namespace femscalpel {
 
-/// *MPC: type, nodes, and more of them on lines that start with 0. Its nodes do not move. PLANE and STRAIGHT get new
-/// nodes between their nodes, and lose removed ones; other types stay on the originals, and it is told where nodes are
-/// born between these.
+/// *MPC: type, nodes, and more of them on lines that start with a number; 0 is none. Its nodes do not move. PLANE and
+/// STRAIGHT get new nodes between their nodes, and lose removed ones; other types stay on the originals, and it is told
+/// where nodes are born between these.
 class Mpcs : public CardRule {
 public:
     bool takes(const Card& card) const override { return card.keyword == "MPC"; }
@@ -21,7 +21,7 @@ public:
 private:
     struct Line {
         CardReader line;
-        std::vector<NumberOrSet> entries;  ///< after the type, or the 0
+        std::vector<NumberOrSet> entries;  ///< after the type
     };
     struct Mpc {
         std::string type;
@@ -32,7 +32,7 @@ private:
         std::vector<Index> nodes() const;
     };
     static std::vector<Mpc> read(const Card& card);
-    static void carry_line(std::size_t c, const Mpc& mpc, const Line& line, bool names_type, Carrying& carrying);
+    static void carry_line(std::size_t c, const Mpc& mpc, const Line& line, Carrying& carrying);
     static void add_new_nodes(std::size_t c, const Mpc& mpc, Carrying& carrying);
     static void tell_not_joining(const Mpc& mpc, Carrying& carrying);
 };
