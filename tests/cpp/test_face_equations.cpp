@@ -28,5 +28,9 @@ TEST_F(FaceEquationsRule, SplitAndRemovedElementsAreTold) {
     }
 }
 
+TEST_F(FaceEquationsRule, NumbersOfTermsAreNoElements) {
+    EXPECT_THAT(carried("*EQUATIONF\n1\n2, S1, 1, 1.\n", halve_element_1).warnings, IsEmpty());
+}
+
 }  // namespace
 }  // namespace femscalpel
