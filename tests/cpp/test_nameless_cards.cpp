@@ -57,6 +57,15 @@ TEST_F(NamelessCardsRule, SetsWithoutMembersAreTold) {
                             "deck.inp:14: *DSLOAD names element set 'E', which lost all its members"));
 }
 
+TEST_F(NamelessCardsRule, SetsWithoutMembersAreToldInDecksWithNothingElseToo) {
+    const std::string cards = "*ELSET, ELSET=E\n2\n*SOLID SECTION, ELSET=E, MATERIAL=M\n";
+    EXPECT_THAT(carried(cards, double_node_2).warnings, IsEmpty());
+    const Carried after = carried(cards, remove_element_2);
+    EXPECT_EQ(after.cards, cards);
+    EXPECT_THAT(after.warnings,
+                ElementsAre("deck.inp:12: *SOLIDSECTION names element set 'E', which lost all its members"));
+}
+
 TEST_F(NamelessCardsRule, CardsThatCalculixDoesNotHaveAreToldOnce) {
     const std::string cards = "*NOTACARD\n2, 1\n*NOTACARD\n3, 1\n";
     const Carried after = carried(cards, double_node_2);

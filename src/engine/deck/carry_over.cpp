@@ -42,16 +42,17 @@ void carry_cards(Carrying& carrying) {
     for (const auto& rule : rules.all()) rule->end_carrying(carrying);
 }
 
-}  // namespace
+/// All that has to be told of a deck whose cards stay as they are.
+void tell_emptied(const SolverInput& deck, const Mesh& before, const Mesh& after, Remarks& remarks) {
+    const EmptiedSets emptied(deck, before, after);
+    if (emptied.none()) return;
+    const CardRules rules;
+    for (std::size_t c = 0; c < deck.cards().size(); ++c)
+        emptied.tell(c, deck.cards()[c], rules.find(deck.cards()[c])->names_per_line(), remarks);
+}
 
-void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict,
-                std::vector<std::string>& warnings) {
-    const SolverInput* const deck = solver_input(before);
-    if (!deck || is_mesh_alone(*deck)) return;
-    Carrying carrying(before, after, changes);
-    carry_cards(carrying);
-    after.companion = carrying.result();
-    const std::vector<std::string> problems = carrying.remarks().problems(), notes = carrying.remarks().notes();
+void pass_on(const Remarks& remarks, bool strict, std::vector<std::string>& warnings) {
+    const std::vector<std::string> problems = remarks.problems(), notes = remarks.notes();
     if (strict && !problems.empty()) {
         std::string text = "the solver's input cannot follow the change (strict=True):";
         for (const std::string& problem : problems) text += "\n  " + problem;
@@ -59,6 +60,24 @@ void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool st
     }
     warnings.insert(warnings.end(), problems.begin(), problems.end());
     warnings.insert(warnings.end(), notes.begin(), notes.end());
+}
+
+}  // namespace
+
+void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict,
+                std::vector<std::string>& warnings) {
+    const SolverInput* const deck = solver_input(before);
+    if (!deck) return;
+    if (is_mesh_alone(*deck)) {
+        Remarks remarks(*deck);
+        tell_emptied(*deck, before, after, remarks);
+        pass_on(remarks, strict, warnings);
+        return;
+    }
+    Carrying carrying(before, after, changes);
+    carry_cards(carrying);
+    after.companion = carrying.result();
+    pass_on(carrying.remarks(), strict, warnings);
 }
 
 }  // namespace femscalpel
