@@ -115,10 +115,13 @@ TEST_F(ElementLoadsRule, BodyLoadsByNumberKeepTheirVolume) {
 }
 
 TEST_F(ElementLoadsRule, PlaneElementsCountTheirEdgesDifferently) {
-    std::string edges;
-    for (const int e : {1, 3, 5, 7}) edges += std::to_string(e) + ", P1, 3.\n";  // y = 0
-    const Mesh mesh = read(sheet("CPS3") + "*STEP\n*STATIC\n*DLOAD\n" + edges + "*END STEP\n");
-    const Mesh after = crack_at(mesh, 1.5, "CRACK", Vec3(1, .2, 0));
+    // Forces hold the nodes at y = 0, so that an edge has to be divided there.
+    std::string edges, forces;
+    for (const int e : {1, 3, 5, 7}) edges += std::to_string(e) + ", P1, 3.\n";
+    for (int n = 1; n <= 5; ++n) forces += std::to_string(n) + ", 1, 1.\n";
+    const Mesh mesh = read(sheet("CPS3") + "*STEP\n*STATIC\n*CLOAD\n" + forces + "*DLOAD\n" + edges + "*END STEP\n");
+    const Mesh after = crack_at(mesh, 1.3, "CRACK", Vec3(1, .2, 0));
+    EXPECT_EQ(rows(after, "DLOAD").size(), 5u);
     const NumberIndex numbers(after);
     double length = 0;
     for (const Row& r : rows(after, "DLOAD")) {
