@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "deck/solver_input.h"
 #include "interruptible.h"
 #include "mesh/quality.h"
 
@@ -142,7 +143,7 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("dimension", &Mesh::dimension)
         .def_property_readonly("node_count", &Mesh::node_count)
         .def_property_readonly("cell_count", &Mesh::cell_count)
-        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return mesh.solver_input != nullptr; })
+        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; })
         .def("mean_ratios",
              [](const Mesh& mesh) {
                  py::dict out;

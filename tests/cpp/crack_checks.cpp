@@ -44,7 +44,7 @@ bool identical(const Mesh& a, const Mesh& b) {
         return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)) == 0);
     };
     if (!same_points(a.points, b.points) || a.node_ids != b.node_ids || a.name != b.name || a.unit != b.unit ||
-        a.solver_input != b.solver_input)
+        a.companion != b.companion)
         return false;
     for (std::size_t k = 0; k < a.blocks().size(); ++k)
         if (a.blocks()[k].connectivity != b.blocks()[k].connectivity || a.blocks()[k].ids != b.blocks()[k].ids)

@@ -27,7 +27,7 @@ using Row = std::vector<std::string>;
 /// Fields of all data lines of the cards `keyword`.
 inline std::vector<Row> rows(const Mesh& mesh, const std::string& keyword) {
     std::vector<Row> out;
-    for (const Card& card : mesh.solver_input->cards()) {
+    for (const Card& card : solver_input(mesh)->cards()) {
         if (card.keyword != keyword) continue;
         CardReader line(card);
         while (line.next_data_line()) {
@@ -117,6 +117,24 @@ inline std::vector<std::pair<Index, int>> top_faces() {
     return out;
 }
 
+/// A sheet 4 x 2 of shell triangles; node numbers 1 + i + 5 j, elements 1 to 16.
+inline std::string sheet(const std::string& type) {
+    std::ostringstream out;
+    out << "*NODE, NSET=NALL\n";
+    for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) out << 1 + i + 5 * j << ", " << i << ", " << j << ", 1\n";
+    out << "*ELEMENT, TYPE=" << type << ", ELSET=EALL\n";
+    int e = 0;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+            const int a = 1 + i + 5 * j;
+            out << e + 1 << ", " << a << ", " << a + 1 << ", " << a + 6 << "\n"
+                << e + 2 << ", " << a << ", " << a + 6 << ", " << a + 5 << "\n";
+            e += 2;
+        }
+    return out.str();
+}
+
 class DeckSemantics : public testing::Test {
 protected:
     void SetUp() override {
@@ -157,7 +175,7 @@ protected:
         for (const GroupRecord& r : result.report.groups) EXPECT_FALSE(r.name.starts_with("*"));
         write_inp(result.mesh, folder_ / "after.inp");
         Mesh back = read_inp(folder_ / "after.inp");
-        EXPECT_THAT(back.solver_input->warnings(), testing::IsEmpty());
+        EXPECT_THAT(solver_input(back)->warnings(), testing::IsEmpty());
         return back;
     }
 
@@ -195,7 +213,7 @@ inline double surface_area(const Mesh& mesh, const std::string& name, const std:
 /// Text of all cards with a keyword.
 inline std::string text_of(const Mesh& mesh, const std::string& keyword) {
     std::string out;
-    for (const Card& card : mesh.solver_input->cards())
+    for (const Card& card : solver_input(mesh)->cards())
         if (card.keyword == keyword)
             for (const DeckText& t : card.text) out += t.text;
     return out;

@@ -139,7 +139,7 @@ TEST(CancelTest, ADeckIsCarriedOverOrNot) {
     const Mesh mesh = read(path);
     fs::remove(path);
     const Result before = crack(mesh, oblique);
-    ASSERT_TRUE(before.mesh.solver_input);
+    ASSERT_TRUE(before.mesh.companion);
     cancel_everywhere([&] { crack(mesh, oblique); });
     expect_same(crack(mesh, oblique).mesh, before.mesh);
 }

@@ -145,7 +145,7 @@ std::string describe(const Mesh& mesh) {
 
 std::string cards_text(const Mesh& mesh) {
     std::string out;
-    for (const Card& card : mesh.solver_input->cards())
+    for (const Card& card : solver_input(mesh)->cards())
         for (const DeckText& t : card.text) out += t.text;
     return out;
 }
@@ -198,21 +198,21 @@ TEST_F(Inp, ReadsNodesElementsGroups) {
     ASSERT_TRUE(card);
     EXPECT_THAT(group_members(mesh, *card).ids, ElementsAre(1, 2));
     EXPECT_TRUE(mesh.find_group("*NODE#1", GroupKind::node, true));
-    EXPECT_THAT(mesh.solver_input->warnings(), IsEmpty());
+    EXPECT_THAT(solver_input(mesh)->warnings(), IsEmpty());
 }
 
 TEST_F(Inp, KeepsCardsInOrderWithTheirParameters) {
     const Mesh mesh = read(two_tets);
     std::vector<std::string> keywords;
-    for (const Card& c : mesh.solver_input->cards()) keywords.push_back(c.keyword);
+    for (const Card& c : solver_input(mesh)->cards()) keywords.push_back(c.keyword);
     EXPECT_THAT(keywords, ElementsAre("", "HEADING", "NODE", "ELEMENT", "NSET", "SURFACE", "MATERIAL", "ELASTIC",
                                       "SOLIDSECTION", "BOUNDARY", "STEP", "STATIC", "CLOAD", "NODEPRINT", "ENDSTEP"));
-    const Card& section = mesh.solver_input->cards()[8];
+    const Card& section = solver_input(mesh)->cards()[8];
     ASSERT_TRUE(section.parameter("MATERIAL"));
     EXPECT_EQ(*section.parameter("MATERIAL"), "STEEL");
     EXPECT_FALSE(section.parameter("ORIENTATION"));
     EXPECT_THAT(section.where(), HasSubstr("deck.inp:22"));
-    const Card& boundary = mesh.solver_input->cards()[9];
+    const Card& boundary = solver_input(mesh)->cards()[9];
     CardReader line(boundary);
     ASSERT_TRUE(line.next_data_line());
     EXPECT_EQ(line.field(), "FIX");
@@ -221,13 +221,13 @@ TEST_F(Inp, KeepsCardsInOrderWithTheirParameters) {
     EXPECT_EQ(dof, 1);
     EXPECT_THAT(line.where(), HasSubstr("deck.inp:24: "));
 
-    SolverInput copy = *mesh.solver_input;
+    SolverInput copy = *solver_input(mesh);
     copy.cards()[9].set_text("*Boundary, op = NEW\nFIX, 1, 2\n");
     EXPECT_EQ(copy.cards()[9].keyword, "BOUNDARY");
     EXPECT_EQ(*copy.cards()[9].parameter("OP"), "NEW");
-    EXPECT_EQ(mesh.solver_input->cards()[9].parameter("OP"), nullptr);
+    EXPECT_EQ(solver_input(mesh)->cards()[9].parameter("OP"), nullptr);
     Mesh changed = mesh;
-    changed.solver_input = std::make_shared<SolverInput>(copy);
+    changed.companion = std::make_shared<SolverInput>(copy);
     EXPECT_THAT(write(changed), HasSubstr("MATERIAL=STEEL\n*Boundary, op = NEW\nFIX, 1, 2\n*STEP\n"));
 }
 
@@ -467,7 +467,7 @@ TEST_F(Inp, WarnsWhereCalculixWarns) {
     EXPECT_THAT(ids(mesh, "A", GroupKind::node), ElementsAre(1));
     EXPECT_THAT(ids(mesh, "B", GroupKind::element), ElementsAre(1));
     EXPECT_THAT(ids(mesh, "C", GroupKind::node), ElementsAre(2, 3));
-    EXPECT_THAT(mesh.solver_input->warnings(),
+    EXPECT_THAT(solver_input(mesh)->warnings(),
                 ElementsAre(HasSubstr("deck.inp:1: *NODE has no parameter FOO"),
                             HasSubstr("deck.inp:6: 1 elements of type S3 are followed by more"),
                             HasSubstr("deck.inp:8: node set 'A' names node 8 and 1 more that the deck does not define"),
@@ -479,7 +479,7 @@ TEST_F(Inp, WarnsOfCoordinatesThatCalculixCuts) {
     const Mesh mesh =
         read("*NODE\n1, 0.1234567890123456789012\n2, 0.1234567890123456789e-12\n3, 0., 1.00000000000000000000d1\n");
     EXPECT_EQ(mesh.points[1].x(), 0.1234567890123456789e-12);
-    EXPECT_THAT(mesh.solver_input->warnings(),
+    EXPECT_THAT(solver_input(mesh)->warnings(),
                 ElementsAre(HasSubstr("deck.inp:3: 2 nodes, this one first, have coordinates of more than 20")));
 }
 
@@ -502,9 +502,9 @@ TEST_F(Inp, ElementsWithoutPlaceInTheMeshAreKept) {
 NET
 )");
     EXPECT_THAT(mesh.block(CellType::line3).ids, ElementsAre(2));
-    ASSERT_EQ(mesh.solver_input->other_elements().size(), 3u);
-    EXPECT_THAT(mesh.solver_input->other_elements()[2].nodes, ElementsAre(0, 1, 2));
-    EXPECT_EQ(mesh.solver_input->largest_other_element(), 11);
+    ASSERT_EQ(solver_input(mesh)->other_elements().size(), 3u);
+    EXPECT_THAT(solver_input(mesh)->other_elements()[2].nodes, ElementsAre(0, 1, 2));
+    EXPECT_EQ(solver_input(mesh)->largest_other_element(), 11);
     EXPECT_THAT(ids(mesh, "ALL", GroupKind::element), ElementsAre(2));
     EXPECT_EQ(write(mesh), cards_text(mesh));
 
@@ -625,7 +625,7 @@ TEST_F(Inp, RemovedEntitiesAndGroupsLeaveTheDeck) {
     Mesh out;
     for (const Group& g : mesh.groups) out.groups.push_back(g);
     out.families = mesh.families;
-    out.solver_input = mesh.solver_input;
+    out.companion = mesh.companion;
     for (Index i = 0; i < 4; ++i) out.add_node(mesh.points[i], mesh.node_ids[i], mesh.node_families[i]);
     out.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 1, mesh.block(CellType::tetra).families[0]);
     set_group_members(out, *out.find_group("FIX"), {GroupKind::node, {}, {}});
@@ -806,10 +806,10 @@ const std::map<std::string, std::string> unreadable = {
 
 /// Makes every set be listed anew: pretends that its cards named one more number when they were read.
 Mesh with_sets_listed_anew(const Mesh& mesh) {
-    auto input = std::make_shared<SolverInput>(*mesh.solver_input);
+    auto input = std::make_shared<SolverInput>(*solver_input(mesh));
     for (DeckSet& set : input->sets()) ++set.absent;
     Mesh out = mesh;
-    out.solver_input = input;
+    out.companion = input;
     return out;
 }
 
@@ -840,7 +840,7 @@ TEST_F(Inp, CalculixDecksRoundTrip) {
             for (Index& id : b.ids) id += 200000;
         for (Vec3& x : other.points)
             for (double& c : x) c = std::round(c * 1e6 + 500) / 1e6;
-        if (mesh.solver_input->other_elements().empty())
+        if (solver_input(mesh)->other_elements().empty())
             for (Index& id : other.node_ids) id += 100000;
         ASSERT_NO_THROW(write(other));
         Mesh again;

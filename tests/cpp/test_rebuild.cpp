@@ -223,7 +223,7 @@ TEST(Rebuild, NumbersFromAboveWhatTheDeckHas) {
     EXPECT_EQ(next_numbers(mesh).cell, mesh.largest_cell_id() + 1);
     const auto input = std::make_shared<SolverInput>();
     input->other_elements().push_back({5000, "USER", {}, 0});
-    mesh.solver_input = input;
+    mesh.companion = input;
     EXPECT_EQ(next_numbers(mesh).cell, 5001);
 }
 

@@ -192,14 +192,5 @@ TEST_F(RelatedNodesOfDeck, RefinementRelatesTooOrTells) {
     EXPECT_NE(all, told);
 }
 
-TEST_F(RelatedNodesOfDeck, NodesBetweenThoseOfOtherMpcsAreTold) {
-    const std::string line = "MEANROT, " + std::to_string(node_at(1, 0, 2)) + ", " + std::to_string(node_at(2, 0, 2)) +
-                             ", " + std::to_string(node_at(2, 1, 2)) + ", 99";
-    const Mesh mesh = block_with("*NODE\n99, 2., 1., 5.\n*MPC\n" + line + "\n");
-    crack_at(mesh, 1.5);
-    EXPECT_THAT(warnings_, Contains(AllOf(HasSubstr(at_line(line)), HasSubstr("MEANROT"), HasSubstr("do not join"))));
-    EXPECT_THROW(crack_at(mesh, 1.5, "CRACK", Vec3(1, 0, 0), true), Error);
-}
-
 }  // namespace
 }  // namespace femscalpel

@@ -5,8 +5,8 @@
 #include <unordered_map>
 
 #include "cancel.h"
-#include "deck/solver_input.h"
 #include "deformation/curved_shape.h"
+#include "mesh/companion.h"
 
 namespace femscalpel {
 namespace {
@@ -468,7 +468,7 @@ private:
 
 Numbering next_numbers(const Mesh& mesh) {
     Numbering next{mesh.largest_node_id() + 1, mesh.largest_cell_id() + 1};
-    if (mesh.solver_input) next.cell = std::max(next.cell, mesh.solver_input->largest_other_element() + 1);
+    if (mesh.companion) next.cell = std::max(next.cell, mesh.companion->largest_other_element() + 1);
     return next;
 }
 

@@ -6,7 +6,11 @@
 namespace femscalpel {
 
 DeckView::DeckView(const Mesh& mesh)
-    : mesh_(mesh), numbers_(mesh), sets_(mesh.solver_input->sets()), planes_(plane_families(mesh, *mesh.solver_input)) {
+    : mesh_(mesh),
+      input_(*solver_input(mesh)),
+      numbers_(mesh),
+      sets_(input_.sets()),
+      planes_(plane_families(mesh, input_)) {
     int step = 0, steps = 0;
     for (const Card& card : cards()) {
         if (card.keyword == "STEP") step = ++steps;
@@ -35,21 +39,22 @@ std::optional<NumberOrSet> read_number_or_set(CardReader& line) {
     return out;
 }
 
-std::vector<std::pair<std::string, Index>> reference_nodes(const Card& card) {
-    std::vector<std::pair<std::string, Index>> out;
-    const auto look = [&](std::string_view parameter, std::string_view written) {
-        const std::string* value = card.parameter(parameter);
-        if (!value || value->empty() || !std::ranges::all_of(*value, [](char c) { return c >= '0' && c <= '9'; }))
-            return;
-        if (value->size() <= 18) out.emplace_back(written, std::stoll(*value));
-    };
-    if (card.keyword == "RIGIDBODY" || card.keyword == "COUPLING") {
-        look("REFNODE", "REF NODE");
-        look("ROTNODE", "ROT NODE");
-    } else if (card.keyword == "PRE-TENSIONSECTION") {
-        look("NODE", "NODE");
-    }
+std::optional<NumberOrSet> next_entry(CardReader& line) {
+    while (line.next_data_line())
+        if (auto what = read_number_or_set(line)) return what;
+    return {};
+}
+
+std::vector<NumberOrSet> read_entries(CardReader& line) {
+    std::vector<NumberOrSet> out;
+    while (!line.at_end())
+        if (auto what = read_number_or_set(line)) out.push_back(std::move(*what));
     return out;
+}
+
+std::string type_of(const Card& card) {
+    const std::string* type = card.parameter("TYPE");
+    return type ? deck_key(*type) : "";
 }
 
 std::string parameters_key(const Card& card) {
@@ -57,23 +62,6 @@ std::string parameters_key(const Card& card) {
     for (const CardParameter& p : card.parameters)
         if (p.name != "OP") key += "," + p.name + "=" + deck_key(p.value);
     return key;
-}
-
-namespace {
-
-std::string mark(std::string_view kind, std::size_t card, const LoadLabel& label, std::string_view rest) {
-    return std::string(mark_prefix) + std::string(kind) + std::to_string(card) + ":" + label.prefix + "#" +
-           label.suffix + "," + deck_key(rest);
-}
-
-}  // namespace
-
-std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest) {
-    return mark("FACES", card, label, rest);
-}
-
-std::string element_mark(std::size_t card, const LoadLabel& label, std::string_view rest) {
-    return mark("ELEMENTS", card, label, rest);
 }
 
 }  // namespace femscalpel

@@ -9,7 +9,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "deck/card_content.h"
 #include "deck/solver_sets.h"
 
 namespace femscalpel {
@@ -17,11 +16,11 @@ namespace femscalpel {
 /// A mesh with its deck, to look up what lines name.
 class DeckView {
 public:
-    /// `mesh` must have a solver input.
+    /// `mesh` must have a deck.
     explicit DeckView(const Mesh& mesh);
 
     const Mesh& mesh() const { return mesh_; }
-    const SolverInput& input() const { return *mesh_.solver_input; }
+    const SolverInput& input() const { return input_; }
     const std::vector<Card>& cards() const { return input().cards(); }
     const NumberIndex& numbers() const { return numbers_; }
 
@@ -41,6 +40,7 @@ public:
 
 private:
     const Mesh& mesh_;
+    const SolverInput& input_;
     NumberIndex numbers_;
     DeckSetIndex sets_;
     std::vector<int> steps_;
@@ -58,20 +58,16 @@ struct NumberOrSet {
 /// Reads the next field of the line; none if it is empty.
 std::optional<NumberOrSet> read_number_or_set(CardReader& line);
 
-/// Name and value of the parameters of a card that are reference nodes.
-std::vector<std::pair<std::string, Index>> reference_nodes(const Card& card);
+/// Goes to the next data line whose first entry is not empty, and reads that; none at the end of the card.
+std::optional<NumberOrSet> next_entry(CardReader& line);
+
+/// Reads all that is left of the line; empty entries are left out.
+std::vector<NumberOrSet> read_entries(CardReader& line);
+
+/// TYPE= of a card, in upper case without blanks; empty without.
+std::string type_of(const Card& card);
 
 /// What a card says beside its lines, but for OP=: lines under equal cards of one step add up.
 std::string parameters_key(const Card& card);
-
-/// First letters of the names of all hidden groups of mark_deck().
-inline constexpr std::string_view mark_prefix = "*MARK#";
-
-/// Name of the hidden group of mark_deck() for the faces that lines of card `card` load alike: same label but for the
-/// face, same entries after it.
-std::string face_mark(std::size_t card, const LoadLabel& label, std::string_view rest);
-
-/// The same for elements named by number.
-std::string element_mark(std::size_t card, const LoadLabel& label, std::string_view rest);
 
 }  // namespace femscalpel

@@ -66,6 +66,8 @@ bool cut_is_harmless(std::string_view field, double value) {
 
 }  // namespace
 
+const SolverInput* solver_input(const Mesh& mesh) { return dynamic_cast<const SolverInput*>(mesh.companion.get()); }
+
 GroupKind group_kind(DeckSetType type) {
     switch (type) {
         case DeckSetType::elset:

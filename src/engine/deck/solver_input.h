@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cancel.h"
+#include "mesh/companion.h"
 #include "mesh/mesh.h"
 
 namespace femscalpel {
@@ -82,10 +83,10 @@ struct OtherElement {
     std::size_t card = 0;      ///< index into SolverInput::cards()
 };
 
-/// The deck around a mesh: every card in order, verbatim, and which of them define what. A value type:
+/// The deck around a mesh, its companion: every card in order, verbatim, and which of them define what. A value type:
 /// copies share the text of the files. It says what to write in which order; the mesh says what nodes,
 /// elements and groups there are now (io/inp.h).
-class SolverInput {
+class SolverInput : public Companion {
 public:
     const std::vector<Card>& cards() const { return cards_; }
     std::vector<Card>& cards() { return cards_; }
@@ -100,8 +101,7 @@ public:
     const std::vector<std::string>& warnings() const { return warnings_; }
     std::vector<std::string>& warnings() { return warnings_; }
 
-    /// Largest number of an element outside the mesh; 0 without any.
-    Index largest_other_element() const;
+    Index largest_other_element() const override;
 
 private:
     std::vector<Card> cards_;
@@ -109,6 +109,9 @@ private:
     std::vector<OtherElement> other_elements_;
     std::vector<std::string> warnings_;
 };
+
+/// The deck of a mesh; null if it was not read from one. Lives as long as the mesh has it.
+const SolverInput* solver_input(const Mesh& mesh);
 
 /// Kind of the mesh group that holds sets of this type.
 GroupKind group_kind(DeckSetType type);

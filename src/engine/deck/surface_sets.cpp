@@ -72,8 +72,9 @@ void erase_used_elsewhere(const SolverInput& input, Uses& uses) {
 }  // namespace
 
 std::vector<SurfaceSet> surface_sets(const Mesh& mesh) {
-    if (!mesh.solver_input) return {};
-    const SolverInput& input = *mesh.solver_input;
+    const SolverInput* const deck = solver_input(mesh);
+    if (!deck) return {};
+    const SolverInput& input = *deck;
     const DeckSetIndex index(input.sets());
     Uses uses = named_by_surfaces(mesh, input, index);
     if (!uses.empty()) erase_used_elsewhere(input, uses);

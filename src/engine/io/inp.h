@@ -19,7 +19,7 @@ namespace femscalpel {
 ///   become faces 3, 4, ... of Facet.
 /// - User elements, network elements without an end node (0), element numbers of a submodel's global
 ///   model, surface faces of beams: kept beside the mesh (OtherElement, DeckSet::unheld).
-/// - Everything else is kept verbatim, in place, in Mesh::solver_input. Includes are resolved.
+/// - Everything else is kept verbatim, in place, in Mesh::companion, a SolverInput. Includes are resolved.
 ///
 /// Names compare as in CalculiX: case and blanks do not count. A group has the first spelling.
 /// Sets may name numbers the deck does not define; as in CalculiX this is only a warning

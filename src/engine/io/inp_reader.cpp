@@ -32,7 +32,7 @@ public:
         read_nodes();
         read_elements();
         read_sets();
-        mesh_.solver_input = input_;
+        mesh_.companion = input_;
         return std::move(mesh_);
     }
 

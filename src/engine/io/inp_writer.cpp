@@ -43,7 +43,8 @@ public:
 
 private:
     static std::shared_ptr<const SolverInput> deck_of(const Mesh& mesh) {
-        if (mesh.solver_input && !mesh.solver_input->cards().empty()) return mesh.solver_input;
+        if (auto deck = std::dynamic_pointer_cast<const SolverInput>(mesh.companion); deck && !deck->cards().empty())
+            return deck;
         std::string heading;
         for (char c : mesh.name) heading += c == '\n' || c == '\r' ? ' ' : c;
         if (heading.starts_with('*')) heading.insert(0, 1, ' ');

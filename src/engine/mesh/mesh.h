@@ -18,7 +18,7 @@
 
 namespace femscalpel {
 
-class SolverInput;
+class Companion;
 
 /// Numbers, counts and indices of nodes and elements.
 using Index = std::int64_t;
@@ -78,8 +78,8 @@ public:
     FamilyTable families;
     std::string name = "mesh";
     std::string unit;  ///< unit of the coordinates as a file states it, may be empty
-    /// The solver's input file around this mesh, if it was read from one.
-    std::shared_ptr<const SolverInput> solver_input;
+    /// What the file this mesh was read from says besides, if there is any (mesh/companion.h).
+    std::shared_ptr<const Companion> companion;
 
     CellBlock& block(CellType type) { return blocks_[static_cast<int>(type)]; }
     const CellBlock& block(CellType type) const { return blocks_[static_cast<int>(type)]; }

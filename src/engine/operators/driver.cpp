@@ -147,7 +147,7 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
     Stopwatch watch(seconds, started);
     watch.lap("locate");
     Edit edit(mesh, known);
-    if (mesh.solver_input) watch.lap("mark deck");
+    if (mesh.companion) watch.lap("mark deck");
     const std::vector<bool> drifting = drifting_groups(edit.mesh(), options.preserve);
     edit.start_copy(!options.band_only);
     Ground ground(options, edit, refined, drifting);

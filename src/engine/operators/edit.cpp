@@ -5,6 +5,8 @@
 
 #include "cancel.h"
 #include "cutting/folded_input.h"
+#include "deck/carry_over.h"
+#include "deck/solver_input.h"
 
 namespace femscalpel {
 namespace {
@@ -81,13 +83,13 @@ Edited Edit::finish(Workpiece& f, const Opening& opening, const Naming& naming, 
     Rebuilt& rebuilt = out.rebuilt;
     if (opening.front_chains.empty()) add_front(opening, naming.front, rebuilt);
     if (!marks_->surface_sets.empty())
-        renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *input_.solver_input, rebuilt.after);
+        renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *solver_input(input_), rebuilt.after);
     watch.lap("rebuild");
-    if (input_.solver_input && !part_) {
+    if (input_.companion && !part_) {
         carry_deck(mesh(), rebuilt.mesh, rebuilt.changes, strict, out.deck_warnings);
         watch.lap("carry deck");
     }
-    out.before = known_.totals ? *known_.totals : std::move(totals);
+    out.before = known_.totals ? *known_.totals : totals;
     out.after = out.before;
     count_cells(out.after, mesh(), rebuilt.before, -1);
     count_cells(out.after, rebuilt.mesh, rebuilt.after, +1);

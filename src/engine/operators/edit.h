@@ -13,7 +13,7 @@
 #include "cutting/opening.h"
 #include "cutting/rebuild.h"
 #include "cutting/workpiece.h"
-#include "deck/carry_over.h"
+#include "deck/mark_deck.h"
 #include "deformation/node_constraints.h"
 #include "groups/group_report.h"
 #include "mesh/crop.h"

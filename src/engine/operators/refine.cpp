@@ -14,6 +14,7 @@
 #include "cutting/mend_curved.h"
 #include "cutting/opening.h"
 #include "cutting/workpiece.h"
+#include "deck/mark_deck.h"
 #include "deformation/curved_shape.h"
 #include "deformation/relaxation.h"
 #include "groups/opened_areas.h"
@@ -220,7 +221,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     if (std::ranges::find(core, 0) == core.end()) return {};
     Edit edit(input, {});
     const Mesh& mesh = edit.mesh();
-    if (input.solver_input) watch.lap("mark deck");
+    if (input.companion) watch.lap("mark deck");
     edit.start_copy();
     Bisected bisected(edit, field, options);
     bisected.run(core, distances);

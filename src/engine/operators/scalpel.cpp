@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/scalpel.h"
 
-#include "deck/carry_over.h"
+#include "deck/mark_deck.h"
 #include "groups/group_report.h"
 #include "mesh/adjacency.h"
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "deck/rules/card_rule.h"
+
+namespace femscalpel {
+
+/// Values of elements by number: *DISTRIBUTION, *INITIAL CONDITIONS of stresses, plastic strains and state variables.
+/// Parts of an element get what the element has.
+class ElementValues : public CardRule {
+public:
+    bool takes(const Card& card) const override;
+    void carry(std::size_t c, const Card& card, Carrying& carrying) override;
+
+private:
+    static Index lines_per_record(const Card& card, const Carrying& carrying);
+};
+
+}  // namespace femscalpel

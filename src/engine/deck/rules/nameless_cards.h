@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "deck/rules/card_rule.h"
+
+namespace femscalpel {
+
+/// Cards of CalculiX 2.20 whose lines name no node or element by number: none at all, or sets and surfaces, which
+/// follow the mesh's groups. CalculiX compares the first letters of keywords ("*FLUID SECTIONS"), and so does this.
+class NamelessCards : public CardRule {
+public:
+    bool takes(const Card& card) const override;
+    bool can_change(const Card& /*card*/) const override { return false; }
+};
+
+}  // namespace femscalpel

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deck/rules/node_loads.h"
+
+#include "deck/card_numbers.h"
+#include "deck/rules/carrying.h"
+#include "deck/rules/marking.h"
+
+namespace femscalpel {
+namespace {
+
+void carry_set(std::size_t c, const CardReader& line, const std::string& set, const std::string& share,
+               Carrying& carrying) {
+    Remarks& remarks = carrying.remarks();
+    if (const Index lost = carrying.closed_sets().lost_members(set); lost > 0)
+        remarks.add(c, Weight::problem, line.where(), named_set(set),
+                    "lost " + std::to_string(lost) + " node(s) and with them their " + share);
+    const std::string name = carrying.closed_sets().name_of_old_members(set);
+    if (name == set) return;
+    remarks.add(c, Weight::note, line.where(), named_set(set),
+                "has new nodes; the card now names '" + name + "', the nodes it had, so that the total stays the same");
+    carrying.edits(c).replace(line, name + "," + std::string(line.rest()));
+}
+
+}  // namespace
+
+bool NodeLoads::takes(const Card& card) const {
+    return is_load(card) || card.keyword == "DISTRIBUTINGCOUPLING" || card.keyword == "RETAINEDNODALDOFS";
+}
+
+void NodeLoads::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
+    CardReader line(card);
+    while (const auto what = next_entry(line))
+        if (what->is_number()) marking.pin(what->number);
+}
+
+void NodeLoads::carry(std::size_t c, const Card& card, Carrying& carrying) {
+    const std::string share = is_load(card) ? "load" : "part";
+    Remarks& remarks = carrying.remarks();
+    CardReader line(card);
+    while (const auto what = next_entry(line)) {
+        if (!what->is_number()) {
+            carry_set(c, line, what->set, share, carrying);
+            continue;
+        }
+        const Index node = what->number;
+        if (carrying.node_gone(node)) {
+            remarks.add(c, Weight::problem, line.where(), node_text(node), "was removed, and with it the " + share);
+            carrying.edits(c).drop(line);
+        } else if (carrying.origins().is_doubled(node)) {
+            remarks.add(c, is_load(card) ? Weight::note : Weight::problem, line.where(), node_text(node),
+                        "the crack doubled; its " + share + " stays whole on the original, on the negative side");
+        }
+        if (carrying.node_moved(node))
+            remarks.add(
+                c, Weight::problem, line.where(), node_text(node),
+                "is a mid-side node that moved by " + number_text(carrying.origins().moved(node)) + " with its edge");
+    }
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deck/rules/reference_nodes.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/rules/carrying.h"
+#include "deck/rules/marking.h"
+
+namespace femscalpel {
+namespace {
+
+/// Name and value of the parameters of a card that are reference nodes.
+std::vector<std::pair<std::string, Index>> nodes_of(const Card& card) {
+    std::vector<std::pair<std::string, Index>> out;
+    const auto look = [&](std::string_view parameter, std::string_view written) {
+        const std::string* value = card.parameter(parameter);
+        if (!value || value->empty() || !std::ranges::all_of(*value, [](char c) { return c >= '0' && c <= '9'; }))
+            return;
+        if (value->size() <= 18) out.emplace_back(written, std::stoll(*value));
+    };
+    if (card.keyword == "PRE-TENSIONSECTION") {
+        look("NODE", "NODE");
+    } else {
+        look("REFNODE", "REF NODE");
+        look("ROTNODE", "ROT NODE");
+    }
+    return out;
+}
+
+}  // namespace
+
+bool ReferenceNodes::takes(const Card& card) const {
+    return card.keyword == "RIGIDBODY" || card.keyword == "COUPLING" || card.keyword == "PRE-TENSIONSECTION";
+}
+
+bool ReferenceNodes::can_change(const Card& card) const { return !nodes_of(card).empty(); }
+
+void ReferenceNodes::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
+    for (const auto& [parameter, node] : nodes_of(card)) marking.pin(node);
+}
+
+void ReferenceNodes::carry(std::size_t c, const Card& card, Carrying& carrying) {
+    for (const auto& [parameter, node] : nodes_of(card)) {
+        const auto tell = [&](const std::string& what) {
+            carrying.remarks().add(c, Weight::problem, card.where() + ": ", node_text(node), what);
+        };
+        if (carrying.node_gone(node))
+            tell("was removed; give another " + parameter);
+        else if (carrying.origins().is_doubled(node))
+            tell("the crack doubled; " + parameter + " stays the original, on the negative side");
+    }
+}
+
+}  // namespace femscalpel

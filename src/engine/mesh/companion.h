@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// What a mesh carries of the file it was read from, for the format that wrote it: a solver's input around the mesh.
+/// The mesh knows no more of it than this; each format has a kind of its own (deck/solver_input.h). Never changed while
+/// a mesh holds it: copies of the mesh share it, and an operator that changes it gives its result another.
+class Companion {
+public:
+    Companion() = default;
+    virtual ~Companion() = default;
+
+    /// Largest number of an element that the file has and the mesh has not; 0 without any. New elements must not
+    /// get its number.
+    virtual Index largest_other_element() const = 0;
+
+protected:
+    Companion(const Companion&) = default;
+    Companion(Companion&&) = default;
+    Companion& operator=(const Companion&) = default;
+    Companion& operator=(Companion&&) = default;
+};
+
+}  // namespace femscalpel

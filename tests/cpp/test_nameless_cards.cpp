@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deck/rules/rules.h"
+#include "rule_testing.h"
+
+namespace femscalpel {
+namespace {
+
+using namespace deck_testing;
+using namespace rule_testing;
+
+class NamelessCardsRule : public RuleTest {};
+
+TEST(CardContents, EveryCardOfCalculixsDecksIsKnown) {
+    const fs::path decks = "/usr/share/doc/calculix-ccx-test/examples/test";
+    if (!fs::exists(decks)) GTEST_SKIP() << "Debian package calculix-ccx-test is not installed";
+    const CardRules rules;
+    std::set<std::string> unknown;
+    for (const auto& entry : fs::directory_iterator(decks)) {
+        const std::string name = entry.path().filename();
+        if (!name.ends_with(".inp") && !name.ends_with(".inp.gz")) continue;
+        if (entry.file_size() > 100000) continue;
+        Mesh mesh;
+        try {
+            mesh = read_inp(entry.path());
+        } catch (const Error&) {
+            continue;
+        }
+        for (const Card& card : solver_input(mesh)->cards())
+            if (!rules.find(card)) unknown.insert(card.keyword + " in " + name);
+    }
+    EXPECT_THAT(unknown, ElementsAre("MEMBRANE in c3d6.inp"));  // CalculiX does not know it either
+}
+
+TEST_F(NamelessCardsRule, AreKnownByTheirFirstLetters) {
+    const CardRules rules;
+    for (const auto& [text, known] : {std::pair("*STATIC\n", true),
+                                      {"*FLUID SECTIONS, ELSET=A\n", true},
+                                      {"*STATI\n", false},
+                                      {"*MEMBRANE\n", false}}) {
+        Card card;
+        card.set_text(text);
+        CardRule* const rule = rules.find(card);
+        EXPECT_EQ(rule != nullptr, known) << text;
+        if (rule) {
+            EXPECT_FALSE(rule->can_change(card)) << text;
+        }
+    }
+}
+
+TEST_F(NamelessCardsRule, SetsWithoutMembersAreTold) {
+    const std::string cards =
+        "*ELSET, ELSET=E\n2\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*DSLOAD\nE, P, 1.\n*CLOAD\n1, 1, 1.\n";
+    const Carried after = carried(cards, remove_element_2);
+    EXPECT_EQ(after.cards, cards);
+    EXPECT_THAT(after.warnings,
+                ElementsAre("deck.inp:12: *SOLIDSECTION names element set 'E', which lost all its members",
+                            "deck.inp:14: *DSLOAD names element set 'E', which lost all its members"));
+}
+
+TEST_F(NamelessCardsRule, SetsWithoutMembersAreToldInDecksWithNothingElseToo) {
+    const std::string cards = "*ELSET, ELSET=E\n2\n*SOLID SECTION, ELSET=E, MATERIAL=M\n";
+    EXPECT_THAT(carried(cards, double_node_2).warnings, IsEmpty());
+    const Carried after = carried(cards, remove_element_2);
+    EXPECT_EQ(after.cards, cards);
+    EXPECT_THAT(after.warnings,
+                ElementsAre("deck.inp:12: *SOLIDSECTION names element set 'E', which lost all its members"));
+}
+
+TEST_F(NamelessCardsRule, CardsThatCalculixDoesNotHaveAreToldOnce) {
+    const std::string cards = "*NOTACARD\n2, 1\n*NOTACARD\n3, 1\n";
+    const Carried after = carried(cards, double_node_2);
+    EXPECT_EQ(after.cards, cards);
+    EXPECT_THAT(after.warnings,
+                ElementsAre("deck.inp:10: *NOTACARD is not a card of CalculiX 2.20: whether it names nodes or "
+                            "elements is not known, so it is kept as it is; check it"));
+}
+
+}  // namespace
+}  // namespace femscalpel
