@@ -31,7 +31,8 @@ std::unique_ptr<CardRule> make() {
     return std::make_unique<Rule>();
 }
 
-/// The first rule that takes a card has it: those of single types stand before those of the rest.
+/// A new card is a rule in a file of its own and a line here. The first rule that takes a card has it: those of single
+/// types stand before those of the rest.
 constexpr Make table[] = {
     make<MeshCards>,       //
     make<Supports>,        //
