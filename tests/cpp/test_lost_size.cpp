@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 #include "mesh/quality.h"
@@ -144,13 +145,12 @@ TEST(LostSizeTest, GroupsAreNamedAndDriftingOnesAreNot) {
     EXPECT_THAT(warnings, Not(Contains(HasSubstr("'OUTER' by"))));
 }
 
-TEST(LostSizeTest, AreasOfGroupsOfFacesAreLookedAt) {
-    // The rod's flat end as a group of triangles: a plane along the rod moves nodes of its round border.
-    Mesh mesh = rounded(4, 2, false);
+/// The mesh with the triangles of its skin at its lowest z as the group END.
+Mesh with_end(Mesh mesh) {
     const FamilyIndex end = checks::family_of(mesh, "END", GroupKind::element);
     CellBlock& triangles = mesh.block(CellType::triangle);
     const CellBlock& tetras = mesh.block(CellType::tetra);
-    double low = 0;
+    double low = std::numeric_limits<double>::infinity();
     for (const Vec3& x : mesh.points) low = std::min(low, x.z());
     Index id = *std::ranges::max_element(tetras.ids);
     for (Index c = 0; c < tetras.size(); ++c)
@@ -162,11 +162,35 @@ TEST(LostSizeTest, AreasOfGroupsOfFacesAreLookedAt) {
             triangles.ids.push_back(++id);
             triangles.families.push_back(end);
         }
-    const Result r = crack(mesh, Plane({0.1, 0.35, 0}, {1, 0.8, 0.02}), smooth<CrackOptions>());
-    const auto record = std::ranges::find(r.report.groups, "END", &GroupRecord::name);
-    ASSERT_NE(record, r.report.groups.end());
-    ASSERT_LT(record->measure_after, 0.995 * record->measure_before) << "nothing is lost: the test says nothing";
-    EXPECT_THAT(r.report.warnings, Contains(AllOf(HasSubstr("a curved surface is coarse"), HasSubstr("'END' by"))));
+    return mesh;
+}
+
+const GroupRecord& record_of(const Result& r, const char* name) {
+    return *std::ranges::find(r.report.groups, name, &GroupRecord::name);
+}
+
+TEST(LostSizeTest, AreasOfGroupsOfFacesAreLookedAt) {
+    // The rod's flat end as a group of triangles: a plane along the rod moves nodes of its round border.
+    const Mesh mesh = with_end(rounded(4, 2, false));
+    const auto says_so = Contains(AllOf(HasSubstr("a curved surface is coarse"), HasSubstr("'END' by")));
+    const Plane plane({0.1, 0.35, 0}, {1, 0.8, 0.02});
+    const Result r = crack(mesh, plane, smooth<CrackOptions>());
+    ASSERT_LT(record_of(r, "END").measure_after, 0.995 * record_of(r, "END").measure_before)
+        << "nothing is lost: the test says nothing";
+    EXPECT_THAT(r.report.warnings, says_so);
+    const Result slot = cut(mesh, plane, 0.1, smooth<CutOptions>());
+    EXPECT_THAT(slot.report.warnings, says_so) << "what the slot takes is not what is lost";
+}
+
+TEST(LostSizeTest, WhatAToolTakesOfFacesIsNotLost) {
+    const Mesh mesh = with_end(checks::grid(6, 6, 3));
+    const Cylinder hole({2.7, 3.1, 0}, {0, 0, 1}, 1.6), slanting({2.7, 3.1, 0}, {0.2, 0.1, 1}, 1.2);
+    for (const Tool* tool : {&hole, &slanting}) {
+        const Result r = drill(mesh, {&tool, 1}, smooth<DrillOptions>());
+        ASSERT_LT(record_of(r, "END").measure_after, 0.9 * record_of(r, "END").measure_before);
+        EXPECT_THAT(r.report.warnings, Not(says_lost));
+    }
+    EXPECT_THAT(cut(mesh, Plane({3.3, 3, 2}, {1, 0.3, 0.2}), 1.4).report.warnings, Not(says_lost));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 
 bool holds(const auto& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
-/// Area or volume of a triangle or tetrahedron of the band as it is.
+/// Length, area or volume of a segment, triangle or tetrahedron of the band as it is.
 double measure_now(const Deformable& d, const auto& corners, CellType type) {
     std::array<Vec3, 10> nodes;
     std::size_t count = 0;
@@ -128,9 +128,14 @@ private:
             }
     }
 
+    /// Notes what is taken of an element of the input.
+    void note_taken(const auto& list, const std::vector<CellRef>& cells, int s) {
+        f_.taken.push_back({cells[list.origin(s)], measure_now(f_.d, list[s], cells[list.origin(s)].type)});
+    }
+
     template <std::size_t N>
     void take(SimplexList<N>& list, const std::vector<CellRef>& cells, int s) {
-        f_.taken.push_back({cells[list.origin(s)], measure_now(f_.d, list[s], cells[list.origin(s)].type)});
+        note_taken(list, cells, s);
         touched_.insert(list[s].begin(), list[s].end());
         list.remove(s);
     }
@@ -158,7 +163,11 @@ private:
     }
 
     void take_what_they_carried() {
-        drop(band_.triangles, [&](int s) { return !is_shell(s) && !has_host(band_.triangles[s], true); });
+        drop(band_.triangles, [&](int s) {
+            if (is_shell(s) || has_host(band_.triangles[s], true)) return false;
+            note_taken(band_.triangles, band_.triangle_cells, s);
+            return true;
+        });
         drop(band_.skin, [&](int s) { return !has_host(band_.skin[s], false); });
         drop(band_.cut_faces, [&](int s) { return !has_host(band_.cut_faces[s], true); });
         drop(band_.cut_edges, [&](int s) { return !has_host(band_.cut_edges[s], false); });
@@ -166,7 +175,10 @@ private:
         int loose = 0, points = 0;
         drop(band_.lines, [&](int s) {
             if (has_host(band_.lines[s], false)) return false;
-            if (!f_.d.constraints.is_loose(band_.lines.origin(s))) return true;
+            if (!f_.d.constraints.is_loose(band_.lines.origin(s))) {
+                note_taken(band_.lines, band_.line_cells, s);
+                return true;
+            }
             // A beam or spring goes if what carries one of its ends does.
             const bool goes = std::ranges::any_of(
                 band_.lines[s], [&](int v) { return touched_.contains(v) && bare(v) && is_inside(std::array{v}); });

@@ -63,6 +63,48 @@ std::string degrees(double angle) {
     return text.str();
 }
 
+/// What tools took of a mesh, by family and dimension: lengths, areas, volumes.
+class Taken {
+public:
+    Taken(const Workpiece& f, const Mesh& before) : before_(before) {
+        for (std::vector<double>& measures : taken_)
+            measures.resize(static_cast<std::size_t>(before.families.size()), 0);
+        for (const auto& [cell, measure] : f.taken) add(cell, measure);
+        for (const CellRef& c : f.deep_inside) add(c, cell_measure(before, c.type, c.cell));
+    }
+
+    bool any() const { return any_; }
+
+    double in_all(int dimension) const {
+        double sum = 0;
+        for (const double measure : taken_[dimension]) sum += measure;
+        return sum;
+    }
+
+    double of_group(GroupIndex group, int dimension) const {
+        double sum = 0;
+        for (FamilyIndex k = 0; k < static_cast<FamilyIndex>(taken_[dimension].size()); ++k)
+            if (taken_[dimension][k] != 0 && before_.families.contains(k, group)) sum += taken_[dimension][k];
+        return sum;
+    }
+
+private:
+    void add(const CellRef& c, double measure) {
+        taken_[traits(c.type).dimension][before_.block(c.type).families[c.cell]] += measure;
+        any_ = true;
+    }
+
+    const Mesh& before_;
+    std::array<std::vector<double>, 4> taken_;
+    bool any_ = false;
+};
+
+double size_of(const FamilyTotals& totals, int dimension) {
+    double sum = 0;
+    for (const FamilyTotals::Entry& e : totals.by_family) sum += e.measure[dimension];
+    return sum;
+}
+
 }  // namespace
 
 void warn_of_grazing(Workpiece& f, const Tool& tool, const Mesh& mesh) {
@@ -143,53 +185,33 @@ void warn_of_parted_lips(Workpiece& f) {
 void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after,
                           const Workpiece& f, const std::vector<bool>& unjudged, Report& report) {
     const int dimension = whole.dimension();
-    const auto all = [&](const FamilyTotals& t) {
-        double sum = 0;
-        for (const FamilyTotals::Entry& e : t.by_family) sum += e.measure[dimension];
-        return sum;
-    };
-    std::vector<double> taken(static_cast<std::size_t>(before.families.size()), 0);
-    double taken_in_all = 0;
-    const auto take = [&](const CellRef& c, double measure) {
-        if (traits(c.type).dimension != dimension) return;
-        taken[before.block(c.type).families[c.cell]] += measure;
-        taken_in_all += measure;
-    };
-    for (const auto& [cell, measure] : f.taken) take(cell, measure);
-    for (const CellRef& c : f.deep_inside) take(c, cell_measure(before, c.type, c.cell));
+    const Taken taken(f, before);
     std::ostringstream message;
     message.precision(2);
     const auto look = [&](const std::string& name, double was, double change) {
         if (was > 0 && std::abs(change) > size_noticed * was)
             message << (message.tellp() > 0 ? ", " : "") << name << " by " << 100 * change / was << " %";
     };
-    const double change = all(after) - all(totals) + taken_in_all;
-    double was = all(totals);
+    const double change = size_of(after, dimension) - size_of(totals, dimension) + taken.in_all(dimension);
+    double was = size_of(totals, dimension);
     if (std::abs(change) > size_noticed * was)  // totals are without what is in no group
         for (const CellBlock& b : whole.blocks())
             for (Index c = 0; traits(b.type).dimension == dimension && c < b.size(); ++c)
                 if (b.families[c] == 0) was += cell_measure(whole, b.type, c);
     look("the mesh", was, change);
     for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
-        if (r.kind != GroupKind::element || (!unjudged.empty() && unjudged[g])) return;
-        if (r.dimension != dimension) {
-            // Faces and edges on a crack count twice, and what was removed of them is not known: what shrinks
-            // otherwise.
-            if (r.dimension > 0 && taken_in_all == 0 && r.measure_after < r.measure_before)
-                look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before);
-            return;
-        }
-        double taken_of_group = 0;
-        for (FamilyIndex k = 0; k < static_cast<FamilyIndex>(taken.size()); ++k)
-            if (taken[k] != 0 && before.families.contains(k, static_cast<GroupIndex>(g))) taken_of_group += taken[k];
-        look("'" + r.name + "'", r.measure_before, r.measure_after - r.measure_before + taken_of_group);
+        if (r.kind != GroupKind::element || r.dimension == 0 || (!unjudged.empty() && unjudged[g])) return;
+        const double by = r.measure_after - r.measure_before + taken.of_group(static_cast<GroupIndex>(g), r.dimension);
+        // Faces and edges on a crack count twice: of them what shrinks.
+        if (r.dimension == dimension || by < 0) look("'" + r.name + "'", r.measure_before, by);
     });
     if (message.tellp() > 0)
         report.warnings.push_back("a curved surface is coarse, and moving its nodes changed the size of " +
-                                  message.str() + (taken_in_all > 0 ? ", beyond what was removed" : "") +
+                                  message.str() + (taken.any() ? ", beyond what was removed" : "") +
                                   ": give its shape (skin), a smaller feature_angle, which keeps the edges between its "
                                   "facets, or refine the mesh there first");
 }
+
 void warn_of_held_nodes(const Workpiece& f, const Mesh& before, Report& report) {
     constexpr double poor = 0.2, fallen = 0.6;  // mean ratio; part of what it was before
     constexpr std::size_t named = 5;
