@@ -415,6 +415,37 @@ TEST(Refine, StraightSecondOrderElementsStayStraight) {
     EXPECT_GT(result.report.elements_added, 1000);
 }
 
+TEST(Refine, GroupsOfCornersAloneHaveTheNewCorners) {
+    Mesh linear = checks::grid(4, 3, 3);
+    const FamilyIndex corners = checks::family_of(linear, "CORNERS", GroupKind::node);
+    for (std::size_t n = 0; n < linear.points.size(); ++n)
+        if (linear.points[n].x() <= 2) linear.node_families[n] = corners;
+    Mesh mesh = checks::second_order(linear);
+    // The skin there with its mid-side nodes: edges through the material are no part of it.
+    const GroupIndex skin = mesh.add_group("SKIN", GroupKind::node);
+    for (std::size_t n = 0; n < mesh.points.size(); ++n)
+        if (const Vec3& x = mesh.points[n]; x.x() == 0 || x.z() == 0)
+            mesh.node_families[n] = mesh.families.with(mesh.node_families[n], skin);
+    const Plane plane({0, 0, 0}, {0.6, 0, 0.8});
+    RefineOptions options;
+    options.size = 0.5;
+    const Mesh fine = refine(mesh, distance_to(std::vector<const Tool*>{&plane}), options).mesh;
+    const GroupIndex of_corners = *fine.find_group("CORNERS", GroupKind::node),
+                     of_skin = *fine.find_group("SKIN", GroupKind::node);
+    const CellBlock& tetras = fine.block(CellType::tetra10);
+    Index promoted = 0;
+    for (Index c = 0; c < tetras.size(); ++c)
+        for (int k = 0; k < 4; ++k) {
+            const Index n = tetras.nodes(c)[k];
+            const Vec3& x = fine.points[n];
+            EXPECT_EQ(fine.families.contains(fine.node_families[n], of_corners), x.x() <= 2) << x.transpose();
+            EXPECT_EQ(fine.families.contains(fine.node_families[n], of_skin), x.x() == 0 || x.z() == 0)
+                << x.transpose();
+            promoted += n >= linear.node_count() && n < mesh.node_count();
+        }
+    EXPECT_GT(promoted, 100) << "mid-side nodes that became corners";
+}
+
 TEST(Refine, NothingToDo) {
     const Mesh mesh = read_inp(std::string(FEMSCALPEL_TEST_MESHES) + "/l_shape.inp");
     RefineOptions options;

@@ -67,6 +67,9 @@ private:
             if (n.global >= 0) {
                 out_.node[v] = n.global;
                 mesh.points[n.global] = n.at;
+                if (band_.is_new(v))  // that was a mid-side node
+                    for (const GroupIndex g : f_.d.membership.groups(v))
+                        mesh.node_families[n.global] = mesh.families.with(mesh.node_families[n.global], g);
                 continue;
             }
             const auto& [a, b] = band_.births[v - band_.original_nodes()];

@@ -20,19 +20,33 @@ bool holds(const auto& nodes, int v) { return std::ranges::find(nodes, v) != nod
 }  // namespace
 
 NodeMembership::NodeMembership(const BandMesh& band, const Mesh& mesh) : families_(mesh.families) {
+    for (const Group& g : mesh.groups) hidden_.push_back(g.hidden);
     for (const BandNode& n : band.nodes) in_.push_back(mesh.node_families[n.global]);
-    for (const auto& [edge, middle] : band.mid_nodes)
-        if (mesh.node_families[middle] != 0) of_middle_.emplace(middle, mesh.node_families[middle]);
+    middles_.assign(in_.size(), 0);
+    for (const auto& [edge, middle] : band.mid_nodes) {
+        const FamilyIndex family = mesh.node_families[middle];
+        if (family == 0) continue;
+        of_middle_.emplace(middle, family);
+        for (const auto end : {edge >> 32, edge & 0xffffffffu}) middles_[end] = families_.unite(middles_[end], family);
+    }
 }
 
 void NodeMembership::add_node(const BandMesh& band, int node) {
     const auto& [a, b] = band.births[node - band.original_nodes()];
-    if (const Index middle = band.nodes[node].global; middle >= 0) {
-        const auto own = of_middle_.find(middle);
-        in_.push_back(own == of_middle_.end() ? 0 : own->second);
-    } else {
-        in_.push_back(families_.intersect(in_[a], in_[b]));
+    const FamilyIndex common_to_ends = families_.intersect(in_[a], in_[b]),
+                      of_middles = families_.unite(middles_[a], middles_[b]);
+    middles_.push_back(of_middles);
+    const Index middle = band.nodes[node].global;
+    if (middle < 0) {
+        in_.push_back(common_to_ends);
+        return;
     }
+    const auto own = of_middle_.find(middle);
+    FamilyIndex family = own == of_middle_.end() ? 0 : own->second;
+    const std::span<const GroupIndex> candidates = families_.groups(common_to_ends);
+    for (const GroupIndex g : Groups(candidates.begin(), candidates.end()))
+        if (!hidden_[g] && !families_.contains(of_middles, g)) family = families_.with(family, g);
+    in_.push_back(family);
 }
 
 bool NodeMembership::merge_links(const BandMesh& band, int p, int t) const {
