@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "crack_checks.h"
+#include "deformation/mid_sides.h"
 #include "groups/group_report.h"
 #include "io/inp.h"
 #include "mesh/quality.h"
@@ -125,7 +126,7 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
             if (type == CellType::tetra) continue;
             std::array<Vec3, 10> x;
             for (int k = 0; k < 10; ++k) x[k] = out.points[n[k]];
-            if (smallest_jacobian(x) <= 0) add("shape: element ", b.ids[c], " has a negative Jacobian");
+            if (integration_ratio(x) <= 0) add("shape: element ", b.ids[c], " has a negative Jacobian");
         }
     }
     const QualitySummary &before = result.report.quality_before, &after = result.report.quality_after;

@@ -342,20 +342,4 @@ double cell_measure(CellType type, std::span<const Vec3> nodes) {
     return measure_of(type, [&](int k) -> const Vec3& { return nodes[k]; });
 }
 
-double smallest_jacobian(const std::array<Vec3, 10>& nodes) {
-    static const std::array<Eigen::Matrix<double, 3, 10>, 4> gradients = [] {
-        const ShapeGradients shape(CellType::tetra10);
-        const double a = (5 - std::sqrt(5.0)) / 20, b = (5 + 3 * std::sqrt(5.0)) / 20;
-        return std::array<Eigen::Matrix<double, 3, 10>, 4>{shape.at({a, a, a}), shape.at({b, a, a}),
-                                                           shape.at({a, b, a}), shape.at({a, a, b})};
-    }();
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Matrix<double, 3, 10>& g : gradients) {
-        Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-        for (int k = 0; k < 10; ++k) jacobian += nodes[k] * g.col(k).transpose();
-        smallest = std::min(smallest, jacobian.determinant() / 6);
-    }
-    return smallest;
-}
-
 }  // namespace femscalpel

@@ -50,9 +50,4 @@ double cell_measure(const Mesh& mesh, CellType type, Index cell);
 /// The same of an element with its nodes at these points.
 double cell_measure(CellType type, std::span<const Vec3> nodes);
 
-/// Smallest Jacobian determinant of a 10-node tetrahedron at its four integration points (those of
-/// CalculiX's C3D10 and Code_Aster's TETRA10), divided by six: a volume.
-/// `nodes`: ten points in the order of CellType::tetra10.
-double smallest_jacobian(const std::array<Vec3, 10>& nodes);
-
 }  // namespace femscalpel
