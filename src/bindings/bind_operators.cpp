@@ -7,6 +7,9 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interruptible.h"
+#include "operators/crack.h"
+#include "operators/cut.h"
+#include "operators/drill.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 
@@ -106,24 +109,6 @@ Options with(const OperatorOptions& common) {
     return out;
 }
 
-CrackOptions crack_options(const OperatorOptions& common, const Within* within) {
-    auto out = with<CrackOptions>(common);
-    out.within = within;
-    return out;
-}
-
-DrillOptions drill_options(const OperatorOptions& common, std::optional<double> depth) {
-    auto out = with<DrillOptions>(common);
-    out.depth = depth;
-    return out;
-}
-
-CutOptions cut_options(const OperatorOptions& common, const Tool* bottom) {
-    auto out = with<CutOptions>(common);
-    out.bottom = bottom;
-    return out;
-}
-
 /// Runs `operation` without the interpreter lock and returns (mesh, report as a dict).
 template <class Operation>
 py::tuple run(Operation operation) {
@@ -163,33 +148,62 @@ void bind_options(py::module_& module) {
             py::cpp_function([](OperatorOptions& o, const CadShape* skin) { o.skin = skin; }, py::keep_alive<1, 2>()));
 }
 
+/// Binds an operator twice: on a mesh, and on a session, which knows its mesh. `operate` is called with the mesh, what
+/// is known of it, and the arguments; `names` are theirs.
+template <class... Arguments, class Operate, class... Names>
+void bind_operator(py::module_& module, const char* name, Operate operate, Names... names) {
+    module.def(
+        name,
+        [operate](const Mesh& mesh, Arguments... arguments) {
+            return run([&] { return operate(mesh, Prepared{}, arguments...); });
+        },
+        py::arg("mesh"), names...);
+    module.def(
+        name,
+        [operate](const Scalpel& session, Arguments... arguments) {
+            return run([&] { return operate(session.mesh(), session.prepared(), arguments...); });
+        },
+        py::arg("session"), names...);
+}
+
 void bind_functions(py::module_& module) {
-    module.def(
-        "crack",
-        [](const Mesh& mesh, const Tool& tool, const OperatorOptions& options, const Within* within) {
-            return run([&, o = crack_options(options, within)] { return crack(mesh, tool, o); });
+    bind_operator<const Tool&, const OperatorOptions&, const Within*>(
+        module, "crack",
+        [](const Mesh& mesh, const Prepared& known, const Tool& tool, const OperatorOptions& options,
+           const Within* within) {
+            auto o = with<CrackOptions>(options);
+            o.within = within;
+            return crack(mesh, tool, o, known);
         },
-        py::arg("mesh"), py::arg("tool"), py::arg("options"), py::arg("within"));
-    module.def(
-        "drill",
-        [](const Mesh& mesh, const Tools& tools, const OperatorOptions& options, std::optional<double> depth) {
-            return run([&, o = drill_options(options, depth)] { return drill(mesh, tools, o); });
+        py::arg("tool"), py::arg("options"), py::arg("within"));
+    bind_operator<const Tools&, const OperatorOptions&, std::optional<double>>(
+        module, "drill",
+        [](const Mesh& mesh, const Prepared& known, const Tools& tools, const OperatorOptions& options,
+           std::optional<double> depth) {
+            auto o = with<DrillOptions>(options);
+            o.depth = depth;
+            return drill(mesh, tools, o, known);
         },
-        py::arg("mesh"), py::arg("tools"), py::arg("options"), py::arg("depth"));
+        py::arg("tools"), py::arg("options"), py::arg("depth"));
     // Two tools, or a plane and a width.
-    module.def(
-        "cut",
-        [](const Mesh& mesh, const Tool& positive, const Tool& negative, const OperatorOptions& options,
+    bind_operator<const Tool&, const Tool&, const OperatorOptions&, const Tool*>(
+        module, "cut",
+        [](const Mesh& mesh, const Prepared& known, const Tool& positive, const Tool& negative,
+           const OperatorOptions& options, const Tool* bottom) {
+            auto o = with<CutOptions>(options);
+            o.bottom = bottom;
+            return cut(mesh, positive, negative, o, known);
+        },
+        py::arg("positive"), py::arg("negative"), py::arg("options"), py::arg("bottom"));
+    bind_operator<const Plane&, double, const OperatorOptions&, const Tool*>(
+        module, "cut",
+        [](const Mesh& mesh, const Prepared& known, const Plane& plane, double width, const OperatorOptions& options,
            const Tool* bottom) {
-            return run([&, o = cut_options(options, bottom)] { return cut(mesh, positive, negative, o); });
+            auto o = with<CutOptions>(options);
+            o.bottom = bottom;
+            return cut(mesh, plane, width, o, known);
         },
-        py::arg("mesh"), py::arg("positive"), py::arg("negative"), py::arg("options"), py::arg("bottom"));
-    module.def(
-        "cut",
-        [](const Mesh& mesh, const Plane& plane, double width, const OperatorOptions& options, const Tool* bottom) {
-            return run([&, o = cut_options(options, bottom)] { return cut(mesh, plane, width, o); });
-        },
-        py::arg("mesh"), py::arg("plane"), py::arg("width"), py::arg("options"), py::arg("bottom"));
+        py::arg("plane"), py::arg("width"), py::arg("options"), py::arg("bottom"));
 }
 
 void bind_refine(py::module_& module) {
@@ -222,43 +236,16 @@ void bind_session(py::module_& module) {
                  return interruptible([&] { return Scalpel(std::make_shared<const Mesh>(mesh)); });
              }),
              py::arg("mesh"))
-        .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); })
-        .def(
-            "crack",
-            [](const Scalpel& scalpel, const Tool& tool, const OperatorOptions& options, const Within* within) {
-                return run([&, o = crack_options(options, within)] { return scalpel.crack(tool, o); });
-            },
-            py::arg("tool"), py::arg("options"), py::arg("within"))
-        .def(
-            "drill",
-            [](const Scalpel& scalpel, const Tools& tools, const OperatorOptions& options,
-               std::optional<double> depth) {
-                return run([&, o = drill_options(options, depth)] { return scalpel.drill(tools, o); });
-            },
-            py::arg("tools"), py::arg("options"), py::arg("depth"))
-        .def(
-            "cut",
-            [](const Scalpel& scalpel, const Tool& positive, const Tool& negative, const OperatorOptions& options,
-               const Tool* bottom) {
-                return run([&, o = cut_options(options, bottom)] { return scalpel.cut(positive, negative, o); });
-            },
-            py::arg("positive"), py::arg("negative"), py::arg("options"), py::arg("bottom"))
-        .def(
-            "cut",
-            [](const Scalpel& scalpel, const Plane& plane, double width, const OperatorOptions& options,
-               const Tool* bottom) {
-                return run([&, o = cut_options(options, bottom)] { return scalpel.cut(plane, width, o); });
-            },
-            py::arg("plane"), py::arg("width"), py::arg("options"), py::arg("bottom"));
+        .def_property_readonly("mesh", [](const Scalpel& scalpel) { return std::make_shared<Mesh>(scalpel.mesh()); });
 }
 
 }  // namespace
 
 void bind_operators(py::module_& module) {
     bind_options(module);
+    bind_session(module);
     bind_functions(module);
     bind_refine(module);
-    bind_session(module);
 }
 
 }  // namespace femscalpel::bindings

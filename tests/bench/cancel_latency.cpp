@@ -20,6 +20,9 @@
 #include "groups/virtual_boundary.h"
 #include "io/io.h"
 #include "mesh/quality.h"
+#include "operators/crack.h"
+#include "operators/cut.h"
+#include "operators/drill.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 #include "simple_meshes.h"
@@ -148,10 +151,10 @@ void measure_all(const std::filesystem::path& path) {
     deform.method = Method::deform;
     measure("crack, deform", [&] { crack(mesh, plane, deform); });
     const Scalpel scalpel(std::make_shared<Mesh>(mesh));
-    measure("crack in a session", [&] { scalpel.crack(plane); });
+    measure("crack in a session", [&] { crack(scalpel.mesh(), plane, {}, scalpel.prepared()); });
     CrackOptions preview;
     preview.band_only = true;
-    measure("preview in a session", [&] { scalpel.crack(plane, preview); });
+    measure("preview in a session", [&] { crack(scalpel.mesh(), plane, preview, scalpel.prepared()); });
     measure("drill", [&] { drill(mesh, tools); });
     measure("crack along a torus", [&] { crack(mesh, torus); });
     measure("cut", [&] { cut(mesh, plane, 0.5); });

@@ -14,6 +14,9 @@
 #include <random>
 
 #include "io/io.h"
+#include "operators/crack.h"
+#include "operators/cut.h"
+#include "operators/drill.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 #include "reference_holes.h"
@@ -91,7 +94,7 @@ void BM_session(benchmark::State& state, const std::string& name) {
     double offset = 0;
     for (auto _ : state) {
         offset += 0.01;
-        last = scalpel.crack(Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2})).report;
+        last = crack(scalpel.mesh(), Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2}), {}, scalpel.prepared()).report;
     }
     report(state, scalpel.mesh(), last);
 }
@@ -105,7 +108,7 @@ void BM_preview(benchmark::State& state, const std::string& name) {
     double offset = 0;
     for (auto _ : state) {
         offset += 0.01;
-        last = scalpel.crack(Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2}), options).report;
+        last = crack(scalpel.mesh(), Plane({7.3 + offset, 5, 5}, {0.9, 0.3, 0.2}), options, scalpel.prepared()).report;
     }
     report(state, scalpel.mesh(), last);
 }

@@ -11,6 +11,9 @@
 
 #include "groups/virtual_boundary.h"
 #include "io/io.h"
+#include "operators/crack.h"
+#include "operators/cut.h"
+#include "operators/drill.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 #include "simple_meshes.h"
@@ -124,9 +127,9 @@ TEST(CancelTest, ASessionGoesOnAsIfNothingHadBeen) {
     const auto mesh = std::make_shared<const Mesh>(box_with_groups());
     cancel_everywhere([&] { Scalpel scalpel(mesh); });
     const Scalpel scalpel(mesh);
-    const Mesh before = scalpel.crack(oblique).mesh;
-    cancel_everywhere([&] { scalpel.crack(oblique); });
-    expect_same(scalpel.crack(oblique).mesh, before);
+    const Mesh before = crack(scalpel.mesh(), oblique, {}, scalpel.prepared()).mesh;
+    cancel_everywhere([&] { crack(scalpel.mesh(), oblique, {}, scalpel.prepared()); });
+    expect_same(crack(scalpel.mesh(), oblique, {}, scalpel.prepared()).mesh, before);
 }
 
 TEST(CancelTest, ADeckIsCarriedOverOrNot) {

@@ -15,7 +15,11 @@
 
 #include "crack_checks.h"
 #include "io/inp.h"
+#include "operators/crack.h"
+#include "operators/cut.h"
+#include "operators/drill.h"
 #include "operators/scalpel.h"
+#include "session.h"
 #include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
@@ -78,7 +82,7 @@ protected:
     }
 
     Model model_;
-    Scalpel session_;
+    checks::Session session_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Meshes, PlaneProperties,
@@ -563,7 +567,8 @@ void expect_error(const Mesh& mesh, const std::function<std::unique_ptr<Plane>()
         }
     };
     attempt([&](const Plane& p) { crack(mesh, p, options); });
-    attempt([&](const Plane& p) { Scalpel(std::make_shared<const Mesh>(mesh)).crack(p, options); });
+    const Scalpel session(std::make_shared<const Mesh>(mesh));
+    attempt([&](const Plane& p) { crack(session.mesh(), p, options, session.prepared()); });
     EXPECT_TRUE(identical(mesh, before)) << "the input was changed";
 }
 

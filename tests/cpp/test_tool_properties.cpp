@@ -13,7 +13,7 @@
 #include "carve_checks.h"
 #include "io/inp.h"
 #include "lip_checks.h"
-#include "operators/scalpel.h"
+#include "session.h"
 #include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
@@ -197,7 +197,7 @@ protected:
     }
 
     Model model_;
-    Scalpel session_;
+    checks::Session session_;
     Tangency tangency_;
     std::ostringstream text_;  ///< the tool being tried
     double edge_ = 0;          ///< mean edge length of the skin
@@ -426,7 +426,8 @@ TEST_P(ToolProperties, Cones) {
 
 // Tools of the random ones that once gave 0.135, 0.09, an error, 0.089, 0.066 and 0.079.
 TEST(HardTools, InASecondOrderMesh_quadratic_elbow) {
-    const Scalpel session(std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/quadratic_elbow.inp")));
+    const checks::Session session(
+        std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/quadratic_elbow.inp")));
     const Cylinder cylinder({9.9037660860745707, -2.3080284512263174, 0.40376788794297624},
                             {-0.71130512027933934, -0.65799532260725968, -0.24715821105385724}, 1.9304847191064833);
     const Tool* tool = &cylinder;
@@ -452,7 +453,8 @@ TEST(HardTools, InASecondOrderMesh_quadratic_elbow) {
 
 // Refinement first gave the skin's node groups members inside the material, which must not hold the hole's elements.
 TEST(HardTools, WhereNodeGroupsHaveShortcuts) {
-    const Scalpel session(std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/flanged_cylinder.inp")));
+    const checks::Session session(
+        std::make_shared<const Mesh>(read_inp(FEMSCALPEL_TEST_MESHES "/flanged_cylinder.inp")));
     const Cylinder hole({5.9901303649373165, -4.4317384343779231, 10.877042977766873},
                         {-0.42100958011237904, 0.32964658321558343, 0.84503494816953562}, 2.6631721588197017);
     const Tool* tool = &hole;

@@ -12,8 +12,6 @@ struct Scalpel::State {
     DeckMarks marks;
     Adjacency adjacency;
     FamilyTotals totals;
-
-    Prepared prepared() const { return {&adjacency, &totals, &marks}; }
 };
 
 Scalpel::Scalpel(std::shared_ptr<const Mesh> mesh) {
@@ -28,20 +26,6 @@ Scalpel::Scalpel(Scalpel&&) noexcept = default;
 
 const Mesh& Scalpel::mesh() const { return *state_->mesh; }
 
-Result Scalpel::crack(const Tool& tool, const CrackOptions& options) const {
-    return femscalpel::crack(*state_->mesh, tool, options, state_->prepared());
-}
-
-Result Scalpel::drill(std::span<const Tool* const> tools, const DrillOptions& options) const {
-    return femscalpel::drill(*state_->mesh, tools, options, state_->prepared());
-}
-
-Result Scalpel::cut(const Tool& positive, const Tool& negative, const CutOptions& options) const {
-    return femscalpel::cut(*state_->mesh, positive, negative, options, state_->prepared());
-}
-
-Result Scalpel::cut(const Plane& plane, double width, const CutOptions& options) const {
-    return femscalpel::cut(*state_->mesh, plane, width, options, state_->prepared());
-}
+Prepared Scalpel::prepared() const { return {&state_->adjacency, &state_->totals, &state_->marks}; }
 
 }  // namespace femscalpel

@@ -3,14 +3,15 @@
 
 #include <memory>
 
-#include "operators/crack.h"
-#include "operators/cut.h"
-#include "operators/drill.h"
+#include "mesh/mesh.h"
+#include "operators/prepared.h"
 
 namespace femscalpel {
 
 /// Repeated operations on one mesh: keeps what does not depend on the tool (adjacency, numbering, group
-/// measures), so that a further tool position costs only its band and the output.
+/// measures), so that a further tool position costs only its band and the output:
+///
+///     crack(scalpel.mesh(), tool, options, scalpel.prepared());
 class Scalpel {
 public:
     /// Keeps a shared, unchanging copy of the mesh; linear time.
@@ -20,16 +21,8 @@ public:
 
     const Mesh& mesh() const;
 
-    /// As femscalpel::crack().
-    Result crack(const Tool& tool, const CrackOptions& options = {}) const;
-
-    /// As femscalpel::drill().
-    Result drill(std::span<const Tool* const> tools, const DrillOptions& options = {}) const;
-
-    /// As femscalpel::cut().
-    Result cut(const Tool& positive, const Tool& negative, const CutOptions& options = {}) const;
-    /// As femscalpel::cut(), a slot around a plane.
-    Result cut(const Plane& plane, double width, const CutOptions& options = {}) const;
+    /// What is known of the mesh; valid as long as this lives.
+    Prepared prepared() const;
 
 private:
     struct State;

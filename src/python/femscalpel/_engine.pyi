@@ -110,29 +110,6 @@ class Options:
 
 class Scalpel:
     def __init__(self, mesh: Mesh) -> None: ...
-    def crack(self, tool: Tool, options: Options, within: Within | None) -> tuple[Mesh, dict[str, Any]]: ...
-    @overload
-    def cut(
-        self,
-        positive: Tool,
-        negative: Tool,
-        options: Options,
-        bottom: Tool | None,
-    ) -> tuple[Mesh, dict[str, Any]]: ...
-    @overload
-    def cut(
-        self,
-        plane: Plane,
-        width: float,
-        options: Options,
-        bottom: Tool | None,
-    ) -> tuple[Mesh, dict[str, Any]]: ...
-    def drill(
-        self,
-        tools: Sequence[Tool],
-        options: Options,
-        depth: float | None,
-    ) -> tuple[Mesh, dict[str, Any]]: ...
     @property
     def mesh(self) -> Mesh: ...
 
@@ -250,11 +227,27 @@ class WriteError(Error): ...
 
 def cell_types() -> dict[str, tuple[int, int, int]]: ...
 
+@overload
 def crack(mesh: Mesh, tool: Tool, options: Options, within: Within | None) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def crack(
+    session: Scalpel,
+    tool: Tool,
+    options: Options,
+    within: Within | None,
+) -> tuple[Mesh, dict[str, Any]]: ...
 
 @overload
 def cut(
     mesh: Mesh,
+    positive: Tool,
+    negative: Tool,
+    options: Options,
+    bottom: Tool | None,
+) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def cut(
+    session: Scalpel,
     positive: Tool,
     negative: Tool,
     options: Options,
@@ -268,9 +261,25 @@ def cut(
     options: Options,
     bottom: Tool | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def cut(
+    session: Scalpel,
+    plane: Plane,
+    width: float,
+    options: Options,
+    bottom: Tool | None,
+) -> tuple[Mesh, dict[str, Any]]: ...
 
+@overload
 def drill(
     mesh: Mesh,
+    tools: Sequence[Tool],
+    options: Options,
+    depth: float | None,
+) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def drill(
+    session: Scalpel,
     tools: Sequence[Tool],
     options: Options,
     depth: float | None,

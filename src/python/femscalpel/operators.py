@@ -30,9 +30,8 @@ class Result:
 
 def _run(operator, mesh, *arguments) -> Result:
     """The Result of an engine's operator on a mesh or a session."""
-    if isinstance(mesh, Scalpel):
-        return Result._wrap(getattr(mesh._session, operator)(*arguments))
-    return Result._wrap(getattr(_engine, operator)(check_mesh(mesh), *arguments))
+    subject = mesh._session if isinstance(mesh, Scalpel) else check_mesh(mesh)
+    return Result._wrap(operator(subject, *arguments))
 
 
 @takes_options("CRACK", after={"within": "band_only"})
@@ -92,7 +91,7 @@ def crack(mesh: Mesh, tool: Tool, within: Optional[Within] = None, *, options) -
     >>> result = crack(mesh, Plane(origin=(7.3, 5, 5), normal=(0.9, 0.3, 0.2)))
     >>> result.mesh.groups["CRACK_P"].ids
     """
-    return _run("crack", mesh, check_tool(tool), options, check_within(within))
+    return _run(_engine.crack, mesh, check_tool(tool), options, check_within(within))
 
 
 def _tools(tools) -> list:
@@ -156,7 +155,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], depth: Optional[float]
     >>> result = drill(mesh, Cylinder(origin=(6, 5, 10), axis=(0, 0, -1), radius=2), depth=4)
     >>> result.mesh.groups["HOLE_WALL"].ids
     """
-    return _run("drill", mesh, _tools(tools), options, _depth(depth))
+    return _run(_engine.drill, mesh, _tools(tools), options, _depth(depth))
 
 
 def _walls(tool, width, other, bottom) -> tuple:
@@ -228,7 +227,7 @@ def cut(
     >>> saw.mesh.groups["CUT_BOTTOM"].ids
     """
     first, second, bottom = _walls(tool, width, other, bottom)
-    return _run("cut", mesh, first, second, options, bottom)
+    return _run(_engine.cut, mesh, first, second, options, bottom)
 
 
 def refine(
