@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 #: Classes that bindings take by pointer, which may be None.
 MAY_BE_NONE = ("CadShape", "Within")
 
+#: What an operator returns, of which the module says "tuple": mesh and report.
 RESULT = "tuple[Mesh, dict[str, Any]]"
 BY_TYPE = "dict[str, NDArray[np.{}]]"
 #: "function.parameter" or "function.return" -> its type, where the module's own says less.
@@ -40,12 +41,8 @@ MORE_EXACT = {
     "Mesh.mean_ratios.return": BY_TYPE.format("float64"),
     "Mesh.measures.return": BY_TYPE.format("float64"),
     "cell_types.return": "dict[str, tuple[int, int, int]]",
-    "crack.return": RESULT,
     "cut.bottom": "Tool | None",
-    "cut.return": RESULT,
-    "drill.return": RESULT,
     "elementary_groups.return": "list[tuple[str, int, tuple[str, ...], NDArray[np.int64]]]",
-    "refine.return": RESULT,
     "virtual_boundaries.return": (
         "list[\n    tuple[dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]], "
         "NDArray[np.int64]]\n]"
@@ -80,6 +77,8 @@ def signatures(name, doc):
 def python_type(text, given):
     """The type that pybind11 calls `text`; `given` to the function, or returned by it."""
     text = text.strip().replace("femscalpel._engine.", "")
+    if text == "tuple" and not given:
+        return RESULT
     if text == "os.PathLike":
         return "str | os.PathLike[str]"
     if array := re.fullmatch(r"numpy\.ndarray\[numpy\.(\w+)\]", text):
