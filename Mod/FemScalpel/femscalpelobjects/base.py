@@ -328,7 +328,7 @@ SURFACE_INPUTS = (
     ),
 )
 SURFACE_DEFAULTS = {
-    "Method": (list(femscalpel.operators.METHODS), "snap"),
+    "Method": (list(femscalpel.options.METHODS), "snap"),
     "Transition": ((0, 0, 1000, 1),),
     "FeatureAngle": (30,),
     "PreservedGroups": (["*"],),
