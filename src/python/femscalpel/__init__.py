@@ -9,7 +9,8 @@
     fs.write(result.mesh, "cracked.med")
 
 Lengths are in the mesh's own unit. The input mesh is never changed: an operator returns a new, valid mesh
-or raises an error of class :class:`Error`. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
+or raises an error of class :class:`Error`; `parameter` of these, and of TypeError and ValueError about an argument, is
+the name of the parameter at fault. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
 """
 
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError

@@ -17,7 +17,7 @@ def _distance(self, points) -> np.ndarray:
     if array.ndim == 1:
         array = array.reshape(1, -1)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"points must have the shape (n, 3), not {array.shape}")
+        raise _arguments.about("points", ValueError(f"points must have the shape (n, 3), not {array.shape}"))
     return self.distances(array)
 
 
@@ -245,7 +245,9 @@ class Face(_engine.Face):
         elif isinstance(source, (str, os.PathLike)):
             super().__init__(os.fspath(source))
         else:
-            raise TypeError(f"source must be a path or a FreeCAD shape, not {_arguments.describe(source)}")
+            raise _arguments.about(
+                "source", TypeError(f"source must be a path or a FreeCAD shape, not {_arguments.describe(source)}")
+            )
         # Kept, so that debuggers can show an object whose construction failed.
         self._text = f"Face({_arguments.describe(source)}, {self.face_count} face(s))"
 
@@ -258,5 +260,7 @@ class Face(_engine.Face):
 def check_tool(tool, name: str = "tool"):
     """`tool`; TypeError that names the parameter when it is something else."""
     if not isinstance(tool, Tool):
-        raise TypeError(f"{name} must be a tool such as femscalpel.Plane, not {_arguments.describe(tool)}")
+        raise _arguments.about(
+            name, TypeError(f"{name} must be a tool such as femscalpel.Plane, not {_arguments.describe(tool)}")
+        )
     return tool
