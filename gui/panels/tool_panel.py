@@ -18,6 +18,16 @@ from .placements import as_text
 from .view_panel import ViewPanel, abort_transaction
 
 
+#: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
+OPTION_ERRORS = {
+    "name": "nameError",
+    "method": "methodError",
+    "transition": "methodError",
+    "feature_angle": "methodError",
+    "refine": "refineError",
+}
+
+
 class ToolPanel(ViewPanel):
     """Asks for one operation on the mesh of `source_object`, or edits the object `edited`.
 
@@ -283,28 +293,23 @@ class ToolPanel(ViewPanel):
 
     def _clear_errors(self):
         self.geometry.show_error("")
-        for label in (
-            self.options.nameError,
-            self.options.methodError,
-            self.options.refineError,
-            self.result.resultError,
-        ):
-            fields.show_error(label, "")
+        for label in set(OPTION_ERRORS.values()):
+            fields.show_error(getattr(self.options, label), "")
+        fields.show_error(self.result.resultError, "")
 
     def _place_error(self, error):
         """Shows an error at the field that caused it."""
         self._clear_errors()
-        text = str(error)
-        if isinstance(error, femscalpel.ToolError) and text.startswith("name"):
-            fields.show_error(self.options.nameError, _sentence(text))
-        elif text.startswith("refine"):
-            fields.show_error(self.options.refineError, _sentence(text))
-        elif isinstance(error, femscalpel.QualityError) or text.startswith(("transition", "feature_angle", "method")):
-            fields.show_error(self.options.methodError, _sentence(text))
+        text = _sentence(str(error))
+        label = OPTION_ERRORS.get(getattr(error, "parameter", None))
+        if label is None and isinstance(error, femscalpel.QualityError):
+            label = "methodError"
+        if label is not None:
+            fields.show_error(getattr(self.options, label), text)
         elif isinstance(error, (femscalpel.ToolError, femscalpel.UnsupportedElementError)):
-            self.geometry.show_error(_sentence(text))
+            self.geometry.show_error(text)
         else:
-            fields.show_error(self.result.resultError, _sentence(text))
+            fields.show_error(self.result.resultError, text)
         self._no_result(translate("FemScalpel", "No preview: see the message in red."))
 
     def _status(self, text):
