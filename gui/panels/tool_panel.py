@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 import femscalpel
+from femscalpelobjects import operator_options
 
 from .. import preferences
 from ..macro import record_import
@@ -16,7 +17,6 @@ from . import fields, group_table
 from .histogram import Histogram
 from .placements import as_text
 from .view_panel import ViewPanel, abort_transaction
-
 
 #: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
 OPTION_ERRORS = {
@@ -109,30 +109,22 @@ class ToolPanel(ViewPanel):
 
     def arguments(self):
         """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
-        options = self.entered()
-        refine = {} if options["refine"] is None else {"refine": repr(options["refine"])}
-        return {
-            "method": repr(options["method"]),
-            "transition": repr(options["transition"] or 0),
-            "group_name": repr(options["name"]),
-            "feature_angle": repr(options["feature_angle"]),
-            **refine,
-        }
+        return {name: repr(value) for name, value in self._given().items() if (name, value) != ("refine", None)}
 
     def settings(self):
         """Properties of the document object as Python text by name."""
+        return {name: repr(value) for name, value in operator_options.to_properties(self._given()).items()}
+
+    def _given(self):
+        """What the options say, as ObjectsFemScalpel's functions take it."""
         options = self.entered()
         return {
-            "Method": repr(options["method"]),
-            "Transition": repr(options["transition"] or 0),
-            "GroupName": repr(options["name"]),
-            "FeatureAngle": repr(options["feature_angle"]),
-            **self._refinement(),
+            "method": options["method"],
+            "transition": options["transition"] or 0,
+            "group_name": options["name"],
+            "feature_angle": options["feature_angle"],
+            "refine": options["refine"],
         }
-
-    def _refinement(self):
-        how = self.options.refine.currentData()
-        return {"Refine": repr(how), **({"RefineSize": repr(self._refine_size.value)} if how == "Size" else {})}
 
     def placement(self):
         """The tool as the document object holds it."""
