@@ -148,7 +148,8 @@ def test_table_of_tools(name, kind):
     """The constructor, the attributes, repr() and the documentation say the same parameters."""
     tool, values = getattr(fs, name), TOOLS[name]
     names = [p.name for p in kind.parameters]
-    assert kind.tool is tool and name in fs.__all__ and issubclass(tool, fs.Tool)
+    assert kind.tool is tool and sorted(fs.tools.__all__) == sorted(["Tool", *fs.tools.TOOLS])
+    assert issubclass(tool, fs.Tool) and callable(tool.distance)
     assert list(inspect.signature(tool).parameters) == names
     given = dict(zip(names, values))
     for made in (tool(*values), tool(**given), kind.build(lambda p: given[p.name])):

@@ -13,7 +13,7 @@ or raises an error of class :class:`Error`; `parameter` of these, and of TypeErr
 the name of the parameter at fault. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
 """
 
-from . import tools as _tools
+from . import tools
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
 from .cancel import CancelToken
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
@@ -77,5 +77,5 @@ __all__ = [
     "virtual_boundaries",
     "virtual_boundary",
     "write",
-    *_tools.__all__,
 ]
+__all__ += tools.__all__

@@ -2,7 +2,7 @@
 """What one cuts with: one class for each tool, whose parameters are said once, in the table over it.
 
 From the table come the constructor and its checks, the attributes, the docstring and what repr() shows; documents and
-task panels of FreeCAD read it as `TOOLS`. A new tool is a class here, bound under its name.
+task panels of FreeCAD read it as `TOOLS`. A new tool is a class here, bound under its name, its parameters over it.
 """
 
 import inspect
@@ -15,7 +15,10 @@ import numpy as np
 
 from . import _arguments, _engine
 
+__all__ = ["Cone", "Cylinder", "Face", "Plane", "Sphere", "Tool", "Torus"]
+
 Tool = _engine.Tool
+Vector = Tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -114,7 +117,7 @@ def _attribute(tool, parameter):
         value = getattr(super(tool, self), name)
         return value if isinstance(value, float) else tuple(value)
 
-    get.__annotations__["return"] = float if parameter.kind.annotation is float else Tuple[float, float, float]
+    get.__annotations__["return"] = float if parameter.kind.annotation is float else Vector
     return property(get, doc=parameter.value or parameter.text)
 
 
@@ -140,7 +143,7 @@ def _made_from(*parameters, **errors):
         def __repr__(self) -> str:
             return f"{tool.__name__}({', '.join(f'{p.name}={getattr(self, p.name)}' for p in parameters)})"
 
-        made = {"__repr__": __repr__, "distance": _distance, "__init__": _constructor(tool, parameters)}
+        made = {"__repr__": __repr__, "__init__": _constructor(tool, parameters)}
         made.update((p.name, _attribute(tool, p)) for p in parameters if p.kind is not FACE)
         for name, value in made.items():
             if name not in vars(tool):
@@ -172,6 +175,9 @@ _AXIS_ORIGIN = Parameter(
 class Plane(_engine.Plane):
     """An infinite plane through `origin`, normal to `normal`."""
 
+    normal: Vector  # for editors
+    distance = _distance
+
 
 @_made_from(
     _AXIS_ORIGIN,
@@ -182,6 +188,9 @@ class Plane(_engine.Plane):
 class Cylinder(_engine.Cylinder):
     """An infinite circular cylinder; its positive side is outside."""
 
+    axis: Vector  # for editors
+    distance = _distance
+
 
 @_made_from(
     Parameter("center", POINT, "In the mesh's unit.", value="Its middle."),
@@ -190,6 +199,8 @@ class Cylinder(_engine.Cylinder):
 )
 class Sphere(_engine.Sphere):
     """A sphere; its positive side is outside."""
+
+    distance = _distance
 
 
 @_made_from(
@@ -210,6 +221,9 @@ class Sphere(_engine.Sphere):
 )
 class Torus(_engine.Torus):
     """A ring torus: a tube around a circle; its positive side is outside the tube."""
+
+    axis: Vector  # for editors
+    distance = _distance
 
 
 @_made_from(
@@ -241,8 +255,11 @@ class Cone(_engine.Cone):
     The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
     """
 
+    axis: Vector  # for editors
+    distance = _distance
+
     @property
-    def apex(self) -> Tuple[float, float, float]:
+    def apex(self) -> Vector:
         """The cone's tip."""
         return tuple(super().apex)
 
@@ -266,6 +283,8 @@ class Face(_engine.Face):
     and ``name_FRONT`` has the segments along it (see ``within`` of :func:`crack`); corners of the border become nodes.
     """
 
+    distance = _distance
+
     def __init__(self, source):
         super().__init__(_shape(source, "source"))
         # Kept, so that debuggers can show an object whose construction failed.
@@ -273,10 +292,6 @@ class Face(_engine.Face):
 
     def __repr__(self) -> str:
         return getattr(self, "_text", "Face()")
-
-
-#: What the package offers of these; of tools, all.
-__all__ = ["Tool", *TOOLS]
 
 
 def check_tool(tool, name: str = "tool"):
