@@ -13,6 +13,7 @@ import FreeCAD
 
 import femmesh_bridge
 import femscalpel
+from femscalpelobjects import operator_options, tool_properties
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.curved_crack import CurvedCrack
@@ -22,11 +23,16 @@ from femscalpelobjects.drill import Drill
 from femscalpelobjects.example import open_example
 from femscalpelobjects.group_names import rename_group
 from femscalpelobjects.refine import Refine
+from femscalpelobjects.signatures import takes
 
 if FreeCAD.GuiUp:
     from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
 
 
+@takes(
+    options=operator_options.arguments(group_name="CRACK"),
+    after=dict.fromkeys(("patch", "patch_radius", "patch_second_radius", "patch_corners"), "preserve"),
+)
 def makeCrack(
     doc,
     source,
@@ -34,20 +40,19 @@ def makeCrack(
     placement=None,
     origin=None,
     normal=None,
-    method="snap",
-    transition=0,
-    group_name="CRACK",
-    feature_angle=30.0,
-    preserve=None,
     patch="Whole",
     patch_radius=1.0,
     patch_second_radius=0.5,
     patch_corners=(),
-    refine=None,
+    *,
+    options,
 ):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a plane or a part of it.
 
     The mesh is made by doc.recompute(), and again whenever the source or a property changes. `source` stays as it is.
+    The lips are the mesh groups ``group_name_P`` and ``group_name_N``. Face elements; if the source is a solid mesh
+    without face elements, groups of nodes (FreeCAD's solver writers would lose face loads on a mesh with some face
+    elements only).
 
     Parameters
     ----------
@@ -60,18 +65,7 @@ def makeCrack(
         The plane is the XY plane of this placement, its z axis points to the positive side.
     origin, normal : App.Vector or three numbers, optional
         The plane in another form; not together with `placement`. Both default to the middle of the mesh and z.
-    method : {"snap", "deform"}
-        See femscalpel.crack.
-    transition : int
-        Rings of elements around the plane that may move; 0: automatic.
-    group_name : str
-        Prefix of the new mesh groups: ``group_name_P`` and ``group_name_N`` are the lips. Face elements; if the
-        source is a solid mesh without face elements, groups of nodes (FreeCAD's solver writers would lose face loads
-        on a mesh with some face elements only).
-    feature_angle : float
-        Degrees; skin edges sharper than this keep their shape.
-    preserve : names of mesh groups, optional
-        The groups whose border keeps its shape; all when not given. Borders of others may drift.
+    {options}
     patch : {"Whole", "Disk", "Ellipse", "Polygon", "HalfPlane"}
         The part of the plane that cracks; its border is the crack front, group ``group_name_FRONT``. Disk and ellipse
         have their centre at the placement's origin, the half plane is on the side of the placement's x axis.
@@ -79,9 +73,6 @@ def makeCrack(
         Of a disk; of an ellipse along the placement's x and y axis. In mm.
     patch_corners : sequence of App.Vector or (x, y) or (x, y, z)
         Of a polygon, in order around it, in the placement's own axes; z does not count.
-    refine : None, False or float
-        Whether elements near the tool are divided first: None: where the tool is finer than the mesh; False: never; a
-        number: where edges are longer than so many mm.
 
     Returns
     -------
@@ -96,27 +87,24 @@ def makeCrack(
         not one the property takes. Nothing is added then.
     """
     _check_source(doc, source)
-    plane = _placement(source, placement, origin, normal, "normal")
-    corners = [FreeCAD.Vector(*tuple(corner)[:2], 0) for corner in patch_corners]
     return _make(
         doc,
         Crack,
         source,
         name,
-        PlanePlacement=plane,
+        options,
+        PlanePlacement=_placement(source, placement, origin, normal, "normal"),
         Patch=patch,
         PatchRadius=patch_radius,
         PatchSecondRadius=patch_second_radius,
-        PatchCorners=corners,
-        Method=method,
-        Transition=transition,
-        GroupName=group_name,
-        FeatureAngle=feature_angle,
-        PreservedGroups=_preserved(preserve),
-        **_refinement(refine),
+        PatchCorners=[FreeCAD.Vector(*tuple(corner)[:2], 0) for corner in patch_corners],
     )
 
 
+@takes(
+    options=operator_options.arguments(group_name="CRACK"),
+    after=dict.fromkeys(("along", "angles"), "preserve"),
+)
 def makeCylindricalCrack(
     doc,
     source,
@@ -125,21 +113,32 @@ def makeCylindricalCrack(
     origin=None,
     axis=None,
     radius=1.0,
-    method="snap",
-    transition=0,
-    group_name="CRACK",
-    feature_angle=30.0,
-    preserve=None,
     along=None,
     angles=(0, 360),
-    refine=None,
+    *,
+    options,
 ):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a cylinder or a part of it.
 
-    The cylinder has the z axis of `placement`, or `axis` through `origin`, and the radius `radius` in mm. With `along`,
-    two numbers, it cracks from there to there on the axis, measured from the placement's origin; then `angles`, in
-    degrees from the placement's x axis, can bound it too. The lip ``_P`` is outside. Everything else is as for
-    makeCrack().
+    The lip ``group_name_P`` is outside.
+
+    Parameters
+    ----------
+    doc, source, name
+        As for makeCrack().
+    placement : App.Placement, optional
+        The cylinder's axis is z of this placement.
+    origin, axis : App.Vector or three numbers, optional
+        The axis in another form; not together with `placement`. Both default to the middle of the mesh and z.
+    radius : float
+        Of the cylinder, in mm.
+    {options}
+    along : two numbers, optional
+        From where to where on the axis it cracks, measured from the placement's origin; all along when not given.
+    angles : two numbers
+        With `along`: from where to where about the axis, in degrees from the placement's x axis.
+
+    Returns and raises as makeCrack().
     """
     _check_source(doc, source)
     placement = _placement(source, placement, origin, axis, "axis")
@@ -149,6 +148,7 @@ def makeCylindricalCrack(
         CylindricalCrack,
         source,
         name,
+        options,
         AxisPlacement=placement,
         Radius=radius,
         Bounded=along is not None,
@@ -156,64 +156,40 @@ def makeCylindricalCrack(
         High=high,
         StartAngle=angles[0],
         EndAngle=angles[1],
-        Method=method,
-        Transition=transition,
-        GroupName=group_name,
-        FeatureAngle=feature_angle,
-        PreservedGroups=_preserved(preserve),
-        **_refinement(refine),
     )
 
 
+@takes(
+    inputs=tool_properties.arguments(),
+    options=operator_options.arguments(group_name="CRACK"),
+    after=tool_properties.places(face="preserve", last="refine"),
+)
 def makeCurvedCrack(
-    doc,
-    source,
-    name="CurvedCrack",
-    tool="Sphere",
-    placement=None,
-    origin=None,
-    axis=None,
-    radius=1.0,
-    tube_radius=0.25,
-    half_angle=30.0,
-    method="snap",
-    transition=0,
-    group_name="CRACK",
-    feature_angle=30.0,
-    preserve=None,
-    face=None,
-    refine=None,
+    doc, source, name="CurvedCrack", tool="Sphere", placement=None, origin=None, axis=None, *, inputs, options
 ):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along a curved tool.
 
-    `tool` is "Cylinder", "Sphere", "Torus", "Cone" or "Face"; see the classes of that name in femscalpel. Its centre
-    and axis are `origin` and `axis`, or origin and z axis of `placement`. `radius` is that of a cylinder or sphere, of
-    a torus' ring, of a cone at its origin; `tube_radius` that of a torus' tube; `half_angle`, in degrees, is a cone's.
-    `face` is for "Face": a document object with a shape, or (object, names of its faces). The lip ``_P`` is outside, or
-    on the side a face's normals point to. Everything else is as for makeCrack().
+    The lip ``group_name_P`` is outside, or on the side a face's normals point to.
+
+    Parameters
+    ----------
+    doc, source, name
+        As for makeCrack().
+    tool : str
+        "Cylinder", "Sphere", "Torus", "Cone", "Face", ...: the name of a tool's class in femscalpel.
+    placement : App.Placement, optional
+        The tool's centre, or a point of its axis, is the origin of this placement, its axis z.
+    origin, axis : App.Vector or three numbers, optional
+        The same in another form; not together with `placement`. Both default to the middle of the mesh and z.
+    {inputs}
+    {options}
+
+    Returns and raises as makeCrack().
     """
-    _check_source(doc, source)
-    placement = _placement(source, placement, origin, axis, "axis")
-    return _make(
-        doc,
-        CurvedCrack,
-        source,
-        name,
-        ToolShape=tool,
-        ToolFace=_link(face),
-        AxisPlacement=placement,
-        Radius=radius,
-        TubeRadius=tube_radius,
-        HalfAngle=half_angle,
-        Method=method,
-        Transition=transition,
-        GroupName=group_name,
-        FeatureAngle=feature_angle,
-        PreservedGroups=_preserved(preserve),
-        **_refinement(refine),
-    )
+    return _make_along_tool(doc, CurvedCrack, source, name, tool, (placement, origin, axis), inputs, options)
 
 
+@takes(options=operator_options.arguments(group_name="HOLE"))
 def makeDrill(
     doc,
     source,
@@ -224,18 +200,16 @@ def makeDrill(
     radius=1.0,
     depth=None,
     positions=(),
-    method="snap",
-    transition=0,
-    group_name="HOLE",
-    feature_angle=30.0,
-    preserve=None,
-    refine=None,
+    *,
+    options,
 ):
     """Adds a parametric mesh object to `doc`: the mesh of `source` with one or several parallel holes.
 
+    The new mesh groups are ``group_name_WALL``, and ``group_name_BOTTOM`` of blind holes; see femscalpel.drill.
+
     Parameters
     ----------
-    doc, source, name, method, transition, feature_angle, preserve, refine
+    doc, source, name
         As for makeCrack().
     placement : App.Placement, optional
         A hole's axis is z of this placement.
@@ -247,32 +221,26 @@ def makeDrill(
         The holes end flat, this far beyond the placement's origin along its z; through holes when not given.
     positions : sequence of App.Vector or three numbers
         For several holes: where they are, in the placement's own axes.
-    group_name : str
-        Prefix of the new mesh groups: ``_WALL``, and ``_BOTTOM`` of blind holes; see femscalpel.drill.
+    {options}
 
     Returns and raises as makeCrack().
     """
     _check_source(doc, source)
-    placement = _placement(source, placement, origin, axis, "axis")
     return _make(
         doc,
         Drill,
         source,
         name,
-        AxisPlacement=placement,
+        options,
+        AxisPlacement=_placement(source, placement, origin, axis, "axis"),
         Radius=radius,
         Positions=[FreeCAD.Vector(*p) for p in positions],
         Through=depth is None,
         Depth=depth or 0,
-        Method=method,
-        Transition=transition,
-        GroupName=group_name,
-        FeatureAngle=feature_angle,
-        PreservedGroups=_preserved(preserve),
-        **_refinement(refine),
     )
 
 
+@takes(options=operator_options.arguments(without=("method",), group_name="CUT"))
 def makeCut(
     doc,
     source,
@@ -282,18 +250,18 @@ def makeCut(
     normal=None,
     width=1.0,
     bottom=None,
-    transition=0,
-    group_name="CUT",
-    feature_angle=30.0,
-    preserve=None,
-    refine=None,
+    *,
+    options,
 ):
     """Adds a parametric mesh object to `doc`: the mesh of `source` with a slot, an incision between two parallel
     planes.
 
+    The new mesh groups are ``group_name_P`` and ``group_name_N``, the walls, and ``group_name_BOTTOM``; see
+    femscalpel.cut.
+
     Parameters
     ----------
-    doc, source, name, transition, feature_angle, preserve, refine
+    doc, source, name
         As for makeCrack().
     placement, origin, normal
         The plane in the middle of the slot, as for makeCrack().
@@ -302,30 +270,32 @@ def makeCut(
     bottom : App.Placement, optional
         The slot ends at the XY plane of this placement, whose z axis points into the material that stays; it goes
         through the whole part when not given.
-    group_name : str
-        Prefix of the new mesh groups: ``_P`` and ``_N``, the walls, and ``_BOTTOM``; see femscalpel.cut.
+    {options}
 
     Returns and raises as makeCrack().
     """
     _check_source(doc, source)
-    plane = _placement(source, placement, origin, normal, "normal")
     return _make(
         doc,
         Cut,
         source,
         name,
-        PlanePlacement=plane,
+        options,
+        PlanePlacement=_placement(source, placement, origin, normal, "normal"),
         Width=width,
         Through=bottom is None,
         BottomPlacement=bottom or FreeCAD.Placement(),
-        Transition=transition,
-        GroupName=group_name,
-        FeatureAngle=feature_angle,
-        PreservedGroups=_preserved(preserve),
-        **_refinement(refine),
     )
 
 
+@takes(
+    inputs=tool_properties.arguments(),
+    options=operator_options.arguments("feature_angle"),
+    after={
+        **dict.fromkeys(("size", "reach", "gradation"), "half_angle"),
+        **tool_properties.places(face="feature_angle", last="face"),
+    },
+)
 def makeRefine(
     doc,
     source,
@@ -334,37 +304,44 @@ def makeRefine(
     placement=None,
     origin=None,
     axis=None,
-    radius=1.0,
-    tube_radius=0.25,
-    half_angle=30.0,
     size=1.0,
     reach=0.0,
     gradation=0.5,
-    feature_angle=30.0,
-    face=None,
+    *,
+    inputs,
+    options,
 ):
     """Adds a parametric mesh object to `doc`: the mesh of `source`, with edges no longer than `size` mm around a tool.
 
-    The tool is as for makeCurvedCrack(), or "Plane", with `axis` as its normal. `size` holds up to the distance
-    `reach`; beyond, edges may be longer by `gradation` per unit of distance. See femscalpel.refine.
+    Parameters
+    ----------
+    doc, source, name
+        As for makeCrack().
+    tool, placement, origin, axis
+        As for makeCurvedCrack(), or "Plane", with `axis` as its normal.
+    {inputs}
+    size : float
+        Longest edge wanted at the tool, in mm.
+    reach : float
+        `size` holds up to this distance from the tool.
+    gradation : float
+        How much longer edges may be per unit of distance beyond; see femscalpel.refine.
+    {options}
+
+    Returns and raises as makeCrack().
     """
-    _check_source(doc, source)
-    placement = _placement(source, placement, origin, axis, "axis")
-    return _make(
+    return _make_along_tool(
         doc,
         Refine,
         source,
         name,
-        ToolShape=tool,
-        ToolFace=_link(face),
-        AxisPlacement=placement,
-        Radius=radius,
-        TubeRadius=tube_radius,
-        HalfAngle=half_angle,
+        tool,
+        (placement, origin, axis),
+        inputs,
+        options,
         Size=size,
         Reach=reach,
         Gradation=gradation,
-        FeatureAngle=feature_angle,
     )
 
 
@@ -426,8 +403,25 @@ def _check_source(doc, source):
         raise ValueError(f"source '{source.Label}' is in another document")
 
 
-def _make(doc, operation, source, name, **properties):
+def _make_along_tool(doc, operation, source, name, tool, place, inputs, options, **properties):
+    """As _make(), of an operation with any tool: `tool` at the `place` (placement, origin, axis) with `inputs`."""
+    _check_source(doc, source)
+    return _make(
+        doc,
+        operation,
+        source,
+        name,
+        options,
+        ToolShape=tool,
+        AxisPlacement=_placement(source, *place, "axis"),
+        **tool_properties.to_properties(inputs),
+        **properties,
+    )
+
+
+def _make(doc, operation, source, name, options, **properties):
     """The new object; nothing is left behind when a property does not take its value."""
+    properties = {**properties, **operator_options.to_properties(options)}
     obj = doc.addObject("Fem::FemMeshObjectPython", name)
     try:
         operation(obj)
@@ -440,28 +434,6 @@ def _make(doc, operation, source, name, **properties):
     if FreeCAD.GuiUp:
         ViewProviderMeshOperation(obj.ViewObject)
     return obj
-
-
-def _link(face):
-    """The value of a property of type LinkSub."""
-    if face is None or isinstance(face, (tuple, list)):
-        return face
-    return face, [""]
-
-
-def _refinement(refine):
-    """The properties Refine and RefineSize of an argument `refine`."""
-    if refine is None:
-        return {"Refine": "Automatic"}
-    if refine is False:
-        return {"Refine": "Never"}
-    if isinstance(refine, bool) or not refine > 0:
-        raise ValueError(f"refine must be None, False or a positive length, not {refine!r}")
-    return {"Refine": "Size", "RefineSize": refine}
-
-
-def _preserved(preserve):
-    return ["*"] if preserve is None else list(preserve)
 
 
 def _placement(source, placement, origin, direction, name):

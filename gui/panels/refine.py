@@ -1,15 +1,29 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Task panel: refine near a cylinder, sphere or plane."""
+"""Task panel: refine near a tool with a place, a direction and a radius, such as a cylinder, sphere or plane."""
 
 import FreeCAD
 
 import femscalpel
+from femscalpel.tools import DIRECTION, LENGTH, POINT, TOOLS
 
 from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 from .cylinder_panel import CylinderPanel
 
-SHAPES = ("Cylinder", "Sphere", "Plane")
+#: Tools that a place, a direction and a radius say; those with a radius first.
+SHAPES = sorted(
+    (
+        name
+        for name, kind in TOOLS.items()
+        if {p.asked_as for p in kind.parameters if p.kind not in (POINT, DIRECTION)} <= {"radius"}
+    ),
+    key=lambda name: not any(p.asked_as == "radius" for p in TOOLS[name].parameters),
+)
+TEXTS = (
+    QT_TRANSLATE_NOOP("FemScalpel", "Cylinder"),
+    QT_TRANSLATE_NOOP("FemScalpel", "Sphere"),
+    QT_TRANSLATE_NOOP("FemScalpel", "Plane"),
+)
 
 
 class RefinePanel(CylinderPanel):
@@ -21,13 +35,8 @@ class RefinePanel(CylinderPanel):
 
     def add_inputs(self):
         self.sizes = self.insert_form("refine.ui")
-        texts = (
-            translate("FemScalpel", "Cylinder"),
-            translate("FemScalpel", "Sphere"),
-            translate("FemScalpel", "Plane"),
-        )
-        for text, shape in zip(texts, SHAPES):
-            self.sizes.toolShape.addItem(text, shape)
+        for shape in SHAPES:
+            self.sizes.toolShape.addItem(translate("FemScalpel", shape), shape)
         size = self.geometry.size
         self._size = fields.Number(self.sizes.edgeSize, self.update, size / 30)
         self._reach = fields.Number(self.sizes.reach, self.update, 0)
@@ -43,14 +52,8 @@ class RefinePanel(CylinderPanel):
         return self.sizes.toolShape.currentData()
 
     def tool(self):
-        origin, direction, radius = self.geometry.origin(), self.geometry.direction(), self.geometry.radius()
-        if self._shape() == "Plane":
-            return femscalpel.Plane(origin, direction)
-        return (
-            femscalpel.Sphere(origin, radius)
-            if self._shape() == "Sphere"
-            else femscalpel.Cylinder(origin, direction, radius)
-        )
+        entered = {POINT: self.geometry.origin(), DIRECTION: self.geometry.direction(), LENGTH: self.geometry.radius()}
+        return TOOLS[self._shape()].build(lambda parameter: entered[parameter.kind])
 
     def operation(self, tool, options):
         size, reach, gradation, angle = (

@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 import femscalpel
+from femscalpelobjects import operator_options
 
 from .. import preferences
 from ..macro import record_import
@@ -16,6 +17,15 @@ from . import fields, group_table
 from .histogram import Histogram
 from .placements import as_text
 from .view_panel import ViewPanel, abort_transaction
+
+#: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
+OPTION_ERRORS = {
+    "name": "nameError",
+    "method": "methodError",
+    "transition": "methodError",
+    "feature_angle": "methodError",
+    "refine": "refineError",
+}
 
 
 class ToolPanel(ViewPanel):
@@ -99,30 +109,22 @@ class ToolPanel(ViewPanel):
 
     def arguments(self):
         """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
-        options = self.entered()
-        refine = {} if options["refine"] is None else {"refine": repr(options["refine"])}
-        return {
-            "method": repr(options["method"]),
-            "transition": repr(options["transition"] or 0),
-            "group_name": repr(options["name"]),
-            "feature_angle": repr(options["feature_angle"]),
-            **refine,
-        }
+        return {name: repr(value) for name, value in self._given().items() if (name, value) != ("refine", None)}
 
     def settings(self):
         """Properties of the document object as Python text by name."""
+        return {name: repr(value) for name, value in operator_options.to_properties(self._given()).items()}
+
+    def _given(self):
+        """What the options say, as ObjectsFemScalpel's functions take it."""
         options = self.entered()
         return {
-            "Method": repr(options["method"]),
-            "Transition": repr(options["transition"] or 0),
-            "GroupName": repr(options["name"]),
-            "FeatureAngle": repr(options["feature_angle"]),
-            **self._refinement(),
+            "method": options["method"],
+            "transition": options["transition"] or 0,
+            "group_name": options["name"],
+            "feature_angle": options["feature_angle"],
+            "refine": options["refine"],
         }
-
-    def _refinement(self):
-        how = self.options.refine.currentData()
-        return {"Refine": repr(how), **({"RefineSize": repr(self._refine_size.value)} if how == "Size" else {})}
 
     def placement(self):
         """The tool as the document object holds it."""
@@ -283,28 +285,23 @@ class ToolPanel(ViewPanel):
 
     def _clear_errors(self):
         self.geometry.show_error("")
-        for label in (
-            self.options.nameError,
-            self.options.methodError,
-            self.options.refineError,
-            self.result.resultError,
-        ):
-            fields.show_error(label, "")
+        for label in set(OPTION_ERRORS.values()):
+            fields.show_error(getattr(self.options, label), "")
+        fields.show_error(self.result.resultError, "")
 
     def _place_error(self, error):
         """Shows an error at the field that caused it."""
         self._clear_errors()
-        text = str(error)
-        if isinstance(error, femscalpel.ToolError) and text.startswith("name"):
-            fields.show_error(self.options.nameError, _sentence(text))
-        elif text.startswith("refine"):
-            fields.show_error(self.options.refineError, _sentence(text))
-        elif isinstance(error, femscalpel.QualityError) or text.startswith(("transition", "feature_angle", "method")):
-            fields.show_error(self.options.methodError, _sentence(text))
+        text = _sentence(str(error))
+        label = OPTION_ERRORS.get(getattr(error, "parameter", None))
+        if label is None and isinstance(error, femscalpel.QualityError):
+            label = "methodError"
+        if label is not None:
+            fields.show_error(getattr(self.options, label), text)
         elif isinstance(error, (femscalpel.ToolError, femscalpel.UnsupportedElementError)):
-            self.geometry.show_error(_sentence(text))
+            self.geometry.show_error(text)
         else:
-            fields.show_error(self.result.resultError, _sentence(text))
+            fields.show_error(self.result.resultError, text)
         self._no_result(translate("FemScalpel", "No preview: see the message in red."))
 
     def _status(self, text):

@@ -27,6 +27,25 @@ PyObject* add_exception(py::module_& module, const char* name, const char* doc, 
     return type;
 }
 
+/// Raises a Python exception with what the error says, and the parameter it is about.
+void raise(PyObject* type, const Error& e) {
+    const auto error = py::reinterpret_steal<py::object>(PyObject_CallFunction(type, "s", e.what()));
+    if (!error) return;  // Python has raised another one
+    if (*e.parameter() && PyObject_SetAttrString(error.ptr(), "_parameter", py::str(e.parameter()).ptr()) != 0) return;
+    PyErr_SetObject(type, error.ptr());
+}
+
+/// The property `parameter` of all errors.
+void add_parameter(PyObject* type) {
+    const py::cpp_function get(
+        [](const py::object& error) -> py::object { return py::getattr(error, "_parameter", py::none()); });
+    const py::object property = py::module_::import("builtins").attr("property");
+    py::handle(type).attr("parameter") =
+        property(get, py::none(), py::none(),
+                 "Name of the parameter at fault, of the function or class called, or None: it is none, or not one\n"
+                 "alone.");
+}
+
 }  // namespace
 
 void bind_errors(py::module_& module) {
@@ -35,6 +54,7 @@ void bind_errors(py::module_& module) {
                       "Base of every error femscalpel raises itself. The message names the file, line, entity or\n"
                       "parameter at fault and says what to do.",
                       PyExc_RuntimeError);
+    add_parameter(types.error);
     types.read =
         add_exception(module, "ReadError",
                       "A file cannot be read: missing, truncated, corrupt or contradicting itself.", types.error);
@@ -56,19 +76,19 @@ void bind_errors(py::module_& module) {
         try {
             if (pointer) std::rethrow_exception(pointer);
         } catch (const ReadError& e) {
-            PyErr_SetString(types.read, e.what());
+            raise(types.read, e);
         } catch (const WriteError& e) {
-            PyErr_SetString(types.write, e.what());
+            raise(types.write, e);
         } catch (const ToolError& e) {
-            PyErr_SetString(types.tool, e.what());
+            raise(types.tool, e);
         } catch (const QualityError& e) {
-            PyErr_SetString(types.quality, e.what());
+            raise(types.quality, e);
         } catch (const UnsupportedElementError& e) {
-            PyErr_SetString(types.unsupported, e.what());
+            raise(types.unsupported, e);
         } catch (const Cancelled& e) {
-            PyErr_SetString(types.cancelled, e.what());
+            raise(types.cancelled, e);
         } catch (const Error& e) {
-            PyErr_SetString(types.error, e.what());
+            raise(types.error, e);
         }
     });
 }

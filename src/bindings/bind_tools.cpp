@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <array>
 #include <optional>
+#include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -42,6 +44,44 @@ py::array_t<double> at_each(const RealArray& points, Function value) {
     return copied<double>(values);
 }
 
+Eigen::Vector3d to_engine(const Triple& t) { return vector(t); }
+double to_engine(double x) { return x; }
+Triple to_python(const Eigen::Vector3d& v) { return triple(v); }
+double to_python(double x) { return x; }
+
+/// A parameter of a tool: its name, and the attribute that gives it back.
+template <class T, class Value>
+struct Parameter {
+    using Given = std::conditional_t<std::is_same_v<Value, double>, double, Triple>;
+    const char* name;
+    std::string attribute;
+    Value (T::*get)() const;
+};
+
+/// A parameter that the tool keeps as it is given: a point or a number.
+template <class T, class Value>
+Parameter<T, Value> given(const char* name, Value (T::*get)() const) {
+    return {name, name, get};
+}
+
+/// A direction, of which the tool keeps the unit vector.
+template <class T, class Value>
+Parameter<T, Value> direction(const char* name, Value (T::*get)() const) {
+    return {name, std::string("unit_") + name, get};
+}
+
+/// Binds a tool that is made from `parameters`, in this order. What they are for is said by the package, in tools.py.
+template <class T, class... Parameters>
+py::class_<T, Tool> bind_tool(py::module_& module, const char* name, const Parameters&... parameters) {
+    py::class_<T, Tool> out(module, name);
+    out.def(py::init([](const typename Parameters::Given&... values) { return T(to_engine(values)...); }),
+            py::arg(parameters.name)...);
+    (out.def_property_readonly(parameters.attribute.c_str(),
+                               [get = parameters.get](const T& tool) { return to_python((tool.*get)()); }),
+     ...);
+    return out;
+}
+
 }  // namespace
 
 void bind_tools(py::module_& module) {
@@ -61,43 +101,15 @@ void bind_tools(py::module_& module) {
                 return at_each(points, [&](const Eigen::Vector3d& x) { return tool.distance(x); });
             },
             py::arg("points"));
-    py::class_<Plane, Tool>(module, "Plane")
-        .def(py::init([](const Triple& origin, const Triple& normal) { return Plane(vector(origin), vector(normal)); }),
-             py::arg("origin"), py::arg("normal"))
-        .def_property_readonly("origin", [](const Plane& plane) { return triple(plane.origin()); })
-        .def_property_readonly("unit_normal", [](const Plane& plane) { return triple(plane.unit_normal()); });
-    py::class_<Cylinder, Tool>(module, "Cylinder")
-        .def(py::init([](const Triple& origin, const Triple& axis, double radius) {
-                 return Cylinder(vector(origin), vector(axis), radius);
-             }),
-             py::arg("origin"), py::arg("axis"), py::arg("radius"))
-        .def_property_readonly("origin", [](const Cylinder& cylinder) { return triple(cylinder.origin()); })
-        .def_property_readonly("unit_axis", [](const Cylinder& cylinder) { return triple(cylinder.unit_axis()); })
-        .def_property_readonly("radius", &Cylinder::radius, "In the mesh's unit.");
-    py::class_<Sphere, Tool>(module, "Sphere")
-        .def(py::init([](const Triple& center, double radius) { return Sphere(vector(center), radius); }),
-             py::arg("center"), py::arg("radius"))
-        .def_property_readonly("center", [](const Sphere& sphere) { return triple(sphere.center()); })
-        .def_property_readonly("radius", &Sphere::radius, "In the mesh's unit.");
-    py::class_<Torus, Tool>(module, "Torus")
-        .def(py::init([](const Triple& center, const Triple& axis, double major_radius, double minor_radius) {
-                 return Torus(vector(center), vector(axis), major_radius, minor_radius);
-             }),
-             py::arg("center"), py::arg("axis"), py::arg("major_radius"), py::arg("minor_radius"))
-        .def_property_readonly("center", [](const Torus& torus) { return triple(torus.center()); })
-        .def_property_readonly("unit_axis", [](const Torus& torus) { return triple(torus.unit_axis()); })
-        .def_property_readonly("major_radius", &Torus::major_radius, "Of the circle, in the mesh's unit.")
-        .def_property_readonly("minor_radius", &Torus::minor_radius, "Of the tube around it, in the mesh's unit.");
-    py::class_<Cone, Tool>(module, "Cone")
-        .def(py::init([](const Triple& origin, const Triple& axis, double radius, double half_angle) {
-                 return Cone(vector(origin), vector(axis), radius, half_angle);
-             }),
-             py::arg("origin"), py::arg("axis"), py::arg("radius"), py::arg("half_angle"))
-        .def_property_readonly("origin", [](const Cone& cone) { return triple(cone.origin()); })
-        .def_property_readonly("unit_axis", [](const Cone& cone) { return triple(cone.unit_axis()); })
-        .def_property_readonly("apex", [](const Cone& cone) { return triple(cone.apex()); })
-        .def_property_readonly("radius", &Cone::radius, "At the origin, in the mesh's unit.")
-        .def_property_readonly("half_angle", &Cone::half_angle, "Degrees between the axis and the surface.");
+    bind_tool<Plane>(module, "Plane", given("origin", &Plane::origin), direction("normal", &Plane::unit_normal));
+    bind_tool<Cylinder>(module, "Cylinder", given("origin", &Cylinder::origin), direction("axis", &Cylinder::unit_axis),
+                        given("radius", &Cylinder::radius));
+    bind_tool<Sphere>(module, "Sphere", given("center", &Sphere::center), given("radius", &Sphere::radius));
+    bind_tool<Torus>(module, "Torus", given("center", &Torus::center), direction("axis", &Torus::unit_axis),
+                     given("major_radius", &Torus::major_radius), given("minor_radius", &Torus::minor_radius));
+    bind_tool<Cone>(module, "Cone", given("origin", &Cone::origin), direction("axis", &Cone::unit_axis),
+                    given("radius", &Cone::radius), given("half_angle", &Cone::half_angle))
+        .def_property_readonly("apex", [](const Cone& cone) { return triple(cone.apex()); });
     py::class_<Face, Tool>(module, "Face")
         // In this order: bytes would pass for a path too.
         .def(py::init([](const py::bytes& brep) { return Face::from_brep(brep); }), py::arg("brep"))

@@ -36,6 +36,7 @@ RESULT = "tuple[Mesh, dict[str, Any]]"
 BY_TYPE = "dict[str, NDArray[np.{}]]"
 #: "function.parameter" or "function.return" -> its type, where the module's own says less.
 MORE_EXACT = {
+    "Error.parameter.return": "str | None",
     "Mesh.cells.return": BY_TYPE.format("int64"),
     "Mesh.cell_ids.return": BY_TYPE.format("int64"),
     "Mesh.mean_ratios.return": BY_TYPE.format("float64"),

@@ -10,7 +10,16 @@ namespace femscalpel {
 /// fault and says what the user can do.
 class Error : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    /// `parameter` is a literal: the name of the parameter of the function or constructor called that is at fault, as
+    /// the Python package calls it; "" when it is none or not one alone.
+    explicit Error(const std::string& message, const char* parameter = "")
+        : std::runtime_error(message), parameter_(parameter) {}
+
+    /// Name of the parameter that the error is about, or "".
+    const char* parameter() const noexcept { return parameter_; }
+
+private:
+    const char* parameter_;
 };
 
 /// A file cannot be read: missing, truncated, corrupt, or it contradicts itself.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "crack_checks.h"
 #include "error.h"
@@ -96,6 +98,28 @@ TEST(Tools, Cone) {
         EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 1, angle), ToolError);
     EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 1}, 0, 30), ToolError);
     EXPECT_THROW(Cone({0, 0, 0}, {0, 0, 0}, 1, 30), ToolError);
+}
+
+/// What the error of `make` is about, as base class.
+template <class Make>
+std::string parameter_at_fault(Make make) {
+    try {
+        make();
+    } catch (const Error& e) {
+        return e.parameter();
+    }
+    return "no error";
+}
+
+TEST(Tools, ErrorsCarryTheirParameter) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(parameter_at_fault([&] { Plane({infinite, 0, 0}, {0, 0, 1}); }), "origin");
+    EXPECT_EQ(parameter_at_fault([&] { Plane({0, 0, 0}, {0, 0, 0}); }), "normal");
+    EXPECT_EQ(parameter_at_fault([&] { Cylinder({0, 0, 0}, {0, 0, 1}, infinite); }), "radius");
+    EXPECT_EQ(parameter_at_fault([&] { Sphere({0, infinite, 0}, 1); }), "center");
+    EXPECT_EQ(parameter_at_fault([&] { Torus({0, 0, 0}, {0, 0, 1}, 2, 3); }), "minor_radius");
+    EXPECT_EQ(parameter_at_fault([&] { Cone({0, 0, 0}, {0, 0, 1}, 1, 90); }), "half_angle");
+    EXPECT_EQ(parameter_at_fault([] { throw QualityError("of no parameter"); }), "");
 }
 
 }  // namespace

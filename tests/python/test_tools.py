@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+import inspect
 from pathlib import Path
 
 import numpy as np
@@ -130,6 +131,43 @@ def test_bad_face(tmp_path):
         fs.Face(tmp_path / "nowhere.step")
     with pytest.raises(TypeError, match="source must be a path or a FreeCAD shape"):
         fs.Face(3)
+
+
+TOOLS = {
+    "Plane": ((1, 2, 3), (0, 0, 1)),
+    "Cylinder": ((1, 2, 3), (0, 0, 1), 2.0),
+    "Sphere": ((1, 2, 3), 2.0),
+    "Torus": ((1, 2, 3), (0, 0, 1), 3.0, 2.0),
+    "Cone": ((1, 2, 3), (0, 0, 1), 3.0, 20.0),
+    "Face": (SHAPES / "plane.brep",),
+}
+
+
+@pytest.mark.parametrize("name, kind", fs.tools.TOOLS.items())
+def test_table_of_tools(name, kind):
+    """The constructor, the attributes, repr() and the documentation say the same parameters."""
+    tool, values = getattr(fs, name), TOOLS[name]
+    names = [p.name for p in kind.parameters]
+    assert kind.tool is tool and sorted(fs.tools.__all__) == sorted(["Tool", *fs.tools.TOOLS])
+    assert issubclass(tool, fs.Tool) and callable(tool.distance)
+    assert list(inspect.signature(tool).parameters) == names
+    given = dict(zip(names, values))
+    for made in (tool(*values), tool(**given), kind.build(lambda p: given[p.name])):
+        if name != "Face":
+            assert repr(made) == f"{name}({', '.join(f'{n}={floats(v)}' for n, v in given.items())})"
+            assert [getattr(made, n) for n in names] == [floats(v) for v in values]
+    for p in kind.parameters:
+        assert f"\n{p.name} : {p.kind.text}\n    {p.text[:20]}" in tool.__doc__
+        assert name == "Face" or getattr(tool, p.name).__doc__ == (p.value or p.text)
+    assert "\nRaises\n------\n" in tool.__doc__ and "ToolError\n    " in tool.__doc__
+    with pytest.raises(TypeError, match=f"missing .* argument: '{names[-1]}'"):
+        tool(*values[:-1])
+    with pytest.raises(TypeError, match="got an unexpected keyword argument 'size'"):
+        tool(*values, size=1)
+
+
+def floats(value):
+    return tuple(map(float, value)) if isinstance(value, tuple) else value
 
 
 def test_errors_have_one_base():

@@ -10,9 +10,10 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from .geometry import geometry_of, shapes_of
+from .geometry import shapes_of
 from .mesh_parts import nodes_around
-from .on_shape import OnShape, bookkeeping_groups
+from .on_shape import OnShape
+from .operator_options import KEEP_TO_SHAPE
 from .reason import Reason
 
 # Attribute bits of addProperty.
@@ -65,10 +66,9 @@ class MeshOperation:
     operate().
     """
 
-    #: Properties (type, name, text) of the operator, in addition to Source; shown under the class's name.
+    #: Properties (type, name, text, values) of the operator, in addition to Source; shown under the class's name. When
+    #: they are added they are set to the values, one after the other: of an enumeration, first its list.
     INPUTS = ()
-    #: Values of input properties that differ from FreeCAD's own.
-    DEFAULTS = {}
 
     def __init__(self, obj):
         self.report = None
@@ -96,7 +96,7 @@ class MeshOperation:
         """Adds the properties an object of an older version may lack."""
         present = set(obj.PropertiesList)
         section = type(self).__name__
-        for kind, name, text in (
+        for kind, name, text, *values in (
             ("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"),
             *self.INPUTS,
             KEEP_TO_SHAPE,
@@ -104,7 +104,7 @@ class MeshOperation:
             if name in present:
                 continue
             obj.addProperty(kind, name, section, text)
-            for value in self.DEFAULTS.get(name, ()):
+            for value in values:
                 setattr(obj, name, value)
         for kind, name, text in _RESULTS:
             if name not in present:
@@ -281,75 +281,3 @@ class MeshOperation:
     # FreeCAD before 0.21.2 asks for these.
     __getstate__ = dumps
     __setstate__ = loads
-
-
-KEEP_TO_SHAPE = (
-    "App::PropertyBool",
-    "KeepToShape",
-    "The skin is taken to be that of the geometry the mesh was made from, not the mesh's triangles: "
-    "new and moved nodes are made on it, which makes a coarse skin better",
-)
-
-
-def skin_of(obj):
-    """What femscalpel's operators take as `skin`: the geometry the mesh of `obj` was made from, if KeepToShape says
-    so."""
-    if not obj.KeepToShape:
-        return None
-    geometry = geometry_of(obj)
-    if geometry is None:
-        raise ValueError(
-            "KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)"
-        )
-    return geometry.Shape
-
-
-#: Input properties of the operators that bring element faces onto a tool.
-SURFACE_INPUTS = (
-    ("App::PropertyEnumeration", "Method", "snap: move and split, always succeeds; deform: only move nodes"),
-    ("App::PropertyIntegerConstraint", "Transition", "Rings of elements around the tool that may move; 0: automatic"),
-    ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
-    (
-        "App::PropertyStringList",
-        "PreservedGroups",
-        "Mesh groups whose border keeps its shape; *: all. The borders of others "
-        "may drift, those of all if the list is empty",
-    ),
-    (
-        "App::PropertyEnumeration",
-        "Refine",
-        "Whether elements near the tool are divided first. Automatic: where the tool is finer than "
-        "the mesh; Size: where edges are longer than RefineSize",
-    ),
-    (
-        "App::PropertyLength",
-        "RefineSize",
-        "Longest edge at the tool (of a crack that ends inside, at its front) if Refine is Size",
-    ),
-)
-SURFACE_DEFAULTS = {
-    "Method": (list(femscalpel.options.METHODS), "snap"),
-    "Transition": ((0, 0, 1000, 1),),
-    "FeatureAngle": (30,),
-    "PreservedGroups": (["*"],),
-    "Refine": (["Automatic", "Never", "Size"], "Automatic"),
-    "RefineSize": (1,),
-}
-
-
-def surface_options(obj, mesh):
-    """The properties SURFACE_INPUTS and GroupName as keyword arguments of femscalpel's operators on `mesh`.
-
-    The geometry is kept whatever PreservedGroups says: FreeCAD finds what it needs by it.
-    """
-    preserve = None if "*" in obj.PreservedGroups else [*obj.PreservedGroups, *bookkeeping_groups(mesh)]
-    refine = {"Automatic": None, "Never": False, "Size": obj.RefineSize.Value}[obj.Refine]
-    return dict(
-        name=obj.GroupName,
-        method=obj.Method,
-        transition=obj.Transition or None,
-        feature_angle=obj.FeatureAngle.Value,
-        preserve=preserve,
-        refine=refine,
-        skin=skin_of(obj),
-    )

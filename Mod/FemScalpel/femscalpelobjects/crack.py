@@ -3,8 +3,9 @@
 
 import femscalpel
 
-from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
-from .patch_properties import PATCH_DEFAULTS, PATCH_INPUTS, fronts_of, patch_of
+from . import operator_options
+from .base import MeshOperation
+from .patch_properties import PATCH_INPUTS, fronts_of, patch_of
 from .tool_properties import plane_of
 
 
@@ -20,17 +21,13 @@ class Crack(MeshOperation):
             "The crack's plane: XY plane of this placement, z is the positive side",
         ),
         *PATCH_INPUTS,
-        *SURFACE_INPUTS,
-        (
-            "App::PropertyString",
-            "GroupName",
-            "Prefix of the new groups: NAME_P and NAME_N are the lips, NAME_FRONT the front",
+        *operator_options.inputs(
+            GroupName=("Prefix of the new groups: NAME_P and NAME_N are the lips, NAME_FRONT the front", "CRACK")
         ),
     )
-    DEFAULTS = {**PATCH_DEFAULTS, **SURFACE_DEFAULTS, "GroupName": ("CRACK",)}
 
     def tools(self, obj):
         return [plane_of(obj.PlanePlacement), *fronts_of(obj)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], within=patch_of(obj), **surface_options(obj, mesh))
+        return femscalpel.crack(mesh, tools[0], within=patch_of(obj), **operator_options.keywords(obj, mesh))

@@ -3,8 +3,9 @@
 
 import femscalpel
 
-from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
-from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, SHAPE_DEFAULTS, SHAPE_INPUTS, SHAPES, shape_of
+from . import operator_options
+from .base import MeshOperation
+from .tool_properties import AXIS_INPUTS, shape_inputs, shape_of
 
 
 class CurvedCrack(MeshOperation):
@@ -13,21 +14,15 @@ class CurvedCrack(MeshOperation):
     Type = "FemScalpel::CurvedCrack"
 
     INPUTS = (
-        *SHAPE_INPUTS,
+        *shape_inputs("Sphere", without=("Plane",)),
         *AXIS_INPUTS,
-        *SURFACE_INPUTS,
-        ("App::PropertyString", "GroupName", "Prefix of the new groups: NAME_P and NAME_N are the lips, P outside"),
+        *operator_options.inputs(
+            GroupName=("Prefix of the new groups: NAME_P and NAME_N are the lips, P outside", "CRACK")
+        ),
     )
-    DEFAULTS = {
-        **SHAPE_DEFAULTS,
-        **AXIS_DEFAULTS,
-        **SURFACE_DEFAULTS,
-        "ToolShape": (list(SHAPES[1:]), "Sphere"),
-        "GroupName": ("CRACK",),
-    }
 
     def tools(self, obj):
         return [shape_of(obj)]
 
     def operate(self, obj, mesh, tools):
-        return femscalpel.crack(mesh, tools[0], **surface_options(obj, mesh))
+        return femscalpel.crack(mesh, tools[0], **operator_options.keywords(obj, mesh))

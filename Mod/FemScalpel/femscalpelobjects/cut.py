@@ -3,7 +3,8 @@
 
 import femscalpel
 
-from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
+from . import operator_options
+from .base import MeshOperation
 from .tool_properties import direction_of, plane_of
 
 
@@ -14,27 +15,23 @@ class Cut(MeshOperation):
 
     INPUTS = (
         ("App::PropertyPlacement", "PlanePlacement", "The middle of the slot: XY plane of this placement"),
-        ("App::PropertyLength", "Width", "Of the slot"),
-        ("App::PropertyBool", "Through", "Whether the slot goes through the whole part; otherwise it ends at a bottom"),
+        ("App::PropertyLength", "Width", "Of the slot", 1),
+        (
+            "App::PropertyBool",
+            "Through",
+            "Whether the slot goes through the whole part; otherwise it ends at a bottom",
+            True,
+        ),
         (
             "App::PropertyPlacement",
             "BottomPlacement",
             "The bottom: XY plane of this placement, z points into the material that stays",
         ),
-        *SURFACE_INPUTS,
-        (
-            "App::PropertyString",
-            "GroupName",
-            "Prefix of the new groups: NAME_P and NAME_N are the walls, NAME_BOTTOM the bottom",
+        *operator_options.inputs(
+            Method=(["snap"], "snap"),
+            GroupName=("Prefix of the new groups: NAME_P and NAME_N are the walls, NAME_BOTTOM the bottom", "CUT"),
         ),
     )
-    DEFAULTS = {
-        **SURFACE_DEFAULTS,
-        "Method": (["snap"], "snap"),
-        "Width": (1,),
-        "Through": (True,),
-        "GroupName": ("CUT",),
-    }
 
     def tools(self, obj):
         middle, normal = obj.PlanePlacement.Base, direction_of(obj.PlanePlacement)
@@ -45,5 +42,9 @@ class Cut(MeshOperation):
     def operate(self, obj, mesh, tools):
         bottom = None if obj.Through else tools[2]
         return femscalpel.cut(
-            mesh, plane_of(obj.PlanePlacement), width=obj.Width.Value, bottom=bottom, **surface_options(obj, mesh)
+            mesh,
+            plane_of(obj.PlanePlacement),
+            width=obj.Width.Value,
+            bottom=bottom,
+            **operator_options.keywords(obj, mesh)
         )

@@ -3,8 +3,9 @@
 
 import femscalpel
 
-from .base import SURFACE_DEFAULTS, SURFACE_INPUTS, MeshOperation, surface_options
-from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, direction_of
+from . import operator_options
+from .base import MeshOperation
+from .tool_properties import AXIS_INPUTS, direction_of
 
 
 class Drill(MeshOperation):
@@ -19,16 +20,15 @@ class Drill(MeshOperation):
             "Positions",
             "Where the holes are, in the placement's own axes; empty: one, at its origin",
         ),
-        ("App::PropertyBool", "Through", "Whether the holes go through; otherwise they end flat"),
+        ("App::PropertyBool", "Through", "Whether the holes go through; otherwise they end flat", True),
         ("App::PropertyLength", "Depth", "How far blind holes go beyond the placement's origin, along its z"),
-        *SURFACE_INPUTS,
-        (
-            "App::PropertyString",
-            "GroupName",
-            "Prefix of the new groups: NAME_WALL, NAME_BOTTOM, and with several holes NAME_WALL1, ...",
+        *operator_options.inputs(
+            GroupName=(
+                "Prefix of the new groups: NAME_WALL, NAME_BOTTOM, and with several holes NAME_WALL1, ...",
+                "HOLE",
+            )
         ),
     )
-    DEFAULTS = {**AXIS_DEFAULTS, **SURFACE_DEFAULTS, "Through": (True,), "GroupName": ("HOLE",)}
 
     def tools(self, obj):
         placement = obj.AxisPlacement
@@ -39,5 +39,5 @@ class Drill(MeshOperation):
 
     def operate(self, obj, mesh, tools):
         if obj.Through:
-            return femscalpel.drill(mesh, tools, **surface_options(obj, mesh))
-        return femscalpel.drill(mesh, tools[:-1], depth=obj.Depth.Value, **surface_options(obj, mesh))
+            return femscalpel.drill(mesh, tools, **operator_options.keywords(obj, mesh))
+        return femscalpel.drill(mesh, tools[:-1], depth=obj.Depth.Value, **operator_options.keywords(obj, mesh))

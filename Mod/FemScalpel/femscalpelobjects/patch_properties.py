@@ -14,25 +14,25 @@ PATCH_INPUTS = (
         "App::PropertyEnumeration",
         "Patch",
         "Part of the plane that cracks; placed by PlanePlacement, its border is the crack front",
+        list(PATCHES),
+        "Whole",
     ),
-    ("App::PropertyLength", "PatchRadius", "Of the disk; of the ellipse along the placement's x axis"),
-    ("App::PropertyLength", "PatchSecondRadius", "Of the ellipse along the placement's y axis"),
+    ("App::PropertyLength", "PatchRadius", "Of the disk; of the ellipse along the placement's x axis", 1),
+    ("App::PropertyLength", "PatchSecondRadius", "Of the ellipse along the placement's y axis", 0.5),
     (
         "App::PropertyVectorList",
         "PatchCorners",
         "Of the polygon, in order around it, in the placement's own axes (z = 0)",
     ),
 )
-PATCH_DEFAULTS = {"Patch": (list(PATCHES), "Whole"), "PatchRadius": (1,), "PatchSecondRadius": (0.5,)}
 
 CYLINDER_PART_INPUTS = (
     ("App::PropertyBool", "Bounded", "Whether only a part of the cylinder cracks, from Low to High"),
     ("App::PropertyDistance", "Low", "Where the crack begins, along the placement's z axis from its origin"),
-    ("App::PropertyDistance", "High", "Where the crack ends"),
+    ("App::PropertyDistance", "High", "Where the crack ends", 1),
     ("App::PropertyAngle", "StartAngle", "Where the crack begins, about the z axis from the placement's x axis"),
-    ("App::PropertyAngle", "EndAngle", "Where the crack ends; 360 degrees beyond StartAngle: all around"),
+    ("App::PropertyAngle", "EndAngle", "Where the crack ends; 360 degrees beyond StartAngle: all around", 360),
 )
-CYLINDER_PART_DEFAULTS = {"High": (1,), "EndAngle": (360,)}
 
 
 def patch_of(obj):

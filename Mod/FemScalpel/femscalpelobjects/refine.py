@@ -3,9 +3,10 @@
 
 import femscalpel
 
-from .base import MeshOperation, skin_of
+from . import operator_options
+from .base import MeshOperation
 from .mesh_parts import nodes_of_long_edges
-from .tool_properties import AXIS_DEFAULTS, AXIS_INPUTS, SHAPE_DEFAULTS, SHAPE_INPUTS, SHAPES, shape_of
+from .tool_properties import AXIS_INPUTS, shape_inputs, shape_of
 
 
 class Refine(MeshOperation):
@@ -15,20 +16,12 @@ class Refine(MeshOperation):
 
     INPUTS = (
         *AXIS_INPUTS,
-        *SHAPE_INPUTS,
-        ("App::PropertyLength", "Size", "Longest edge wanted at the tool"),
+        *shape_inputs("Cylinder"),
+        ("App::PropertyLength", "Size", "Longest edge wanted at the tool", 1),
         ("App::PropertyLength", "Reach", "Size holds up to this distance from the tool"),
-        ("App::PropertyFloat", "Gradation", "How much longer edges may be per unit of distance beyond that"),
-        ("App::PropertyAngle", "FeatureAngle", "Skin edges sharper than this keep their shape"),
+        ("App::PropertyFloat", "Gradation", "How much longer edges may be per unit of distance beyond that", 0.5),
+        *operator_options.inputs("feature_angle"),
     )
-    DEFAULTS = {
-        **AXIS_DEFAULTS,
-        **SHAPE_DEFAULTS,
-        "ToolShape": (list(SHAPES), "Cylinder"),
-        "Size": (1,),
-        "Gradation": (0.5,),
-        "FeatureAngle": (30,),
-    }
 
     def tools(self, obj):
         return [shape_of(obj)]
@@ -43,6 +36,5 @@ class Refine(MeshOperation):
             obj.Size.Value,
             gradation=obj.Gradation,
             reach=obj.Reach.Value,
-            feature_angle=obj.FeatureAngle.Value,
-            skin=skin_of(obj),
+            **operator_options.keywords(obj, mesh, "feature_angle"),
         )

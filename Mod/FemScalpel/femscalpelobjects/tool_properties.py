@@ -1,40 +1,91 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Properties that say what an object cuts with, and the tool they mean."""
+"""Properties that say what an object cuts with, and the tool they mean; both from femscalpel's table of tools."""
+
+from dataclasses import dataclass
+from typing import Any
 
 import FreeCAD
 import Part
 
 import femscalpel
+from femscalpel.tools import ANGLE, DIRECTION, FACE, LENGTH, POINT, TOOLS
 
 from .geometry import element_of
+from .signatures import Argument
+
+_TYPES = {LENGTH: "App::PropertyLength", ANGLE: "App::PropertyAngle", FACE: "App::PropertyLinkSub"}
+_KINDS = {LENGTH: "float", ANGLE: "float", FACE: "object with a shape, or (object, names of its faces)"}
+#: Properties that are not called as the argument.
+_NAMES = {"face": "ToolFace"}
+
+
+@dataclass(frozen=True)
+class _Input:
+    """What is asked for any tool, beside a place and a direction."""
+
+    argument: Argument
+    property: tuple  # (type, name, text, values)
+
+    @property
+    def name(self):
+        return self.property[1]
+
+
+def _inputs():
+    """Parameters of all tools by what they are asked as: tools share them."""
+    users, first = {}, {}
+    for tool, kind in TOOLS.items():
+        for p in kind.parameters:
+            if p.kind in _TYPES:
+                users.setdefault(p.asked_as, []).append(tool)
+                first.setdefault(p.asked_as, p)
+    out = {}
+    for asked, p in first.items():
+        name = _NAMES.get(asked) or asked.title().replace("_", "")
+        text = p.ask or p.text
+        values = () if p.default is None else (p.default,)
+        argument = Argument(
+            asked, p.default, _KINDS[p.kind], f"Of {', '.join(users[asked])}. {text}.".replace("..", ".")
+        )
+        out[asked] = _Input(argument, (_TYPES[p.kind], name, text, *values))
+    return out
+
+
+_INPUTS = _inputs()
+#: Inputs in the order of the functions of ObjectsFemScalpel, before the options there; others come last.
+_FIRST = ("radius", "tube_radius", "half_angle")
 
 AXIS_INPUTS = (
     ("App::PropertyPlacement", "AxisPlacement", "The axis is z of this placement, through its origin"),
-    ("App::PropertyLength", "Radius", "Of the cylinder"),
+    _INPUTS["radius"].property,
 )
-AXIS_DEFAULTS = {"Radius": (1,)}
 
-#: Tools by the name of their class in femscalpel.
-SHAPES = ("Plane", "Cylinder", "Sphere", "Torus", "Cone", "Face")
-SHAPE_INPUTS = (
-    (
-        "App::PropertyEnumeration",
-        "ToolShape",
-        "What the tool is; AxisPlacement is its centre and axis, or a plane's normal",
-    ),
-    (
-        "App::PropertyLinkSub",
-        "ToolFace",
-        "If the tool is a face: the face, or several that meet smoothly, or all of an object",
-    ),
-    ("App::PropertyLength", "TubeRadius", "Of a torus' tube; Radius is that of its ring"),
-    (
-        "App::PropertyAngle",
-        "HalfAngle",
-        "Between the axis of a cone, which opens along it, and its side; Radius is that at the " "placement's origin",
-    ),
-)
-SHAPE_DEFAULTS = {"TubeRadius": (0.25,), "HalfAngle": (30,)}
+
+def shape_inputs(default, without=()):
+    """Properties (type, name, text, values) that, with AXIS_INPUTS, say any tool, but those of `without`."""
+    shapes = [name for name in TOOLS if name not in without]
+    text = "What the tool is; AxisPlacement is its centre and axis, or a plane's normal"
+    inputs = [i.property for i in _INPUTS.values() if i.property not in AXIS_INPUTS]
+    return (("App::PropertyEnumeration", "ToolShape", text, shapes, default), *inputs)
+
+
+def arguments():
+    """The inputs as arguments of a function of ObjectsFemScalpel."""
+    return [i.argument for i in _INPUTS.values()]
+
+
+def places(face, last):
+    """Behind which arguments those stand that do not come first: the face behind `face`, later tools' behind `last`."""
+    return {name: face if name == "face" else last for name in _INPUTS if name not in _FIRST}
+
+
+def to_properties(given):
+    """Values of properties for values of arguments(), both by name."""
+    out = {_INPUTS[name].name: value for name, value in given.items()}
+    face = out["ToolFace"]
+    if face is not None and not isinstance(face, (tuple, list)):
+        out["ToolFace"] = face, [""]
+    return out
 
 
 def direction_of(placement):
@@ -48,21 +99,24 @@ def plane_of(placement):
 
 
 def shape_of(obj):
-    """The femscalpel tool that the properties AXIS_INPUTS and SHAPE_INPUTS mean. Raises femscalpel.ToolError or
+    """The femscalpel tool that the properties AXIS_INPUTS and shape_inputs() mean. Raises femscalpel.ToolError or
     ValueError."""
-    center, axis, radius = obj.AxisPlacement.Base, direction_of(obj.AxisPlacement), obj.Radius.Value
-    if obj.ToolShape == "Plane":
-        return plane_of(obj.AxisPlacement)
-    if obj.ToolShape == "Cylinder":
-        return femscalpel.Cylinder(center, axis, radius)
-    if obj.ToolShape == "Sphere":
-        return femscalpel.Sphere(center, radius)
-    if obj.ToolShape == "Torus":
-        return femscalpel.Torus(center, axis, radius, obj.TubeRadius.Value)
-    if obj.ToolShape == "Cone":
-        return femscalpel.Cone(center, axis, radius, obj.HalfAngle.Value)
-    if obj.ToolFace is None:
+    return TOOLS[obj.ToolShape].build(lambda parameter: _value(obj, parameter))
+
+
+def _value(obj, parameter) -> Any:
+    if parameter.kind == POINT:
+        return obj.AxisPlacement.Base
+    if parameter.kind == DIRECTION:
+        return direction_of(obj.AxisPlacement)
+    value = getattr(obj, _INPUTS[parameter.asked_as].name)
+    return _face(value) if parameter.kind == FACE else value.Value
+
+
+def _face(link):
+    """The shape that a property of type LinkSub means."""
+    if link is None:
         raise ValueError("ToolFace is not set; choose the face of the geometry to cut with")
-    part, names = obj.ToolFace
+    part, names = link
     faces = [element_of(part, name) for name in names if name] or [part.Shape]
-    return femscalpel.Face(faces[0] if len(faces) == 1 else Part.makeCompound(faces))
+    return faces[0] if len(faces) == 1 else Part.makeCompound(faces)

@@ -158,7 +158,7 @@ bool Bisector::split(int a, int b) {
     std::ostringstream message;
     message << "size " << options_.size << " would make more than " << options_.max_elements
             << " elements. Choose a larger size or gradation, or a larger max_elements";
-    throw ToolError(message.str());
+    throw ToolError(message.str(), "size");
 }
 
 void Bisector::put_on_shape() {

@@ -83,9 +83,11 @@ void check_skin(Workpiece& f) {
     const NodeConstraints::ShapeMatch& match = f.d.constraints.shape_match();
     if (match.off == 0) return;
     if (match.off == match.faces)
-        throw ToolError("skin: none of the " + std::to_string(match.faces) +
-                        " faces of the mesh's skin near the tool lies on the shape; it is not the shape the mesh was "
-                        "made from, or has another place or unit");
+        throw ToolError(
+            "skin: none of the " + std::to_string(match.faces) +
+                " faces of the mesh's skin near the tool lies on the shape; it is not the shape the mesh was "
+                "made from, or has another place or unit",
+            "skin");
     f.warnings.push_back(std::to_string(match.off) + " of " + std::to_string(match.faces) +
                          " faces of the mesh's skin near the tool lie on no face of the given shape; there the skin "
                          "stays what its triangles are");

@@ -109,8 +109,9 @@ public:
             }
         }
         throw QualityError("method \"deform\" cannot bring the interface onto the " + std::string(tool_.kind()) +
-                           " without flattening elements (" + list(elements) +
-                           "). Moving nodes alone is not enough here; use method \"snap\"");
+                               " without flattening elements (" + list(elements) +
+                               "). Moving nodes alone is not enough here; use method \"snap\"",
+                           "method");
     }
 
     /// For classify() == false.
@@ -132,8 +133,10 @@ public:
         look(band_.tetras, band_.tetra_cells);
         look(band_.triangles, band_.triangle_cells);
         throw QualityError("method \"deform\" finds no row of nodes that could be moved onto the " +
-                           std::string(tool_.kind()) + ": nodes on both sides of it cannot be moved there (elements " +
-                           list(elements) + "); use method \"snap\"");
+                               std::string(tool_.kind()) +
+                               ": nodes on both sides of it cannot be moved there (elements " + list(elements) +
+                               "); use method \"snap\"",
+                           "method");
     }
 
 private:

@@ -178,11 +178,12 @@ public:
         blades_.clear();
         for (const Body& body : bodies_)
             std::ranges::move(blades_of(body, static_cast<int>(blades_.size())), std::back_inserter(blades_));
-        if (blades_.empty()) throw ToolError("there is no tool: give at least one");
+        if (blades_.empty()) throw ToolError("there is no tool: give at least one", "tools");
         if (options_.method == Method::deform && blades_.size() > 1)
             throw ToolError(
                 "method \"deform\" works with a single surface; use method \"snap\" for holes with a bottom, cuts and "
-                "several holes");
+                "several holes",
+                "method");
     }
 
     std::vector<RefineZone> zones() const override { return zones_of(all_, options_.refine); }

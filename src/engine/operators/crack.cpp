@@ -180,10 +180,11 @@ public:
     Crack(const Tool& tool, const CrackOptions& options) : tool_(tool), options_(options) {
         const bool deform = options.method == Method::deform;
         if (tool.bounded() && deform)
-            throw ToolError("method \"deform\" works with surfaces without a border; use method \"snap\" for a " +
-                            tool.kind());
+            throw ToolError(
+                "method \"deform\" works with surfaces without a border; use method \"snap\" for a " + tool.kind(),
+                "method");
         if (options.within && deform)
-            throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within");
+            throw ToolError("method \"deform\" is for cracks along a whole tool; use \"snap\" with within", "method");
     }
 
     const char* kind() const override { return "crack"; }

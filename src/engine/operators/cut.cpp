@@ -16,7 +16,7 @@ Result cut(const Mesh& mesh, const Tool& positive, const Tool& negative, const C
 }
 
 Result cut(const Mesh& mesh, const Plane& plane, double width, const CutOptions& options, const Prepared& prepared) {
-    const Vec3 half = checked_length(width, "width") / 2 * plane.unit_normal();
+    const Vec3 half = checked_length(width, {"", "width"}) / 2 * plane.unit_normal();
     return cut(mesh, Plane(plane.origin() + half, plane.unit_normal()),
                Plane(plane.origin() - half, -plane.unit_normal()), options, prepared);
 }

@@ -15,7 +15,7 @@ Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOp
     if (options.depth && !(std::isfinite(*options.depth) && *options.depth > 0)) {
         std::ostringstream message;
         message << "depth is " << *options.depth << "; it must be positive";
-        throw ToolError(message.str());
+        throw ToolError(message.str(), "depth");
     }
     std::vector<Body> bodies;
     std::vector<std::unique_ptr<Plane>> bottoms;
@@ -26,7 +26,8 @@ Result drill(const Mesh& mesh, std::span<const Tool* const> tools, const DrillOp
         if (options.depth) {
             const auto* cylinder = dynamic_cast<const Cylinder*>(tools[k]);
             if (!cylinder)
-                throw ToolError("depth is for cylinders; a " + tools[k]->kind() + " has no direction to measure it in");
+                throw ToolError("depth is for cylinders; a " + tools[k]->kind() + " has no direction to measure it in",
+                                "depth");
             bottoms.push_back(std::make_unique<Plane>(cylinder->origin() + *options.depth * cylinder->unit_axis(),
                                                       cylinder->unit_axis()));
             body.walls.push_back({bottoms.back().get(), {"_BOTTOM"}});

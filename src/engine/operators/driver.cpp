@@ -47,31 +47,34 @@ int bandwidth(const Location& location, const Mesh& mesh) {
 
 /// Throws ToolError when the operator could not call its groups so.
 void check_name(const Mesh& mesh, const std::string& name, const Naming& naming) {
-    if (name.empty()) throw ToolError("name is empty; the new groups need one");
+    if (name.empty()) throw ToolError("name is empty; the new groups need one", "name");
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
         std::string::npos)
         throw ToolError(
             "name '" + name +
-            "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups");
+                "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups",
+            "name");
     std::set<std::string> groups;
     for (const auto& list : naming.groups) groups.insert(list.begin(), list.end());
     if (!naming.front.empty()) groups.insert(naming.front);
     for (const std::string& group : groups) {
         if (group.size() > longest_name)
             throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " +
-                            std::to_string(group.size()) + " characters, at most " + std::to_string(longest_name) +
-                            " are allowed");
+                                std::to_string(group.size()) + " characters, at most " + std::to_string(longest_name) +
+                                " are allowed",
+                            "name");
         if (mesh.find_group(group))
-            throw ToolError("name '" + name + "' is taken: the mesh already has a group '" + group +
-                            "'; choose another");
+            throw ToolError(
+                "name '" + name + "' is taken: the mesh already has a group '" + group + "'; choose another", "name");
     }
 }
 
 void check_options(const OperatorOptions& options) {
     if (options.transition && (*options.transition < 1 || *options.transition > 20))
-        throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20");
+        throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20",
+                        "transition");
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
-        throw ToolError("feature_angle must lie between 0 and 180 degrees");
+        throw ToolError("feature_angle must lie between 0 and 180 degrees", "feature_angle");
 }
 
 /// Band, node constraints and contacts around the blades of a recipe.

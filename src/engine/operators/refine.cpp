@@ -25,11 +25,11 @@
 namespace femscalpel {
 namespace {
 
-void require(bool holds, const std::string& what, double value, const char* rule) {
+void require(bool holds, const char* parameter, double value, const char* rule) {
     if (holds) return;
     std::ostringstream message;
-    message << what << " is " << value << "; it must be " << rule;
-    throw ToolError(message.str());
+    message << parameter << " is " << value << "; it must be " << rule;
+    throw ToolError(message.str(), parameter);
 }
 
 void check(const RefineOptions& o) {

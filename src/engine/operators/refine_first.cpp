@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 namespace femscalpel {
 namespace {
@@ -38,7 +39,12 @@ double checked(double size) {
     if (std::isfinite(size) && size > 0) return size;
     std::ostringstream message;
     message << "refine is " << size << "; it must be a positive length";
-    throw ToolError(message.str());
+    throw ToolError(message.str(), "refine");
+}
+
+/// What the operator calls the parameter of refine() that an error is about.
+const char* parameter_of_operator(const Error& e) {
+    return std::string_view(e.parameter()) == "skin" ? "skin" : "refine";
 }
 
 /// One field for all zones, with the smallest of their sizes: a zone of a larger size counts as that much farther away
@@ -102,7 +108,8 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
         out.mesh = std::move(result->mesh);
         out.report = std::move(result->report);
     } catch (const Error& e) {
-        if (asked && dynamic_cast<const ToolError*>(&e)) throw ToolError(std::string("refine: ") + e.what());
+        if (asked && dynamic_cast<const ToolError*>(&e))
+            throw ToolError(std::string("refine: ") + e.what(), parameter_of_operator(e));
         if (asked || !(dynamic_cast<const ToolError*>(&e) || dynamic_cast<const UnsupportedElementError*>(&e))) throw;
         out.tried_in_vain = true;
         out.report.warnings.push_back(std::string("the mesh is coarser than the tool, but was not refined first: ") +

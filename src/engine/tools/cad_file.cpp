@@ -40,16 +40,16 @@ TopoDS_Shape read_cad_file(const std::filesystem::path& path) {
     return shape;
 }
 
-TopoDS_Shape shape_from_brep(const std::string& text, const std::string& what) {
+TopoDS_Shape shape_from_brep(const std::string& text, const std::string& what, const char* parameter) {
     TopoDS_Shape shape;
     try {
         std::istringstream stream(text);
         BRep_Builder builder;
         BRepTools::Read(shape, stream, builder);
     } catch (const Standard_Failure& e) {
-        throw ToolError(what + ": OpenCASCADE says: " + e.GetMessageString());
+        throw ToolError(what + ": OpenCASCADE says: " + e.GetMessageString(), parameter);
     }
-    if (shape.IsNull()) throw ToolError(what + ": the text is not a BREP shape");
+    if (shape.IsNull()) throw ToolError(what + ": the text is not a BREP shape", parameter);
     return shape;
 }
 

@@ -98,13 +98,15 @@ struct CadShape::Geometry {
             TopTools_IndexedMapOfShape map;
             TopExp::MapShapes(shape, TopAbs_FACE, map);
             for (int k = 1; k <= map.Extent(); ++k) faces.push_back({Face::from_shape(map(k)), box_of(map(k))});
-            if (faces.empty()) throw ToolError("skin: the shape has no face");
+            if (faces.empty()) throw ToolError("skin: the shape has no face", "skin");
             map.Clear();
             TopExp::MapShapes(shape, TopAbs_EDGE, map);
             for (int k = 1; k <= map.Extent(); ++k)
                 if (!BRep_Tool::Degenerated(TopoDS::Edge(map(k)))) edges.emplace_back(TopoDS::Edge(map(k)));
+        } catch (const ToolError& e) {  // of a face, which does not know what it is for
+            throw ToolError(e.what(), "skin");
         } catch (const Standard_Failure& e) {
-            throw ToolError(std::string("skin: OpenCASCADE says: ") + e.GetMessageString());
+            throw ToolError(std::string("skin: OpenCASCADE says: ") + e.GetMessageString(), "skin");
         }
         size = box_of(shape).diagonal().norm();
     }
@@ -115,7 +117,7 @@ CadShape CadShape::read(const std::filesystem::path& path) {
 }
 
 CadShape CadShape::from_brep(const std::string& text) {
-    return CadShape(std::make_shared<const Geometry>(shape_from_brep(text, "skin")));
+    return CadShape(std::make_shared<const Geometry>(shape_from_brep(text, "skin", "skin")));
 }
 
 int CadShape::face_count() const { return static_cast<int>(geometry_->faces.size()); }

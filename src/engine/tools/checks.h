@@ -6,16 +6,25 @@
 
 namespace femscalpel {
 
-// Checks of a tool's parameters. `what` names the tool and the parameter, e.g. "cylinder: axis"; the ToolError says
-// what is wrong with it.
+/// What is checked: which parameter of which tool.
+struct ToolParameter {
+    const char* tool;           ///< such as "cylinder"; "" for a parameter of an operator
+    const char* name;           ///< of the parameter, such as "axis"; a literal, see Error
+    std::string called = name;  ///< in the message, where that is not the name
+
+    /// Such as "cylinder: axis".
+    std::string text() const { return *tool ? std::string(tool) + ": " + called : called; }
+};
+
+// Checks of a tool's parameters. The ToolError names the parameter and says what is wrong with it.
 
 /// `x`, if all its values are finite.
-Eigen::Vector3d checked_point(const Eigen::Vector3d& x, const std::string& what);
+Eigen::Vector3d checked_point(const Eigen::Vector3d& x, const ToolParameter& parameter);
 
 /// `v` scaled to unit length, if it has a direction.
-Eigen::Vector3d checked_direction(const Eigen::Vector3d& v, const std::string& what);
+Eigen::Vector3d checked_direction(const Eigen::Vector3d& v, const ToolParameter& parameter);
 
 /// `length`, if it is finite and positive.
-double checked_length(double length, const std::string& what);
+double checked_length(double length, const ToolParameter& parameter);
 
 }  // namespace femscalpel

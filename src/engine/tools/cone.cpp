@@ -16,15 +16,15 @@ double checked_angle(double degrees) {
     if (degrees > 0 && degrees < 90) return degrees;
     std::ostringstream message;
     message << "cone: half_angle is " << degrees << "; it must lie between 0 and 90 degrees";
-    throw ToolError(message.str());
+    throw ToolError(message.str(), "half_angle");
 }
 
 }  // namespace
 
 Cone::Cone(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double radius, double half_angle)
-    : origin_(checked_point(origin, "cone: origin")),
-      axis_(checked_direction(axis, "cone: axis")),
-      radius_(checked_length(radius, "cone: radius")),
+    : origin_(checked_point(origin, {"cone", "origin"})),
+      axis_(checked_direction(axis, {"cone", "axis"})),
+      radius_(checked_length(radius, {"cone", "radius"})),
       half_angle_(checked_angle(half_angle)),
       sine_(std::sin(half_angle * std::numbers::pi / 180)),
       cosine_(std::cos(half_angle * std::numbers::pi / 180)),

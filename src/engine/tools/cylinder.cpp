@@ -8,9 +8,9 @@
 namespace femscalpel {
 
 Cylinder::Cylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double radius)
-    : origin_(checked_point(origin, "cylinder: origin")),
-      axis_(checked_direction(axis, "cylinder: axis")),
-      radius_(checked_length(radius, "cylinder: radius")) {}
+    : origin_(checked_point(origin, {"cylinder", "origin"})),
+      axis_(checked_direction(axis, {"cylinder", "axis"})),
+      radius_(checked_length(radius, {"cylinder", "radius"})) {}
 
 Eigen::Vector3d Cylinder::from_axis(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d r = x - origin_;

@@ -35,7 +35,7 @@ struct NearestPoint {
 }  // namespace
 
 DistanceField distance_to(std::vector<const Tool*> tools) {
-    if (tools.empty()) throw ToolError("near is empty: give a tool or points to refine around");
+    if (tools.empty()) throw ToolError("near is empty: give a tool or points to refine around", "near");
     return [tools = std::move(tools)](const Eigen::Vector3d& x) {
         double nearest = tools[0]->distance(x);
         for (std::size_t k = 1; k < tools.size(); ++k)
@@ -45,10 +45,10 @@ DistanceField distance_to(std::vector<const Tool*> tools) {
 }
 
 DistanceField distance_to(std::vector<Eigen::Vector3d> points) {
-    if (points.empty()) throw ToolError("near is empty: give a tool or points to refine around");
+    if (points.empty()) throw ToolError("near is empty: give a tool or points to refine around", "near");
     for (std::size_t k = 0; k < points.size(); ++k)
         if (!points[k].allFinite())
-            throw ToolError("near: point " + std::to_string(k) + " has a value that is not a finite number");
+            throw ToolError("near: point " + std::to_string(k) + " has a value that is not a finite number", "near");
     return [search = std::make_shared<const NearestPoint>(std::move(points))](const Eigen::Vector3d& x) {
         std::size_t nearest = 0;
         double squared = 0;

@@ -72,9 +72,9 @@ Face Face::read(const std::filesystem::path& path) {
 
 Face Face::from_brep(const std::string& text) {
     try {
-        return from_shape(shape_from_brep(text, "face"));
+        return from_shape(shape_from_brep(text, "face", "source"));
     } catch (const Standard_Failure& e) {
-        throw ToolError(std::string("face: OpenCASCADE says: ") + e.GetMessageString());
+        throw ToolError(std::string("face: OpenCASCADE says: ") + e.GetMessageString(), "source");
     }
 }
 
@@ -136,7 +136,7 @@ Patch Face::within(const std::vector<int>& chains) const {
             std::ostringstream message;
             message << "face: its border has a single corner, at (" << j.at.transpose()
                     << "). Divide the edge there into two, so that the corner is between two edges";
-            throw ToolError(message.str());
+            throw ToolError(message.str(), "tool");
         }
         patch.corners.push_back({j.at, {side_of[j.before], side_of[j.after]}});
     }

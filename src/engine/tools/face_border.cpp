@@ -79,7 +79,7 @@ void check_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopoDS
         std::ostringstream message;
         message << "face: its faces meet at " << angle << " degrees near (" << at.transpose()
                 << "); one surface cannot fold. Take the faces one after the other";
-        throw ToolError(message.str());
+        throw ToolError(message.str(), "source");
     }
 }
 

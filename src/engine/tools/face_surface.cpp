@@ -119,14 +119,15 @@ FaceSurface::FaceSurface(const TopoDS_Shape& shape) {
     Bnd_Box bounds;
     BRepBndLib::Add(shape, bounds);
     TopExp_Explorer faces(shape, TopAbs_FACE);
-    if (!faces.More() || bounds.IsVoid()) throw ToolError("face: the shape has no face");
+    if (!faces.More() || bounds.IsVoid()) throw ToolError("face: the shape has no face", "source");
     const double size = std::sqrt(bounds.SquareExtent());
     BRepTools::Clean(shape);
     BRepMesh_IncrementalMesh(shape, picture_sag * size, false, 0.1);
     for (; faces.More(); faces.Next()) add_sheet(TopoDS::Face(faces.Current()));
     if (triangles_.empty())
         throw ToolError(
-            "face: the shape's faces cannot be divided into triangles; check its geometry in the CAD program");
+            "face: the shape's faces cannot be divided into triangles; check its geometry in the CAD program",
+            "source");
     grow_tree();
 }
 

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 const Plane& plane_for(const Tool& tool, const std::string& shape) {
     const auto* plane = dynamic_cast<const Plane*>(&tool);
-    if (!plane) throw ToolError("within: a " + shape + " lies in a plane, but the tool is a " + tool.kind());
+    if (!plane) throw ToolError("within: a " + shape + " lies in a plane, but the tool is a " + tool.kind(), "within");
     return *plane;
 }
 
@@ -32,7 +32,7 @@ Vector3d on_plane(const Plane& plane, const Vector3d& x, double size, const std:
         std::ostringstream message;
         message << "within: " << what << " is off the plane by " << std::abs(plane.distance(x))
                 << "; give a point of the plane";
-        throw ToolError(message.str());
+        throw ToolError(message.str(), "within");
     }
     return plane.project(x);
 }
@@ -40,7 +40,8 @@ Vector3d on_plane(const Plane& plane, const Vector3d& x, double size, const std:
 /// `direction` within the plane.
 Vector3d along_plane(const Plane& plane, const Vector3d& direction, const std::string& what) {
     const Vector3d in = direction - plane.unit_normal().dot(direction) * plane.unit_normal();
-    if (in.norm() < 1e-6) throw ToolError("within: " + what + " is normal to the plane; give one that lies in it");
+    if (in.norm() < 1e-6)
+        throw ToolError("within: " + what + " is normal to the plane; give one that lies in it", "within");
     return in.normalized();
 }
 
@@ -76,7 +77,7 @@ bool Patch::has(const Tool* tool) const {
 }
 
 Disk::Disk(const Vector3d& center, double radius)
-    : center_(checked_point(center, "disk: center")), radius_(checked_length(radius, "disk: radius")) {}
+    : center_(checked_point(center, {"disk", "center"})), radius_(checked_length(radius, {"disk", "radius"})) {}
 
 Patch Disk::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "disk");
@@ -87,10 +88,10 @@ Patch Disk::on(const Tool& tool) const {
 }
 
 Ellipse::Ellipse(const Vector3d& center, double first, double second, const Vector3d& direction)
-    : center_(checked_point(center, "ellipse: center")),
-      first_(checked_length(first, "ellipse: first half axis")),
-      second_(checked_length(second, "ellipse: second half axis")),
-      direction_(checked_direction(direction, "ellipse: direction")) {}
+    : center_(checked_point(center, {"ellipse", "center"})),
+      first_(checked_length(first, {"ellipse", "half_axes", "first half axis"})),
+      second_(checked_length(second, {"ellipse", "half_axes", "second half axis"})),
+      direction_(checked_direction(direction, {"ellipse", "direction"})) {}
 
 Patch Ellipse::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "ellipse");
@@ -102,8 +103,8 @@ Patch Ellipse::on(const Tool& tool) const {
 }
 
 HalfPlane::HalfPlane(const Vector3d& origin, const Vector3d& direction)
-    : origin_(checked_point(origin, "half plane: origin")),
-      direction_(checked_direction(direction, "half plane: direction")) {}
+    : origin_(checked_point(origin, {"half plane", "origin"})),
+      direction_(checked_direction(direction, {"half plane", "direction"})) {}
 
 Patch HalfPlane::on(const Tool& tool) const {
     const Plane& plane = plane_for(tool, "half plane");
@@ -113,11 +114,11 @@ Patch HalfPlane::on(const Tool& tool) const {
 
 Polygon::Polygon(std::vector<Vector3d> corners) : corners_(std::move(corners)) {
     if (corners_.size() < 3)
-        throw ToolError("polygon: " + std::to_string(corners_.size()) + " corner(s); give at least three");
+        throw ToolError("polygon: " + std::to_string(corners_.size()) + " corner(s); give at least three", "corners");
     for (std::size_t k = 0; k < corners_.size(); ++k) {
-        checked_point(corners_[k], "polygon: corner " + std::to_string(k + 1));
+        checked_point(corners_[k], {"polygon", "corners", "corner " + std::to_string(k + 1)});
         if (corners_[k] == corners_[(k + 1) % corners_.size()])
-            throw ToolError("polygon: corner " + std::to_string(k + 1) + " is repeated");
+            throw ToolError("polygon: corner " + std::to_string(k + 1) + " is repeated", "corners");
     }
 }
 
@@ -152,9 +153,10 @@ Patch Polygon::on(const Tool& tool) const {
             }
             if (bad)
                 throw ToolError("polygon: sides " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
-                                " cross or touch; give the corners in order around it");
+                                    " cross or touch; give the corners in order around it",
+                                "within");
         }
-    if (std::abs(area) <= 1e-9 * size * size) throw ToolError("polygon: its area is zero");
+    if (std::abs(area) <= 1e-9 * size * size) throw ToolError("polygon: its area is zero", "within");
     Patch patch;
     patch.feature_size = half_width(flat);
     for (std::size_t k = 0; k < count; ++k) {
@@ -196,16 +198,18 @@ Patch Polygon::on(const Tool& tool) const {
 CylinderPart::CylinderPart(double low, double high, std::optional<Angles> angles)
     : low_(low), high_(high), angles_(std::move(angles)) {
     if (!(std::isfinite(low) && std::isfinite(high) && low < high))
-        throw ToolError("cylinder part: low must be less than high, both finite numbers");
+        throw ToolError("cylinder part: low must be less than high, both finite numbers", "along");
     if (!angles_) return;
-    checked_direction(angles_->zero, "cylinder part: zero");
+    checked_direction(angles_->zero, {"cylinder part", "zero"});
     if (!(angles_->start < angles_->end && angles_->end < angles_->start + 360))
-        throw ToolError("cylinder part: the angles must go from start to a larger end, less than 360 degrees on");
+        throw ToolError("cylinder part: the angles must go from start to a larger end, less than 360 degrees on",
+                        "angles");
 }
 
 Patch CylinderPart::on(const Tool& tool) const {
     const auto* cylinder = dynamic_cast<const Cylinder*>(&tool);
-    if (!cylinder) throw ToolError("within: a cylinder part lies on a cylinder, but the tool is a " + tool.kind());
+    if (!cylinder)
+        throw ToolError("within: a cylinder part lies on a cylinder, but the tool is a " + tool.kind(), "within");
     const Vector3d origin = cylinder->origin(), axis = cylinder->unit_axis();
     const double radius = cylinder->radius();
     Patch patch;
@@ -223,7 +227,7 @@ Patch CylinderPart::on(const Tool& tool) const {
     }
     const Vector3d in = angles_->zero - axis.dot(angles_->zero) * axis;
     if (in.norm() < 1e-6 * angles_->zero.norm())
-        throw ToolError("cylinder part: zero lies along the axis; give a direction across it");
+        throw ToolError("cylinder part: zero lies along the axis; give a direction across it", "within");
     const Vector3d u = in.normalized(), v = axis.cross(u);
     const double start = angles_->start * std::numbers::pi / 180, end = angles_->end * std::numbers::pi / 180,
                  centre = (start + end) / 2, spread = (end - start) / 2;

@@ -8,7 +8,7 @@
 namespace femscalpel {
 
 Plane::Plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal)
-    : origin_(checked_point(origin, "plane: origin")), normal_(checked_direction(normal, "plane: normal")) {}
+    : origin_(checked_point(origin, {"plane", "origin"})), normal_(checked_direction(normal, {"plane", "normal"})) {}
 
 double Plane::feature_size() const { return std::numeric_limits<double>::infinity(); }
 

@@ -6,7 +6,7 @@
 namespace femscalpel {
 
 Sphere::Sphere(const Eigen::Vector3d& center, double radius)
-    : center_(checked_point(center, "sphere: center")), radius_(checked_length(radius, "sphere: radius")) {}
+    : center_(checked_point(center, {"sphere", "center"})), radius_(checked_length(radius, {"sphere", "radius"})) {}
 
 Eigen::Vector3d Sphere::normal(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d r = x - center_;

@@ -12,15 +12,15 @@
 namespace femscalpel {
 
 Torus::Torus(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double major_radius, double minor_radius)
-    : center_(checked_point(center, "torus: center")),
-      axis_(checked_direction(axis, "torus: axis")),
-      major_(checked_length(major_radius, "torus: major_radius")),
-      minor_(checked_length(minor_radius, "torus: minor_radius")) {
+    : center_(checked_point(center, {"torus", "center"})),
+      axis_(checked_direction(axis, {"torus", "axis"})),
+      major_(checked_length(major_radius, {"torus", "major_radius"})),
+      minor_(checked_length(minor_radius, {"torus", "minor_radius"})) {
     if (minor_ < major_) return;
     std::ostringstream message;
     message << "torus: minor_radius is " << minor_ << "; it must be smaller than major_radius, " << major_
             << ", or the torus crosses itself";
-    throw ToolError(message.str());
+    throw ToolError(message.str(), "minor_radius");
 }
 
 double Torus::distance(const Eigen::Vector3d& x) const {

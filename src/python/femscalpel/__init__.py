@@ -9,9 +9,11 @@
     fs.write(result.mesh, "cracked.med")
 
 Lengths are in the mesh's own unit. The input mesh is never changed: an operator returns a new, valid mesh
-or raises an error of class :class:`Error`. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
+or raises an error of class :class:`Error`; `parameter` of these, and of TypeError and ValueError about an argument, is
+the name of the parameter at fault. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
 """
 
+from . import tools
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
 from .cancel import CancelToken
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
@@ -22,7 +24,7 @@ from .operators import Result, Scalpel, crack, cut, drill, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, HeldNodes, PoorPlace, Quality, QualitySummary, Refinement, Report
 from .skin import Shape
-from .tools import Cone, Cylinder, Face, Plane, Sphere, Tool, Torus
+from .tools import *  # Tool, and a class for each tool
 from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within
 
 __version__ = "0.1.0"
@@ -31,15 +33,12 @@ __all__ = [
     "BoundaryPart",
     "CancelToken",
     "Cancelled",
-    "Cone",
-    "Cylinder",
     "CylinderPart",
     "Disk",
     "Ellipse",
     "ElementaryGroup",
     "ElementQuality",
     "Error",
-    "Face",
     "Format",
     "Group",
     "GroupRecord",
@@ -47,7 +46,6 @@ __all__ = [
     "HalfPlane",
     "HeldNodes",
     "Mesh",
-    "Plane",
     "Polygon",
     "PoorPlace",
     "Quality",
@@ -59,10 +57,7 @@ __all__ = [
     "Result",
     "Scalpel",
     "Shape",
-    "Sphere",
-    "Tool",
     "ToolError",
-    "Torus",
     "UnsupportedElementError",
     "VirtualBoundary",
     "Within",
@@ -83,3 +78,4 @@ __all__ = [
     "virtual_boundary",
     "write",
 ]
+__all__ += tools.__all__

@@ -16,7 +16,9 @@ CELL_TYPES: Dict[str, Tuple[int, int, int]] = _engine.cell_types()
 
 def _check_kind(kind: str, name: str = "kind") -> str:
     if kind not in KINDS:
-        raise ValueError(f"{name} must be one of {', '.join(map(repr, KINDS))}, not {_arguments.describe(kind)}")
+        raise _arguments.about(
+            name, ValueError(f"{name} must be one of {', '.join(map(repr, KINDS))}, not {_arguments.describe(kind)}")
+        )
     return kind
 
 
@@ -106,9 +108,12 @@ def _group_entries(groups) -> list:
         if isinstance(entry, Group):
             entry = (entry.name, entry.kind, entry.ids)
         if not isinstance(entry, (tuple, list)) or len(entry) != 3:
-            raise TypeError(
-                "groups must be {name: (kind, ids)} or a list of (name, kind, ids), "
-                f"not contain {_arguments.describe(entry)}"
+            raise _arguments.about(
+                "groups",
+                TypeError(
+                    "groups must be {name: (kind, ids)} or a list of (name, kind, ids), "
+                    f"not contain {_arguments.describe(entry)}"
+                ),
             )
         name, kind, ids = entry
         _arguments.text(name, "groups: name")
@@ -175,22 +180,30 @@ class Mesh:
         try:
             points = np.ascontiguousarray(points, dtype=np.float64)
         except (TypeError, ValueError):
-            raise TypeError("points must be an array of numbers of shape (n, 3)") from None
+            raise _arguments.about("points", TypeError("points must be an array of numbers of shape (n, 3)")) from None
         if points.size == 0:
             points = points.reshape(0, 3)
         if points.ndim != 2 or points.shape[1] != 3:
-            raise ValueError(f"points must have the shape (n, 3), not {points.shape}")
+            raise _arguments.about("points", ValueError(f"points must have the shape (n, 3), not {points.shape}"))
         if node_ids is None:
             node_ids = np.arange(1, len(points) + 1)
         node_ids = _arguments.integers(node_ids, "node_ids")
         if node_ids.shape != (len(points),):
-            raise ValueError(
-                f"node_ids must have the shape ({len(points)},), one number per point, not {node_ids.shape}"
+            raise _arguments.about(
+                "node_ids",
+                ValueError(
+                    f"node_ids must have the shape ({len(points)},), one number per point, not {node_ids.shape}"
+                ),
             )
         if not isinstance(cells, Mapping):
-            raise TypeError(f"cells must be a dict of element type to array, not {_arguments.describe(cells)}")
+            raise _arguments.about(
+                "cells", TypeError(f"cells must be a dict of element type to array, not {_arguments.describe(cells)}")
+            )
         if cell_ids is not None and not isinstance(cell_ids, Mapping):
-            raise TypeError(f"cell_ids must be a dict of element type to array, not {_arguments.describe(cell_ids)}")
+            raise _arguments.about(
+                "cell_ids",
+                TypeError(f"cell_ids must be a dict of element type to array, not {_arguments.describe(cell_ids)}"),
+            )
         blocks = []
         next_id = 1
         for cell_type, nodes in cells.items():
@@ -202,7 +215,9 @@ class Mesh:
             if nodes.size == 0:
                 nodes = nodes.reshape(0, width)
             if nodes.ndim != 2 or nodes.shape[1] != width:
-                raise ValueError(f"cells{where} must have the shape (m, {width}), not {nodes.shape}")
+                raise _arguments.about(
+                    "cells", ValueError(f"cells{where} must have the shape (m, {width}), not {nodes.shape}")
+                )
             if cell_ids is None:
                 ids = np.arange(next_id, next_id + len(nodes))
                 next_id += len(nodes)
@@ -211,16 +226,23 @@ class Mesh:
             elif len(nodes) == 0:
                 ids = np.empty(0, np.int64)
             else:
-                raise ValueError(f"cell_ids must have an entry {cell_type!r}, as cells has")
+                raise _arguments.about(
+                    "cell_ids", ValueError(f"cell_ids must have an entry {cell_type!r}, as cells has")
+                )
             if ids.shape != (len(nodes),):
-                raise ValueError(
-                    f"cell_ids{where} must have the shape ({len(nodes)},), one number per element, not {ids.shape}"
+                raise _arguments.about(
+                    "cell_ids",
+                    ValueError(
+                        f"cell_ids{where} must have the shape ({len(nodes)},), one number per element, not {ids.shape}"
+                    ),
                 )
             blocks.append((cell_type, nodes, ids))
         if cell_ids is not None:
             for cell_type in cell_ids:
                 if cell_type not in cells:
-                    raise ValueError(f"cell_ids has an entry {cell_type!r} that cells has not")
+                    raise _arguments.about(
+                        "cell_ids", ValueError(f"cell_ids has an entry {cell_type!r} that cells has not")
+                    )
         engine_mesh = _engine.Mesh(points, node_ids, blocks, _group_entries(groups))
         engine_mesh.name = _arguments.text(name, "name")
         self._engine_mesh = engine_mesh
@@ -352,5 +374,5 @@ class Mesh:
 def check_mesh(mesh, name: str = "mesh") -> "_engine.Mesh":
     """The engine's side of `mesh`; TypeError that names the parameter when it is something else."""
     if not isinstance(mesh, Mesh):
-        raise TypeError(f"{name} must be a femscalpel.Mesh, not {_arguments.describe(mesh)}")
+        raise _arguments.about(name, TypeError(f"{name} must be a femscalpel.Mesh, not {_arguments.describe(mesh)}"))
     return mesh._engine_mesh

@@ -12,7 +12,9 @@ Path = Union[str, "os.PathLike[str]"]
 
 def _path(path) -> str:
     if not isinstance(path, (str, os.PathLike)):
-        raise TypeError(f"path must be a string or a path object, not {_arguments.describe(path)}")
+        raise _arguments.about(
+            "path", TypeError(f"path must be a string or a path object, not {_arguments.describe(path)}")
+        )
     return os.fsdecode(path)
 
 

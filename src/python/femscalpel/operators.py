@@ -100,12 +100,15 @@ def _tools(tools) -> list:
     try:
         tools = list(tools)
     except TypeError:
-        raise TypeError(
-            f"tools must be a tool such as femscalpel.Cylinder, or a sequence of tools, not "
-            f"{_arguments.describe(tools)}"
+        raise _arguments.about(
+            "tools",
+            TypeError(
+                f"tools must be a tool such as femscalpel.Cylinder, or a sequence of tools, not "
+                f"{_arguments.describe(tools)}"
+            ),
         ) from None
     if not tools:
-        raise ValueError("tools is empty; give at least one tool")
+        raise _arguments.about("tools", ValueError("tools is empty; give at least one tool"))
     return [check_tool(tool, f"tools[{k}]") for k, tool in enumerate(tools)]
 
 
@@ -167,7 +170,9 @@ def _walls(tool, width, other, bottom) -> tuple:
     if other is not None:
         return check_tool(tool), check_tool(other, "other"), bottom
     if not isinstance(tool, Plane):
-        raise TypeError(f"tool must be a femscalpel.Plane when width is given, not {_arguments.describe(tool)}")
+        raise _arguments.about(
+            "tool", TypeError(f"tool must be a femscalpel.Plane when width is given, not {_arguments.describe(tool)}")
+        )
     return tool, _arguments.real(width, "width"), bottom
 
 
@@ -316,11 +321,11 @@ def _near(near) -> tuple:
     try:
         points = np.array(near, dtype=np.float64)
     except (TypeError, ValueError):
-        raise TypeError(message) from None
+        raise _arguments.about("near", TypeError(message)) from None
     if points.shape == (3,):
         points = points.reshape(1, 3)
     if points.ndim != 2 or points.shape[1] != 3:
-        raise TypeError(message)
+        raise _arguments.about("near", TypeError(message))
     return [], points
 
 

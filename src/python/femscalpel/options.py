@@ -25,7 +25,9 @@ ShapeOption = Union[None, Shape, str, os.PathLike, Any]
 
 def _method(value):
     if value not in METHODS:
-        raise ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(value)}")
+        raise _arguments.about(
+            "method", ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(value)}")
+        )
     return value
 
 
@@ -36,7 +38,9 @@ def _transition(value):
 def _feature_angle(value):
     value = _arguments.real(value, "feature_angle")
     if not 0 < value < 180:
-        raise ValueError(f"feature_angle must be between 0 and 180 degrees, not {value}")
+        raise _arguments.about(
+            "feature_angle", ValueError(f"feature_angle must be between 0 and 180 degrees, not {value}")
+        )
     return value
 
 
@@ -44,7 +48,9 @@ def _preserve(value):
     if value is None:
         return None
     if isinstance(value, str) or not isinstance(value, Iterable):
-        raise TypeError(f"preserve must be a list of group names, not {_arguments.describe(value)}")
+        raise _arguments.about(
+            "preserve", TypeError(f"preserve must be a list of group names, not {_arguments.describe(value)}")
+        )
     return [_arguments.text(group, "preserve") for group in value]
 
 
@@ -55,11 +61,16 @@ def _refine(value):
     if value is False:
         return 0.0
     if value is True:
-        raise TypeError(
-            "refine must be None (where the tool is finer than the mesh), False (never) or a length, not True"
+        raise _arguments.about(
+            "refine",
+            TypeError(
+                "refine must be None (where the tool is finer than the mesh), False (never) or a length, not True"
+            ),
         )
     if (size := _arguments.real(value, "refine")) <= 0:
-        raise ValueError(f"refine must be a positive length, not {size}; False is for never")
+        raise _arguments.about(
+            "refine", ValueError(f"refine must be a positive length, not {size}; False is for never")
+        )
     return size
 
 

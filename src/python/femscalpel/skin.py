@@ -33,8 +33,11 @@ class Shape(_engine.CadShape):
         elif isinstance(source, (str, os.PathLike)):
             super().__init__(os.fspath(source))
         else:
-            raise TypeError(
-                f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(source)}"
+            raise _arguments.about(
+                "skin",
+                TypeError(
+                    f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(source)}"
+                ),
             )
 
     def __repr__(self) -> str:

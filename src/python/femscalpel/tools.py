@@ -1,14 +1,87 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What one cuts with."""
+"""What one cuts with: one class for each tool, whose parameters are said once, in the table over it.
 
+From the table come the constructor and its checks, the attributes, the docstring and what repr() shows; documents and
+task panels of FreeCAD read it as `TOOLS`. A new tool is a class here, bound under its name, its parameters over it.
+"""
+
+import inspect
 import os
-from typing import Sequence, Tuple
+import textwrap
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _arguments, _engine
 
+__all__ = ["Cone", "Cylinder", "Face", "Plane", "Sphere", "Tool", "Torus"]
+
 Tool = _engine.Tool
+Vector = Tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a parameter of a tool can be."""
+
+    name: str
+    text: str  #: for docstrings
+    annotation: Any
+    check: Callable[[Any, str], Any]  #: what the engine takes, of a value and the parameter's name
+    attribute: str = "{}"  #: of the engine's class that gives it back, from the parameter's name
+
+
+def _shape(value, name):
+    """The text of a FreeCAD shape, or the path of a file."""
+    if hasattr(value, "exportBrepToString"):
+        return value.exportBrepToString().encode()
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    raise _arguments.about(
+        name, TypeError(f"{name} must be a path or a FreeCAD shape, not {_arguments.describe(value)}")
+    )
+
+
+POINT = Kind("point", "three numbers", Sequence[float], _arguments.vector)
+DIRECTION = Kind("direction", "three numbers", Sequence[float], _arguments.vector, "unit_{}")
+LENGTH = Kind("length", "number", float, _arguments.real)
+ANGLE = Kind("angle", "number", float, _arguments.real)  # in degrees
+FACE = Kind("face", "path, or FreeCAD shape", Any, _shape)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a tool."""
+
+    name: str  #: in the constructor, and of the attribute that gives it back
+    kind: Kind
+    text: str  #: what it is
+    value: str = ""  #: what the attribute is, where that is not what was given
+    asked: str = ""  #: what those call it who ask for any tool, whose parameters then share fields; its name otherwise
+    ask: str = ""  #: what they say of it; the text otherwise
+    default: Optional[float] = None  #: what they begin with
+
+    @property
+    def asked_as(self) -> str:
+        """Name of the field of those who ask for any tool."""
+        return self.asked or self.name
+
+
+@dataclass(frozen=True)
+class ToolKind:
+    """A tool and its parameters."""
+
+    tool: type
+    parameters: Tuple[Parameter, ...]
+
+    def build(self, value: Callable[[Parameter], Any]) -> Tool:
+        """The tool with `value(parameter)` for each of its parameters."""
+        return self.tool(**{p.name: value(p) for p in self.parameters})
+
+
+#: All tools by the name of their class.
+TOOLS: Dict[str, ToolKind] = {}
 
 
 def _distance(self, points) -> np.ndarray:
@@ -17,239 +90,205 @@ def _distance(self, points) -> np.ndarray:
     if array.ndim == 1:
         array = array.reshape(1, -1)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"points must have the shape (n, 3), not {array.shape}")
+        raise _arguments.about("points", ValueError(f"points must have the shape (n, 3), not {array.shape}"))
     return self.distances(array)
 
 
+def _constructor(tool, parameters):
+    positional = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    own = [inspect.Parameter(p.name, positional, annotation=p.kind.annotation) for p in parameters]
+    signature = inspect.Signature(own)
+
+    def __init__(self, *args, **kwargs):
+        try:
+            given = signature.bind(*args, **kwargs).arguments
+        except TypeError as error:
+            raise TypeError(f"{tool.__name__}() {error}") from None
+        super(tool, self).__init__(*(p.kind.check(given[p.name], p.name) for p in parameters))
+
+    __init__.__signature__ = signature.replace(parameters=[inspect.Parameter("self", positional), *own])
+    return __init__
+
+
+def _attribute(tool, parameter):
+    name = parameter.kind.attribute.format(parameter.name)
+
+    def get(self):
+        value = getattr(super(tool, self), name)
+        return value if isinstance(value, float) else tuple(value)
+
+    get.__annotations__["return"] = float if parameter.kind.annotation is float else Vector
+    return property(get, doc=parameter.value or parameter.text)
+
+
+def _documentation(tool, parameters, errors) -> str:
+    """The docstring of a tool, numpydoc: `errors` are pairs of class and text."""
+    lines = [inspect.cleandoc(tool.__doc__), "", "Parameters", "----------"]
+    for p in parameters:
+        lines += [
+            f"{p.name} : {p.kind.text}",
+            *textwrap.wrap(p.text, 112, initial_indent="    ", subsequent_indent="    "),
+        ]
+    lines += ["", "Raises", "------"]
+    for name, text in errors:
+        lines += [name, f"    {text}"]
+    return "\n".join(lines) + "\n"
+
+
+def _made_from(*parameters, **errors):
+    """Makes a tool of a class derived from the engine's: what it does not define itself comes from its parameters.
+    `errors` are the texts of those its constructor raises."""
+
+    def decorate(tool):
+        def __repr__(self) -> str:
+            return f"{tool.__name__}({', '.join(f'{p.name}={getattr(self, p.name)}' for p in parameters)})"
+
+        made = {"__repr__": __repr__, "__init__": _constructor(tool, parameters)}
+        made.update((p.name, _attribute(tool, p)) for p in parameters if p.kind is not FACE)
+        for name, value in made.items():
+            if name not in vars(tool):
+                setattr(tool, name, value)
+        tool.__doc__ = _documentation(tool, parameters, errors.items())
+        TOOLS[tool.__name__] = ToolKind(tool, parameters)
+        return tool
+
+    return decorate
+
+
+_AXIS_ORIGIN = Parameter(
+    "origin", POINT, "A point of the axis, in the mesh's unit.", value="The point of the axis it was made with."
+)
+
+
+@_made_from(
+    Parameter(
+        "origin", POINT, "A point of the plane, in the mesh's unit.", value="The point of the plane it was made with."
+    ),
+    Parameter(
+        "normal",
+        DIRECTION,
+        "Direction of the positive side; any length.",
+        value="Unit normal; it points to the positive side.",
+    ),
+    ToolError="The normal is zero.",
+)
 class Plane(_engine.Plane):
-    """An infinite plane through `origin`, normal to `normal`.
+    """An infinite plane through `origin`, normal to `normal`."""
 
-    Parameters
-    ----------
-    origin : three numbers
-        A point of the plane, in the mesh's unit.
-    normal : three numbers
-        Direction of the positive side; any length.
-
-    Raises
-    ------
-    ToolError
-        The normal is zero.
-    """
-
-    def __init__(self, origin: Sequence[float], normal: Sequence[float]):
-        super().__init__(_arguments.vector(origin, "origin"), _arguments.vector(normal, "normal"))
-
-    @property
-    def origin(self) -> Tuple[float, float, float]:
-        """The point of the plane it was made with."""
-        return tuple(super().origin)
-
-    @property
-    def normal(self) -> Tuple[float, float, float]:
-        """Unit normal; it points to the positive side."""
-        return tuple(self.unit_normal)
-
+    normal: Vector  # for editors
     distance = _distance
 
-    def __repr__(self) -> str:
-        return f"Plane(origin={self.origin}, normal={self.normal})"
 
-
+@_made_from(
+    _AXIS_ORIGIN,
+    Parameter("axis", DIRECTION, "Direction of the axis; any length.", value="Unit vector along the axis."),
+    Parameter("radius", LENGTH, "In the mesh's unit.", ask="Of the cylinder", default=1.0),
+    ToolError="The axis is zero or the radius not positive.",
+)
 class Cylinder(_engine.Cylinder):
-    """An infinite circular cylinder; its positive side is outside.
+    """An infinite circular cylinder; its positive side is outside."""
 
-    Parameters
-    ----------
-    origin : three numbers
-        A point of the axis, in the mesh's unit.
-    axis : three numbers
-        Direction of the axis; any length.
-    radius : number
-        In the mesh's unit.
-
-    Raises
-    ------
-    ToolError
-        The axis is zero or the radius not positive.
-    """
-
-    def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float):
-        super().__init__(
-            _arguments.vector(origin, "origin"), _arguments.vector(axis, "axis"), _arguments.real(radius, "radius")
-        )
-
-    @property
-    def origin(self) -> Tuple[float, float, float]:
-        """The point of the axis it was made with."""
-        return tuple(super().origin)
-
-    @property
-    def axis(self) -> Tuple[float, float, float]:
-        """Unit vector along the axis."""
-        return tuple(self.unit_axis)
-
+    axis: Vector  # for editors
     distance = _distance
 
-    def __repr__(self) -> str:
-        return f"Cylinder(origin={self.origin}, axis={self.axis}, radius={self.radius})"
 
-
+@_made_from(
+    Parameter("center", POINT, "In the mesh's unit.", value="Its middle."),
+    Parameter("radius", LENGTH, "In the mesh's unit."),
+    ToolError="The radius is not positive.",
+)
 class Sphere(_engine.Sphere):
-    """A sphere; its positive side is outside.
-
-    Parameters
-    ----------
-    center : three numbers
-        In the mesh's unit.
-    radius : number
-        In the mesh's unit.
-
-    Raises
-    ------
-    ToolError
-        The radius is not positive.
-    """
-
-    def __init__(self, center: Sequence[float], radius: float):
-        super().__init__(_arguments.vector(center, "center"), _arguments.real(radius, "radius"))
-
-    @property
-    def center(self) -> Tuple[float, float, float]:
-        """Its middle."""
-        return tuple(super().center)
+    """A sphere; its positive side is outside."""
 
     distance = _distance
 
-    def __repr__(self) -> str:
-        return f"Sphere(center={self.center}, radius={self.radius})"
 
-
+@_made_from(
+    Parameter("center", POINT, "Middle of the circle, in the mesh's unit.", value="Middle of the circle."),
+    Parameter(
+        "axis", DIRECTION, "Normal of the circle's plane; any length.", value="Unit normal of the circle's plane."
+    ),
+    Parameter("major_radius", LENGTH, "Of the circle, in the mesh's unit.", asked="radius"),
+    Parameter(
+        "minor_radius",
+        LENGTH,
+        "Of the tube around it, in the mesh's unit.",
+        asked="tube_radius",
+        ask="Of a torus' tube; Radius is that of its ring",
+        default=0.25,
+    ),
+    ToolError="The axis is zero, a radius not positive, or the minor radius not smaller than the major one.",
+)
 class Torus(_engine.Torus):
-    """A ring torus: a tube around a circle; its positive side is outside the tube.
+    """A ring torus: a tube around a circle; its positive side is outside the tube."""
 
-    Parameters
-    ----------
-    center : three numbers
-        Middle of the circle, in the mesh's unit.
-    axis : three numbers
-        Normal of the circle's plane; any length.
-    major_radius, minor_radius : number
-        Radius of the circle and of the tube around it, in the mesh's unit.
-
-    Raises
-    ------
-    ToolError
-        The axis is zero, a radius not positive, or the minor radius not smaller than the major one.
-    """
-
-    def __init__(self, center: Sequence[float], axis: Sequence[float], major_radius: float, minor_radius: float):
-        super().__init__(
-            _arguments.vector(center, "center"),
-            _arguments.vector(axis, "axis"),
-            _arguments.real(major_radius, "major_radius"),
-            _arguments.real(minor_radius, "minor_radius"),
-        )
-
-    @property
-    def center(self) -> Tuple[float, float, float]:
-        """Middle of the circle."""
-        return tuple(super().center)
-
-    @property
-    def axis(self) -> Tuple[float, float, float]:
-        """Unit normal of the circle's plane."""
-        return tuple(self.unit_axis)
-
+    axis: Vector  # for editors
     distance = _distance
 
-    def __repr__(self) -> str:
-        radii = f"major_radius={self.major_radius}, minor_radius={self.minor_radius}"
-        return f"Torus(center={self.center}, axis={self.axis}, {radii})"
 
-
+@_made_from(
+    Parameter(
+        "origin",
+        POINT,
+        "The point of the axis at which the cone has `radius`, in the mesh's unit.",
+        value="The point of the axis it was made with.",
+    ),
+    Parameter(
+        "axis",
+        DIRECTION,
+        "Direction in which the cone gets wider; any length.",
+        value="Unit vector along the axis, to the wide side.",
+    ),
+    Parameter("radius", LENGTH, "At the origin, in the mesh's unit."),
+    Parameter(
+        "half_angle",
+        ANGLE,
+        "Degrees between the axis and the surface.",
+        ask="Between the axis of a cone, which opens along it, and its side; Radius is that at the placement's origin",
+        default=30.0,
+    ),
+    ToolError="The axis is zero, the radius not positive or the angle not between 0 and 90.",
+)
 class Cone(_engine.Cone):
     """A circular cone, from its apex on without end; its positive side is outside.
 
     The mesh cannot follow a cone to its apex: keep :attr:`apex` out of the material.
-
-    Parameters
-    ----------
-    origin : three numbers
-        The point of the axis at which the cone has `radius`, in the mesh's unit.
-    axis : three numbers
-        Direction in which the cone gets wider; any length.
-    radius : number
-        In the mesh's unit.
-    half_angle : number
-        Degrees between the axis and the surface.
-
-    Raises
-    ------
-    ToolError
-        The axis is zero, the radius not positive or the angle not between 0 and 90.
     """
 
-    def __init__(self, origin: Sequence[float], axis: Sequence[float], radius: float, half_angle: float):
-        super().__init__(
-            _arguments.vector(origin, "origin"),
-            _arguments.vector(axis, "axis"),
-            _arguments.real(radius, "radius"),
-            _arguments.real(half_angle, "half_angle"),
-        )
+    axis: Vector  # for editors
+    distance = _distance
 
     @property
-    def origin(self) -> Tuple[float, float, float]:
-        """The point of the axis it was made with."""
-        return tuple(super().origin)
-
-    @property
-    def axis(self) -> Tuple[float, float, float]:
-        """Unit vector along the axis, to the wide side."""
-        return tuple(self.unit_axis)
-
-    @property
-    def apex(self) -> Tuple[float, float, float]:
+    def apex(self) -> Vector:
         """The cone's tip."""
         return tuple(super().apex)
 
-    distance = _distance
 
-    def __repr__(self) -> str:
-        return f"Cone(origin={self.origin}, axis={self.axis}, radius={self.radius}, half_angle={self.half_angle})"
-
-
+@_made_from(
+    Parameter(
+        "source",
+        FACE,
+        "A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, or a ``Part.Shape``: all faces in it, which must meet "
+        "smoothly. Lengths of a STEP file are taken in millimetres.",
+        asked="face",
+        ask="If the tool is a face: the face, or several that meet smoothly, or all of an object",
+    ),
+    ReadError="The file cannot be read.",
+    ToolError="There is no face in it, or faces that meet at an angle.",
+)
 class Face(_engine.Face):
     """A face or shell of a CAD model, by OpenCASCADE; its positive side is the one its normals point to.
 
     A crack along it goes as far as the face does: where its border lies inside the material it is the crack's front,
     and ``name_FRONT`` has the segments along it (see ``within`` of :func:`crack`); corners of the border become nodes.
-
-    Parameters
-    ----------
-    source : path, or FreeCAD shape
-        A ``.step``, ``.stp``, ``.brep`` or ``.brp`` file, or a ``Part.Shape``: all faces in it, which must meet
-        smoothly. Lengths of a STEP file are taken in millimetres.
-
-    Raises
-    ------
-    ReadError
-        The file cannot be read.
-    ToolError
-        There is no face in it, or faces that meet at an angle.
     """
 
+    distance = _distance
+
     def __init__(self, source):
-        if hasattr(source, "exportBrepToString"):
-            super().__init__(source.exportBrepToString().encode())
-        elif isinstance(source, (str, os.PathLike)):
-            super().__init__(os.fspath(source))
-        else:
-            raise TypeError(f"source must be a path or a FreeCAD shape, not {_arguments.describe(source)}")
+        super().__init__(_shape(source, "source"))
         # Kept, so that debuggers can show an object whose construction failed.
         self._text = f"Face({_arguments.describe(source)}, {self.face_count} face(s))"
-
-    distance = _distance
 
     def __repr__(self) -> str:
         return getattr(self, "_text", "Face()")
@@ -258,5 +297,7 @@ class Face(_engine.Face):
 def check_tool(tool, name: str = "tool"):
     """`tool`; TypeError that names the parameter when it is something else."""
     if not isinstance(tool, Tool):
-        raise TypeError(f"{name} must be a tool such as femscalpel.Plane, not {_arguments.describe(tool)}")
+        raise _arguments.about(
+            name, TypeError(f"{name} must be a tool such as femscalpel.Plane, not {_arguments.describe(tool)}")
+        )
     return tool

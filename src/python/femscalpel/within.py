@@ -68,7 +68,9 @@ class Polygon(_engine.Polygon):
         try:
             corners = list(corners)
         except TypeError:
-            raise TypeError(f"corners must be a sequence of points, not {_arguments.describe(corners)}") from None
+            raise _arguments.about(
+                "corners", TypeError(f"corners must be a sequence of points, not {_arguments.describe(corners)}")
+            ) from None
         self.corners = [_arguments.vector(c, f"corners[{k}]") for k, c in enumerate(corners)]
         super().__init__(self.corners)
 
@@ -128,7 +130,10 @@ class CylinderPart(_engine.CylinderPart):
 def check_within(within):
     """`within`; TypeError when it is something else or not None."""
     if within is not None and not isinstance(within, Within):
-        raise TypeError(
-            f"within must be a Disk, Ellipse, Polygon, HalfPlane or CylinderPart, not {_arguments.describe(within)}"
+        raise _arguments.about(
+            "within",
+            TypeError(
+                f"within must be a Disk, Ellipse, Polygon, HalfPlane or CylinderPart, not {_arguments.describe(within)}"
+            ),
         )
     return within

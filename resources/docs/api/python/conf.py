@@ -33,7 +33,14 @@ def restore(app, what, name, obj, options, lines):
         lines[:] = written.pop(name)
 
 
+def list_tools(app, name, source):
+    """Puts the tools where a page has the comment `every tool`."""
+    tools = [f".. autoclass:: {tool}\n   :members:\n   :inherited-members: tuple\n" for tool in femscalpel.tools.TOOLS]
+    source[0] = source[0].replace(".. every tool\n", "".join(tools))
+
+
 def setup(app):
     """Called by Sphinx."""
+    app.connect("source-read", list_tools)
     app.connect("autodoc-process-docstring", keep, priority=400)
     app.connect("autodoc-process-docstring", restore, priority=600)

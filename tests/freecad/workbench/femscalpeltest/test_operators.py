@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The document objects of the operators other than the planar crack."""
 
+import inspect
 import os
+import re
 
 import FreeCAD
 import numpy as np
@@ -193,6 +195,83 @@ class Operators(DocumentTest):
         self.doc.Refine.Size = 0
         self.doc.recompute()
         self.assertEqual([o.FemMesh.NodeCount for o in (self.doc.Refine, self.doc.Drill, self.doc.Crack)], [0, 0, 0])
+
+    def test_signatures(self):
+        """Positions of arguments stay what they were; what is new comes last."""
+        common = "method=snap transition=0 group_name={} feature_angle=30.0 preserve=None"
+        curved = "placement=None origin=None axis=None radius=1.0 tube_radius=0.25 half_angle=30.0"
+        for make, group, text in (
+            (
+                "makeCrack",
+                "CRACK",
+                f"name=Crack placement=None origin=None normal=None {common} patch=Whole patch_radius=1.0 "
+                "patch_second_radius=0.5 patch_corners=() refine=None",
+            ),
+            (
+                "makeCylindricalCrack",
+                "CRACK",
+                f"name=CylindricalCrack placement=None origin=None axis=None radius=1.0 {common} along=None "
+                "angles=(0,360) refine=None",
+            ),
+            ("makeCurvedCrack", "CRACK", f"name=CurvedCrack tool=Sphere {curved} {common} face=None refine=None"),
+            (
+                "makeDrill",
+                "HOLE",
+                f"name=Drill placement=None origin=None axis=None radius=1.0 depth=None positions=() {common} "
+                "refine=None",
+            ),
+            (
+                "makeCut",
+                "CUT",
+                "name=Cut placement=None origin=None normal=None width=1.0 bottom=None "
+                f"{common[len('method=snap '):]} refine=None",
+            ),
+            (
+                "makeRefine",
+                "",
+                f"name=Refine tool=Cylinder {curved} size=1.0 reach=0.0 gradation=0.5 feature_angle=30.0 face=None",
+            ),
+        ):
+            with self.subTest(make=make):
+                function = getattr(ObjectsFemScalpel, make)
+                parameters = inspect.signature(function).parameters.values()
+                found = [str(p).replace("'", "").replace(" ", "") for p in parameters]
+                expected = ["doc", "source", *text.format(group).split()]
+                self.assertEqual(found[: len(expected)], expected)
+                self.assertTrue(all(p.kind == p.POSITIONAL_OR_KEYWORD for p in parameters))
+                section = function.__doc__.split("    ----------\n")[1].split("\n\n")[0]
+                named = re.findall(r"^    (\w+(?:, \w+)*)(?: :|$)", section, re.M)
+                self.assertEqual(set(", ".join(named).split(", ")), {p.name for p in parameters})
+        with self.assertRaisesRegex(TypeError, r"makeDrill\(\) got an unexpected keyword argument 'size'"):
+            ObjectsFemScalpel.makeDrill(self.doc, self.source, size=1)
+
+    def test_options_are_properties(self):
+        options = dict(transition=3, group_name="X", feature_angle=25, preserve=["LEFT"], refine=0.4)
+        for make in ("makeCrack", "makeCylindricalCrack", "makeCurvedCrack", "makeDrill", "makeCut"):
+            for given in ({}, options):
+                with self.subTest(make=make, given=given):
+                    obj = getattr(ObjectsFemScalpel, make)(self.doc, self.source, **given)
+                    found = (obj.Method, obj.Transition, obj.FeatureAngle.Value, obj.PreservedGroups, obj.Refine)
+                    expected = ("snap", 3, 25, ["LEFT"], "Size") if given else ("snap", 0, 30, ["*"], "Automatic")
+                    self.assertEqual(found, expected)
+                    self.assertEqual(obj.RefineSize.Value, 0.4 if given else 1)
+                    self.assertEqual(obj.GroupName == "X", bool(given))
+        self.assertEqual(obj.getEnumerationsOfProperty("Method"), ["snap"])  # of a cut
+
+    def test_properties_of_tools(self):
+        """Names that documents have, whatever the table says."""
+        crack = ObjectsFemScalpel.makeCurvedCrack(self.doc, self.source)
+        refined = ObjectsFemScalpel.makeRefine(self.doc, self.source)
+        for obj, shapes, shape in (
+            (crack, [name for name in fs.tools.TOOLS if name != "Plane"], "Sphere"),
+            (refined, list(fs.tools.TOOLS), "Cylinder"),
+        ):
+            self.assertEqual((obj.getEnumerationsOfProperty("ToolShape"), obj.ToolShape), (shapes, shape))
+            self.assertEqual((obj.Radius.Value, obj.TubeRadius.Value, obj.HalfAngle.Value), (1, 0.25, 30))
+            types = [obj.getTypeIdOfProperty(n) for n in ("Radius", "TubeRadius", "HalfAngle", "ToolFace")]
+            self.assertEqual(
+                types, ["App::PropertyLength", "App::PropertyLength", "App::PropertyAngle", "App::PropertyLinkSub"]
+            )
 
     def test_bad_arguments(self):
         objects = self.doc.Objects

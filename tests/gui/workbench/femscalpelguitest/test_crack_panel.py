@@ -3,6 +3,7 @@
 
 import os
 import tempfile
+from unittest import mock
 
 import FreeCAD
 import FreeCADGui
@@ -437,6 +438,45 @@ class CrackMessages(CrackTest):
         self.open_panel()
         type_into("groupName", "OTHER")
         self.assertIn("taken", self.wait_for_message("nameError"))
+
+    def test_placed_by_the_parameter_and_not_by_the_words(self):
+        self.open_panel()
+        labels = ("nameError", "methodError", "refineError", "geometryError", "resultError")
+        for number, (kind, parameter, label) in enumerate(
+            (
+                (fs.ToolError, "name", "nameError"),
+                (fs.ToolError, "method", "methodError"),
+                (fs.ToolError, "transition", "methodError"),
+                (ValueError, "feature_angle", "methodError"),
+                (ValueError, "refine", "refineError"),
+                (fs.QualityError, "refine", "refineError"),
+                (fs.QualityError, None, "methodError"),
+                (fs.ToolError, "within", "geometryError"),
+                (fs.ToolError, None, "geometryError"),
+                (fs.UnsupportedElementError, None, "geometryError"),
+                (ValueError, None, "resultError"),
+            )
+        ):
+            error = kind(f"refine, name or method? number {number}")
+            if parameter and kind is ValueError:
+                error.parameter = parameter
+            elif parameter:
+                error._parameter = parameter  # as the engine's errors have it
+            with self.subTest(kind=kind, parameter=parameter):
+                with mock.patch.object(fs.Scalpel, "crack", side_effect=error):
+                    type_into("originX", f"{5 + number / 10}")
+                    wait_until(lambda: is_shown(label) and f"number {number}" in widget(label).text(), "the message")
+                self.assertEqual([name for name in labels if is_shown(name)], [label])
+
+    def test_options_out_of_range(self):
+        self.open_panel()
+        type_into("featureAngle", "0 deg")
+        self.assertIn("angle", self.wait_for_message("methodError"))
+        type_into("featureAngle", "30 deg")
+        wait_until(lambda: not is_shown("methodError"), "the message to go")
+        choose("refine", "Size")
+        type_into("refineSize", "0 mm")
+        self.assertIn("positive length", self.wait_for_message("refineError"))
 
     def test_deform_in_vain(self):
         self.open_panel()
