@@ -42,9 +42,7 @@ py::array_t<double> at_each(const RealArray& points, Function value) {
     return copied<double>(values);
 }
 
-}  // namespace
-
-void bind_tools(py::module_& module) {
+void bind_base(py::module_& module) {
     py::class_<Tool>(
         module, "Tool",
         "Base class of the tools, not made itself. A tool is a surface with a positive side, known by its signed\n"
@@ -61,6 +59,9 @@ void bind_tools(py::module_& module) {
                 return at_each(points, [&](const Eigen::Vector3d& x) { return tool.distance(x); });
             },
             py::arg("points"));
+}
+
+void bind_analytic_surfaces(py::module_& module) {
     py::class_<Plane, Tool>(module, "Plane")
         .def(py::init([](const Triple& origin, const Triple& normal) { return Plane(vector(origin), vector(normal)); }),
              py::arg("origin"), py::arg("normal"))
@@ -98,6 +99,9 @@ void bind_tools(py::module_& module) {
         .def_property_readonly("apex", [](const Cone& cone) { return triple(cone.apex()); })
         .def_property_readonly("radius", &Cone::radius, "At the origin, in the mesh's unit.")
         .def_property_readonly("half_angle", &Cone::half_angle, "Degrees between the axis and the surface.");
+}
+
+void bind_cad(py::module_& module) {
     py::class_<Face, Tool>(module, "Face")
         // In this order: bytes would pass for a path too.
         .def(py::init([](const py::bytes& brep) { return Face::from_brep(brep); }), py::arg("brep"))
@@ -119,7 +123,9 @@ void bind_tools(py::module_& module) {
         .def(py::init([](const std::string& path) { return CadShape::read(path); }), py::arg("path"))
         .def_property_readonly("face_count", &CadShape::face_count, "Number of faces.")
         .def_property_readonly("edge_count", &CadShape::edge_count, "Number of edges.");
+}
 
+void bind_within(py::module_& module) {
     py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
     py::class_<Disk, Within>(module, "Disk")
         .def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }),
@@ -148,6 +154,15 @@ void bind_tools(py::module_& module) {
                  return CylinderPart(low, high, CylinderPart::Angles{start, end, vector(zero)});
              }),
              py::arg("low"), py::arg("high"), py::arg("angles"));
+}
+
+}  // namespace
+
+void bind_tools(py::module_& module) {
+    bind_base(module);
+    bind_analytic_surfaces(module);
+    bind_cad(module);
+    bind_within(module);
 }
 
 }  // namespace femscalpel::bindings
