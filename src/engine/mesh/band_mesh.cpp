@@ -94,8 +94,9 @@ struct Extraction {
         list.assign(std::move(simplices), band.size());
     }
 
-    /// Where fill() put an element, or -1.
+    /// Where fill() put an element; -1 for one that is not near, or no simplex.
     int slot_of(CellType type, Index cell) const {
+        if (!traits(type).simplex) return -1;
         const std::vector<Index>& cells = chosen[static_cast<int>(type)];
         const auto at = std::ranges::lower_bound(cells, cell);
         if (at == cells.end() || *at != cell) return -1;
