@@ -126,6 +126,7 @@ void bind_cad(py::module_& module) {
 }
 
 void bind_within(py::module_& module) {
+    // NOLINTNEXTLINE(bugprone-unused-raii): what it makes stays in the module.
     py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
     py::class_<Disk, Within>(module, "Disk")
         .def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }),
@@ -138,6 +139,7 @@ void bind_within(py::module_& module) {
     py::class_<Polygon, Within>(module, "Polygon")
         .def(py::init([](const std::vector<Triple>& corners) {
                  std::vector<Eigen::Vector3d> out;
+                 out.reserve(corners.size());
                  for (const Triple& c : corners) out.push_back(vector(c));
                  return Polygon(std::move(out));
              }),

@@ -60,6 +60,7 @@ std::string join(const std::vector<std::string>& words) {
 /// "the skin, a corner, and the borders of A, B"
 std::string describe(const Holders& holders) {
     std::vector<std::string> groups;
+    groups.reserve(holders.groups.size());
     for (const std::string& g : holders.groups) groups.push_back("'" + g + "'");
     std::string text = join({holders.features.begin(), holders.features.end()});
     if (!groups.empty()) text += (text.empty() ? "the border of " : " and the border of ") + join(groups);
@@ -181,9 +182,11 @@ std::vector<PoorPlace> find_poor_places(Workpiece& f, const Mesh& mesh, double w
         if (std::ranges::find(elements, e.id) == elements.end()) elements.push_back(e.id);
     }
     std::vector<std::pair<PoorPlace, Holders>> found;
+    found.reserve(places.size());
     for (auto& [holders, place] : places) found.push_back({std::move(place), holders});
     std::ranges::sort(found, {}, [](const auto& p) { return p.first.mean_ratio; });
     std::vector<PoorPlace> out;
+    out.reserve(found.size());
     for (auto& [place, holders] : found) {
         f.warnings.push_back(advice(place, holders, f.tool->kind()));
         out.push_back(std::move(place));
