@@ -30,6 +30,7 @@ void leave(const CancelToken& token) {
 
 Signals::Signals() : main_thread_(PyThread_get_thread_ident() == main_thread), next_(Clock::now() + patience) {}
 
+// NOLINTNEXTLINE(bugprone-exception-escape): without an interpreter lock to be had the program ends.
 Signals::~Signals() {
     if (!type_) return;
     const py::gil_scoped_acquire acquire;

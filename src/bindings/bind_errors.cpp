@@ -72,6 +72,7 @@ void bind_errors(py::module_& module) {
         add_exception(module, "Cancelled",
                       "What ran was cancelled through a CancelToken; nothing was changed or written.", types.error);
 
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type is pybind11's.
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(pointer);

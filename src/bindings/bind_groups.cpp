@@ -28,6 +28,7 @@ py::array_t<std::int64_t> table(std::size_t rows, std::size_t width, Put put) {
 /// Element numbers; 0 where there is no element.
 py::array_t<std::int64_t> numbers(const Mesh& mesh, const std::vector<CellRef>& cells) {
     std::vector<std::int64_t> ids;
+    ids.reserve(cells.size());
     for (const CellRef& c : cells)
         ids.push_back(c.cell < 0 ? 0 : mesh.block(c.type).ids[static_cast<std::size_t>(c.cell)]);
     return copied<std::int64_t>(ids);
@@ -35,6 +36,7 @@ py::array_t<std::int64_t> numbers(const Mesh& mesh, const std::vector<CellRef>& 
 
 py::dict part(const Mesh& mesh, const BoundaryPart& p) {
     std::vector<std::int64_t> nodes;
+    nodes.reserve(p.nodes.size());
     for (const Index n : p.nodes) nodes.push_back(mesh.node_ids[static_cast<std::size_t>(n)]);
     std::vector<std::array<Index, 4>> faces[2];  // triangles, quadrangles
     std::vector<CellRef> elements[2];
@@ -64,6 +66,7 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
     const std::vector<VirtualBoundary> found = interruptible([&] {
         const VirtualBoundaryFinder finder(mesh);
         std::vector<VirtualBoundary> all;
+        all.reserve(groups.size());
         for (const GroupIndex g : groups) all.push_back(finder.find(g));
         return all;
     });
@@ -93,6 +96,7 @@ void bind_groups(py::module_& module) {
         "virtual_boundaries",
         [](const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& groups) {
             std::vector<GroupIndex> indices;
+            indices.reserve(groups.size());
             for (const auto& [name, kind] : groups) indices.push_back(require_group(mesh, name, kind));
             return boundaries(mesh, indices);
         },

@@ -112,19 +112,12 @@ py::array_t<std::int64_t> to_array(const GroupMembers& members) {
     return out;
 }
 
-void bind_mesh(py::module_& module) {
-    module.def(
-        "cell_types",
-        [] {
-            py::dict out;
-            for (const CellTraits& t : all_cell_types())
-                out[py::str(std::string(t.name))] = py::make_tuple(t.dimension, t.nodes, t.corners);
-            return out;
-        },
-        "Element types by name: (dimension, nodes, corners).");
+namespace {
 
-    py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
-        .def(py::init(&make_mesh), py::arg("points"), py::arg("node_ids"), py::arg("cells"), py::arg("groups"))
+using MeshClass = py::class_<Mesh, std::shared_ptr<Mesh>>;
+
+void bind_properties(MeshClass& mesh) {
+    mesh.def(py::init(&make_mesh), py::arg("points"), py::arg("node_ids"), py::arg("cells"), py::arg("groups"))
         .def_property_readonly("points",
                                [](const py::object& self) {
                                    const Mesh& mesh = self.cast<const Mesh&>();
@@ -143,8 +136,11 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("dimension", &Mesh::dimension)
         .def_property_readonly("node_count", &Mesh::node_count)
         .def_property_readonly("cell_count", &Mesh::cell_count)
-        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; })
-        .def("mean_ratios",
+        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; });
+}
+
+void bind_functions(MeshClass& mesh) {
+    mesh.def("mean_ratios",
              [](const Mesh& mesh) {
                  py::dict out;
                  for (const CellBlock& b : mesh.blocks())
@@ -172,8 +168,11 @@ void bind_mesh(py::module_& module) {
         .def(
             "copy", [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); },
             py::call_guard<py::gil_scoped_release>())
-        .def("validate", [](const Mesh& mesh) { interruptible([&] { mesh.validate(); }); })
-        .def("groups",
+        .def("validate", [](const Mesh& mesh) { interruptible([&] { mesh.validate(); }); });
+}
+
+void bind_groups_of(MeshClass& mesh) {
+    mesh.def("groups",
              [](const Mesh& mesh) {
                  std::vector<std::pair<std::string, std::string>> out;
                  for (const Group& g : mesh.groups)
@@ -222,6 +221,25 @@ void bind_mesh(py::module_& module) {
                 mesh.groups[static_cast<std::size_t>(group)].name = new_name;
             },
             py::arg("old_name"), py::arg("new_name"), py::arg("kind"));
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+    module.def(
+        "cell_types",
+        [] {
+            py::dict out;
+            for (const CellTraits& t : all_cell_types())
+                out[py::str(std::string(t.name))] = py::make_tuple(t.dimension, t.nodes, t.corners);
+            return out;
+        },
+        "Element types by name: (dimension, nodes, corners).");
+
+    MeshClass mesh(module, "Mesh");
+    bind_properties(mesh);
+    bind_functions(mesh);
+    bind_groups_of(mesh);
 }
 
 }  // namespace femscalpel::bindings

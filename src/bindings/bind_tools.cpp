@@ -82,9 +82,7 @@ py::class_<T, Tool> bind_tool(py::module_& module, const char* name, const Param
     return out;
 }
 
-}  // namespace
-
-void bind_tools(py::module_& module) {
+void bind_base(py::module_& module) {
     py::class_<Tool>(
         module, "Tool",
         "Base class of the tools, not made itself. A tool is a surface with a positive side, known by its signed\n"
@@ -101,6 +99,9 @@ void bind_tools(py::module_& module) {
                 return at_each(points, [&](const Eigen::Vector3d& x) { return tool.distance(x); });
             },
             py::arg("points"));
+}
+
+void bind_analytic_surfaces(py::module_& module) {
     bind_tool<Plane>(module, "Plane", given("origin", &Plane::origin), direction("normal", &Plane::unit_normal));
     bind_tool<Cylinder>(module, "Cylinder", given("origin", &Cylinder::origin), direction("axis", &Cylinder::unit_axis),
                         given("radius", &Cylinder::radius));
@@ -110,6 +111,9 @@ void bind_tools(py::module_& module) {
     bind_tool<Cone>(module, "Cone", given("origin", &Cone::origin), direction("axis", &Cone::unit_axis),
                     given("radius", &Cone::radius), given("half_angle", &Cone::half_angle))
         .def_property_readonly("apex", [](const Cone& cone) { return triple(cone.apex()); });
+}
+
+void bind_cad(py::module_& module) {
     py::class_<Face, Tool>(module, "Face")
         // In this order: bytes would pass for a path too.
         .def(py::init([](const py::bytes& brep) { return Face::from_brep(brep); }), py::arg("brep"))
@@ -131,7 +135,10 @@ void bind_tools(py::module_& module) {
         .def(py::init([](const std::string& path) { return CadShape::read(path); }), py::arg("path"))
         .def_property_readonly("face_count", &CadShape::face_count, "Number of faces.")
         .def_property_readonly("edge_count", &CadShape::edge_count, "Number of edges.");
+}
 
+void bind_within(py::module_& module) {
+    // NOLINTNEXTLINE(bugprone-unused-raii): what it makes stays in the module.
     py::class_<Within>(module, "Within", "Base class of what a crack can be kept within, not made itself.");
     py::class_<Disk, Within>(module, "Disk")
         .def(py::init([](const Triple& center, double radius) { return Disk(vector(center), radius); }),
@@ -144,6 +151,7 @@ void bind_tools(py::module_& module) {
     py::class_<Polygon, Within>(module, "Polygon")
         .def(py::init([](const std::vector<Triple>& corners) {
                  std::vector<Eigen::Vector3d> out;
+                 out.reserve(corners.size());
                  for (const Triple& c : corners) out.push_back(vector(c));
                  return Polygon(std::move(out));
              }),
@@ -160,6 +168,15 @@ void bind_tools(py::module_& module) {
                  return CylinderPart(low, high, CylinderPart::Angles{start, end, vector(zero)});
              }),
              py::arg("low"), py::arg("high"), py::arg("angles"));
+}
+
+}  // namespace
+
+void bind_tools(py::module_& module) {
+    bind_base(module);
+    bind_analytic_surfaces(module);
+    bind_cad(module);
+    bind_within(module);
 }
 
 }  // namespace femscalpel::bindings

@@ -14,7 +14,7 @@ namespace femscalpel::bindings {
 class Signals {
 public:
     Signals();
-    ~Signals();
+    ~Signals();  // NOLINT(bugprone-exception-escape): see there
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;
 

@@ -42,5 +42,29 @@ TEST(BandMesh, ElementsThatMergingGaveOtherNodesOfTheInputAreChanged) {
     EXPECT_GT(others, 0);
 }
 
+TEST(BandMesh, FacetsOfOtherElementsThanSimplicesAreLeftOutWithThem) {
+    Mesh mesh = checks::grid(1, 1, 1);
+    checks::add_plate(mesh, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, 1);
+    std::array<Index, 8> n;
+    for (int k = 0; k < 4; ++k) {
+        constexpr double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        n[k] = checks::number_near(mesh, {corner[k][0], corner[k][1], 1});
+        n[k + 4] = mesh.add_node({corner[k][0], corner[k][1], 2}, mesh.largest_node_id() + 1);
+    }
+    mesh.add_cell(CellType::hexahedron, n, mesh.largest_cell_id() + 1);
+    mesh.add_cell(CellType::quad, std::span(n).last(4), mesh.largest_cell_id() + 1);
+    const FamilyIndex family = checks::family_of(mesh, "LOADED", GroupKind::facet);
+    mesh.facets = {{CellType::triangle, 2, family, 1},
+                   {CellType::tetra, 1, family, 3},
+                   {CellType::quad, 2, family, 0},
+                   {CellType::quad, 3, family, 0},
+                   {CellType::hexahedron, 1, family, 0}};
+    const BandMesh band = extract_band(mesh, std::vector<std::int8_t>(mesh.points.size(), 0), nullptr, true);
+    ASSERT_EQ(band.facet_faces.size(), 1);
+    EXPECT_EQ(band.facet_faces.tag(0), 1);
+    EXPECT_EQ(band.facet_sides, (std::vector<std::pair<int, int>>{{1, 0}}));
+    EXPECT_EQ(band.facet_edges.size(), 0);
+}
+
 }  // namespace
 }  // namespace femscalpel

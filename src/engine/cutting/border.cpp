@@ -82,6 +82,7 @@ private:
                     if (w > v && wanted(v, w)) found.push_back({-length(v, w), {v, w}});
         std::ranges::sort(found);
         std::vector<std::pair<int, int>> out;
+        out.reserve(found.size());
         for (const auto& [negative_length, e] : found) out.push_back(e);
         return out;
     }

@@ -63,6 +63,7 @@ public:
         }
         find_node_sets(f_);
         std::vector<Vec3> given;
+        given.reserve(f_.nodes.size());
         for (const int v : f_.nodes) given.push_back(target_[v] - band_.nodes[v].at);
         const std::vector<Vec3> spread = bar_network_displacements(d_, f_.nodes, given, f_.transition);
         for (std::size_t k = 0; k < f_.transition.size(); ++k) {
@@ -335,6 +336,7 @@ private:
         }
         std::ranges::sort(found);
         std::vector<std::pair<int, int>> edges;
+        edges.reserve(found.size());
         for (const auto& [length, edge] : found) edges.push_back(edge);
         return edges;
     }

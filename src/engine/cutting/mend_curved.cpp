@@ -145,6 +145,7 @@ std::vector<BandElement> folded_elements(const Workpiece& f, double limit) {
         }
     std::ranges::sort(found);
     std::vector<BandElement> out;
+    out.reserve(found.size());
     for (const auto& [ratio, triangle, slot] : found) out.push_back({triangle, slot});
     return out;
 }

@@ -36,7 +36,10 @@ public:
 
     /// After solve(): +1, -1, or 0 for a node of the cut. Of several cuts of the least weight it is the one nearest to
     /// the positive side.
-    int side(int v) const { return level_[2 * v] < 0 ? -1 : level_[2 * v + 1] < 0 ? 0 : 1; }
+    int side(int v) const {
+        const std::size_t into = 2 * static_cast<std::size_t>(v);
+        return level_[into] < 0 ? -1 : level_[into + 1] < 0 ? 0 : 1;
+    }
 
 private:
     struct Arc {

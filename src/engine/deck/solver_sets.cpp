@@ -94,6 +94,7 @@ public:
                         seen_[*s] = 1;
                     }
         std::vector<SetMembers> out;
+        out.reserve(sets_.size());
         for (Collector& c : sets_) out.push_back(c.take());
         return out;
     }

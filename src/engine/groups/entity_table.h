@@ -19,8 +19,8 @@ class EntityTable {
 public:
     using Key = std::array<std::uint32_t, N>;
     struct Entry {
-        Key nodes_;
-        Key key;
+        Key given;               ///< the nodes, in their order
+        Key key;                 ///< ascending
         std::uint32_t apex = 0;  ///< of the last element of the area on it: its smallest node off the entity
         std::uint8_t areas = 0;  ///< elements of the area on it; 2 stands for more, too
         bool belongs = false;    ///< to the group
@@ -28,12 +28,11 @@ public:
 
         std::array<Index, N> nodes() const {
             std::array<Index, N> out;
-            for (std::size_t k = 0; k < N; ++k)
-                out[k] = nodes_[k] == no_node ? Index{-1} : static_cast<Index>(nodes_[k]);
+            for (std::size_t k = 0; k < N; ++k) out[k] = given[k] == no_node ? Index{-1} : static_cast<Index>(given[k]);
             return out;
         }
         /// Puts the nodes in this order.
-        void turn(const std::array<Index, N>& nodes) { nodes_ = compact(nodes); }
+        void turn(const std::array<Index, N>& nodes) { given = compact(nodes); }
     };
 
     /// The entry of these nodes; made if new.

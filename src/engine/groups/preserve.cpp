@@ -16,6 +16,7 @@ std::vector<bool> drifting_groups(const Mesh& mesh, const std::optional<std::vec
         if (!mesh.find_group(name))
             throw ToolError("preserve names '" + name + "', but the mesh has no group of that name", "preserve");
     std::vector<bool> drifting;
+    drifting.reserve(mesh.groups.size());
     for (const Group& g : mesh.groups)
         drifting.push_back(!g.hidden && std::ranges::find(*preserve, g.name) == preserve->end());
     return drifting;

@@ -41,7 +41,7 @@ FacetElement facet_element(const Mesh& mesh, const Facet& facet) {
         const auto& face = t.faces[static_cast<std::size_t>(facet.face) - 1];
         while (count < 4 && face[static_cast<std::size_t>(count)] >= 0) ++count;
         for (int k = 0; k < count; ++k)
-            corners[static_cast<std::size_t>(k)] = face[static_cast<std::size_t>((count - k) % count)];
+            corners[static_cast<std::size_t>(k)] = int{face[static_cast<std::size_t>((count - k) % count)]};
         if (facet.type == CellType::hexahedron27) centre = hexahedron27_face_node[facet.face - 1];
         if (facet.type == CellType::wedge18) centre = wedge18_face_node[facet.face - 1];
     } else {

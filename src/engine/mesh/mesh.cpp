@@ -254,6 +254,63 @@ void drop_free_facets(Mesh& mesh) {
     std::erase_if(mesh.facets, [](const Facet& f) { return f.family == 0; });
 }
 
+/// Membership as (entity, group) pairs. Groups ascend within each entity, as they are visited in order.
+struct Memberships {
+    std::vector<Index> entity;
+    std::vector<GroupIndex> group;
+
+    void add(Index e, std::size_t g) {
+        entity.push_back(e);
+        group.push_back(static_cast<GroupIndex>(g));
+    }
+};
+
+using FacetMemberships = std::vector<std::pair<FacetKey, GroupIndex>>;
+
+/// The family of each of `count` entities.
+std::vector<FamilyIndex> families_of(const Memberships& pairs, Index count, FamilyTable& families) {
+    std::vector<Index> start(static_cast<std::size_t>(count) + 1, 0);
+    for (Index e : pairs.entity) ++start[e + 1];
+    for (Index e = 0; e < count; ++e) start[e + 1] += start[e];
+    std::vector<GroupIndex> bucket(pairs.group.size());
+    std::vector<Index> fill(start.begin(), start.end() - 1);
+    for (std::size_t i = 0; i < pairs.entity.size(); ++i) bucket[fill[pairs.entity[i]]++] = pairs.group[i];
+    std::vector<FamilyIndex> out(static_cast<std::size_t>(count), 0);
+    std::vector<GroupIndex> set;
+    for (Index e = 0; e < count; ++e) {
+        if (start[e] == start[e + 1]) continue;
+        set.assign(bucket.begin() + start[e], bucket.begin() + start[e + 1]);
+        set.erase(std::unique(set.begin(), set.end()), set.end());
+        out[e] = families.intern(set);
+    }
+    return out;
+}
+
+std::vector<Facet> facets_of(FacetMemberships pairs, FamilyTable& families) {
+    std::ranges::sort(pairs);
+    std::vector<Facet> out;
+    std::vector<GroupIndex> set;
+    for (std::size_t i = 0; i < pairs.size();) {
+        const FacetKey key = pairs[i].first;
+        set.clear();
+        for (; i < pairs.size() && pairs[i].first == key; ++i) set.push_back(pairs[i].second);
+        set.erase(std::unique(set.begin(), set.end()), set.end());
+        out.push_back({static_cast<CellType>(key[0]), static_cast<std::int8_t>(key[2]), families.intern(set), key[1]});
+    }
+    return out;
+}
+
+/// Looks up the members of a facet group.
+void add_facets(const NumberIndex& numbers, const Group& group, const GroupMembers& m, GroupIndex g,
+                FacetMemberships& out) {
+    if (m.faces.size() != m.ids.size()) throw Error(describe(group) + " needs one face number per element number");
+    for (std::size_t i = 0; i < m.ids.size(); ++i) {
+        const CellRef c = find_cell(numbers, group, m.ids[i]);
+        check_facet(group, c.type, m.ids[i], m.faces[i]);
+        out.push_back({{static_cast<Index>(c.type), c.cell, m.faces[i]}, g});
+    }
+}
+
 }  // namespace
 
 GroupMembers group_members(const Mesh& mesh, GroupIndex group) {
@@ -333,73 +390,30 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members) {
     std::array<Index, cell_type_count + 1> first_cell{};
     for (int t = 0; t < cell_type_count; ++t) first_cell[t + 1] = first_cell[t] + mesh.blocks()[t].size();
 
-    // Membership as (entity, group) pairs, bucketed by entity: groups ascend within each entity
-    // because they are visited in order.
-    struct Pairs {
-        std::vector<Index> entity;
-        std::vector<GroupIndex> group;
-    } node_pairs, cell_pairs;
-    std::vector<std::pair<FacetKey, GroupIndex>> facet_pairs;
+    Memberships in_nodes, in_cells;
+    FacetMemberships in_facets;
     for (std::size_t g = 0; g < members.size(); ++g) {
         check_cancelled();
         const Group& group = mesh.groups.at(g);
         const GroupMembers& m = members[g];
         if (group.kind == GroupKind::node) {
-            for (Index id : m.ids) {
-                node_pairs.entity.push_back(find_node(numbers, group, id));
-                node_pairs.group.push_back(static_cast<GroupIndex>(g));
-            }
+            for (Index id : m.ids) in_nodes.add(find_node(numbers, group, id), g);
         } else if (group.kind == GroupKind::element) {
             for (Index id : m.ids) {
                 const CellRef c = find_cell(numbers, group, id);
-                cell_pairs.entity.push_back(first_cell[static_cast<int>(c.type)] + c.cell);
-                cell_pairs.group.push_back(static_cast<GroupIndex>(g));
+                in_cells.add(first_cell[static_cast<int>(c.type)] + c.cell, g);
             }
         } else {
-            if (m.faces.size() != m.ids.size())
-                throw Error(describe(group) + " needs one face number per element number");
-            for (std::size_t i = 0; i < m.ids.size(); ++i) {
-                const CellRef c = find_cell(numbers, group, m.ids[i]);
-                check_facet(group, c.type, m.ids[i], m.faces[i]);
-                facet_pairs.push_back({{static_cast<Index>(c.type), c.cell, m.faces[i]}, static_cast<GroupIndex>(g)});
-            }
+            add_facets(numbers, group, m, static_cast<GroupIndex>(g), in_facets);
         }
     }
 
     mesh.families = FamilyTable();
-    const auto families_of = [&mesh](const Pairs& pairs, Index count) {
-        std::vector<Index> start(static_cast<std::size_t>(count) + 1, 0);
-        for (Index e : pairs.entity) ++start[e + 1];
-        for (Index e = 0; e < count; ++e) start[e + 1] += start[e];
-        std::vector<GroupIndex> bucket(pairs.group.size());
-        std::vector<Index> fill(start.begin(), start.end() - 1);
-        for (std::size_t i = 0; i < pairs.entity.size(); ++i) bucket[fill[pairs.entity[i]]++] = pairs.group[i];
-        std::vector<FamilyIndex> out(static_cast<std::size_t>(count), 0);
-        std::vector<GroupIndex> set;
-        for (Index e = 0; e < count; ++e) {
-            if (start[e] == start[e + 1]) continue;
-            set.assign(bucket.begin() + start[e], bucket.begin() + start[e + 1]);
-            set.erase(std::unique(set.begin(), set.end()), set.end());
-            out[e] = mesh.families.intern(set);
-        }
-        return out;
-    };
-    mesh.node_families = families_of(node_pairs, mesh.node_count());
-    const std::vector<FamilyIndex> cells = families_of(cell_pairs, first_cell[cell_type_count]);
+    mesh.node_families = families_of(in_nodes, mesh.node_count(), mesh.families);
+    const std::vector<FamilyIndex> cells = families_of(in_cells, first_cell[cell_type_count], mesh.families);
     for (int t = 0; t < cell_type_count; ++t)
         mesh.blocks()[t].families.assign(cells.begin() + first_cell[t], cells.begin() + first_cell[t + 1]);
-
-    std::ranges::sort(facet_pairs);
-    mesh.facets.clear();
-    std::vector<GroupIndex> set;
-    for (std::size_t i = 0; i < facet_pairs.size();) {
-        const FacetKey key = facet_pairs[i].first;
-        set.clear();
-        for (; i < facet_pairs.size() && facet_pairs[i].first == key; ++i) set.push_back(facet_pairs[i].second);
-        set.erase(std::unique(set.begin(), set.end()), set.end());
-        mesh.facets.push_back(
-            {static_cast<CellType>(key[0]), static_cast<std::int8_t>(key[2]), mesh.families.intern(set), key[1]});
-    }
+    mesh.facets = facets_of(std::move(in_facets), mesh.families);
 }
 
 void remove_group(Mesh& mesh, GroupIndex group) {

@@ -202,6 +202,7 @@ public:
 
     std::vector<CellRef> removed(const Mesh& whole, const std::vector<std::int8_t>& level) const override {
         std::vector<std::function<double(const Vec3&)>> depths;
+        depths.reserve(bodies_.size());
         for (const Body& body : bodies_) depths.push_back([&body](const Vec3& x) { return body.depth(x); });
         return deep_inside(whole, level, depths);
     }
@@ -231,6 +232,7 @@ private:
     /// By tag.
     std::vector<const Tool*> tools() const {
         std::vector<const Tool*> out;
+        out.reserve(blades_.size());
         for (const Blade& blade : blades_) out.push_back(blade.tool);
         return out;
     }

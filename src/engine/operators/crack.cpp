@@ -229,7 +229,7 @@ public:
 
     Opening open(Workpiece& f, const Site& site) override {
         if (patch_ || site.crossed > 0) check_shape(f, site.mesh);
-        const Opening opening = opening_ ? std::move(*opening_) : open_lips(f);
+        Opening opening = opening_ ? std::move(*opening_) : open_lips(f);
         if (opening.copy_of.empty()) throw ToolError(why_no_lips(f, opening, blade_, site.crossed > 0));
         find_node_sets(f);
         check_contacts(f);

@@ -60,6 +60,7 @@ std::string join(const std::vector<std::string>& words) {
 /// "the skin, a corner, and the borders of A, B"
 std::string describe(const Holders& holders) {
     std::vector<std::string> groups;
+    groups.reserve(holders.groups.size());
     for (const std::string& g : holders.groups) groups.push_back("'" + g + "'");
     std::string text = join({holders.features.begin(), holders.features.end()});
     if (!groups.empty()) text += (text.empty() ? "the border of " : " and the border of ") + join(groups);
@@ -98,6 +99,48 @@ std::vector<PoorElement> elements_below(double limit, const Workpiece& f, const 
     return out;
 }
 
+/// What is to be said of the place where a poor element is, and what holds its nodes.
+PoorPlace look_at(const PoorElement& e, const Workpiece& f, const Mesh& mesh, Holders& holders) {
+    PoorPlace out;
+    Vec3 middle = Vec3::Zero();
+    double gap = 0, edge = 0;
+    int count = 0;
+    for (const int v : e.nodes) {
+        if (v < 0) continue;
+        add_holders(f, mesh, v, holders);
+        middle += f.d.band.nodes[v].at;
+        edge += f.d.band.mean_edge_length(v);
+        gap = std::max(gap, std::abs(f.tool->distance(f.d.band.nodes[v].at)));
+        ++count;
+    }
+    out.mean_ratio = e.quality;
+    out.place = middle / count;
+    out.gap = gap;
+    out.room = roomy * edge / count;
+    out.groups = listed(holders.groups);
+    out.features = listed(holders.features);
+    return out;
+}
+
+std::string advice(const PoorPlace& place, const Holders& holders, const std::string& tool) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "poor elements, with a mean ratio down to " << place.mean_ratio << ", near (" << place.place.transpose()
+         << ")";
+    const bool between = place.gap <= place.room;
+    if (between)
+        text << ", between the " << tool << " and " << describe(holders) << ", which leave no room for better ones. ";
+    else
+        text << ", up to " << place.gap << " from the " << tool << ", held by " << describe(holders) << ". ";
+    if (!place.groups.empty()) text << "Leave " << join(place.groups) << " out of preserve, or ";
+    if (between)
+        text << (place.groups.empty() ? "Move" : "move") << " the " << tool << " there by " << place.gap
+             << " towards it or by " << place.room - place.gap << " away from it";
+    else
+        text << (place.groups.empty() ? "Refine" : "refine") << " the mesh there first";
+    return text.str();
+}
+
 }  // namespace
 
 HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
@@ -123,63 +166,29 @@ HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
 }
 
 std::vector<PoorPlace> find_poor_places(Workpiece& f, const Mesh& mesh, double worst_before) {
-    const std::vector<PoorElement> poor = elements_below(std::min(poor_limit, part_of_worst * worst_before), f, mesh);
     std::map<Holders, PoorPlace> places;
-    for (const PoorElement& e : poor) {
+    for (const PoorElement& e : elements_below(std::min(poor_limit, part_of_worst * worst_before), f, mesh)) {
         Holders holders;
-        Vec3 middle = Vec3::Zero();
-        double gap = 0, edge = 0;
-        int count = 0;
-        for (const int v : e.nodes) {
-            if (v < 0) continue;
-            add_holders(f, mesh, v, holders);
-            middle += f.d.band.nodes[v].at;
-            edge += f.d.band.mean_edge_length(v);
-            gap = std::max(gap, std::abs(f.tool->distance(f.d.band.nodes[v].at)));
-            ++count;
-        }
-        middle /= count;
+        PoorPlace place = look_at(e, f, mesh, holders);
         if (!holders.any()) {
             std::ostringstream text;
-            text << "an element near (" << middle.transpose() << "), part of element " << e.id
+            text << "an element near (" << place.place.transpose() << "), part of element " << e.id
                  << ", would have a mean ratio of " << e.quality << " though nothing there holds its nodes. Move the "
                  << f.tool->kind() << " a little, or refine the mesh there";
             throw QualityError(text.str());
         }
-        PoorPlace& place = places[holders];
-        if (place.elements.empty()) {  // the worst comes first
-            place.mean_ratio = e.quality;
-            place.place = middle;
-            place.gap = gap;
-            place.room = roomy * edge / count;
-            place.groups = listed(holders.groups);
-            place.features = listed(holders.features);
-        }
-        if (std::ranges::find(place.elements, e.id) == place.elements.end()) place.elements.push_back(e.id);
+        // The worst comes first, and stands for all.
+        std::vector<Index>& elements = places.try_emplace(std::move(holders), std::move(place)).first->second.elements;
+        if (std::ranges::find(elements, e.id) == elements.end()) elements.push_back(e.id);
     }
     std::vector<std::pair<PoorPlace, Holders>> found;
+    found.reserve(places.size());
     for (auto& [holders, place] : places) found.push_back({std::move(place), holders});
     std::ranges::sort(found, {}, [](const auto& p) { return p.first.mean_ratio; });
     std::vector<PoorPlace> out;
+    out.reserve(found.size());
     for (auto& [place, holders] : found) {
-        std::ostringstream text;
-        text.precision(3);
-        text << "poor elements, with a mean ratio down to " << place.mean_ratio << ", near (" << place.place.transpose()
-             << ")";
-        const bool between = place.gap <= place.room;
-        if (between)
-            text << ", between the " << f.tool->kind() << " and " << describe(holders)
-                 << ", which leave no room for better ones. ";
-        else
-            text << ", up to " << place.gap << " from the " << f.tool->kind() << ", held by " << describe(holders)
-                 << ". ";
-        if (!place.groups.empty()) text << "Leave " << join(place.groups) << " out of preserve, or ";
-        if (between)
-            text << (place.groups.empty() ? "Move" : "move") << " the " << f.tool->kind() << " there by " << place.gap
-                 << " towards it or by " << place.room - place.gap << " away from it";
-        else
-            text << (place.groups.empty() ? "Refine" : "refine") << " the mesh there first";
-        f.warnings.push_back(text.str());
+        f.warnings.push_back(advice(place, holders, f.tool->kind()));
         out.push_back(std::move(place));
     }
     return out;

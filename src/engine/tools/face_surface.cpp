@@ -66,6 +66,7 @@ struct NearestTriangle {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
 
+    // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVMinimize() calls them.
     double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(x); }
     double minimumOnObject(int t) {
         const double d = (at(triangles[t], weights_on(triangles[t], x)) - x).squaredNorm();
@@ -75,6 +76,7 @@ struct NearestTriangle {
         }
         return d;
     }
+    // NOLINTEND(readability-identifier-naming)
 };
 
 double size_of(const Poly_Triangulation& picture) {
@@ -122,7 +124,7 @@ FaceSurface::FaceSurface(const TopoDS_Shape& shape) {
     if (!faces.More() || bounds.IsVoid()) throw ToolError("face: the shape has no face", "source");
     const double size = std::sqrt(bounds.SquareExtent());
     BRepTools::Clean(shape);
-    BRepMesh_IncrementalMesh(shape, picture_sag * size, false, 0.1);
+    const BRepMesh_IncrementalMesh pictures(shape, picture_sag * size, false, 0.1);
     for (; faces.More(); faces.Next()) add_sheet(TopoDS::Face(faces.Current()));
     if (triangles_.empty())
         throw ToolError(
@@ -191,15 +193,15 @@ void FaceSurface::add_sheet(const TopoDS_Face& face) {
     // Without the bounds that some files give their surfaces: beyond the border it goes on.
     if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(sheet.surface); !trimmed.IsNull())
         sheet.surface = trimmed->BasisSurface();
-    double bounds[4];
-    sheet.surface->Bounds(bounds[0], bounds[1], bounds[2], bounds[3]);
+    double bounds[2][2];
+    sheet.surface->Bounds(bounds[0][0], bounds[0][1], bounds[1][0], bounds[1][1]);
     const bool periodic[2] = {static_cast<bool>(sheet.surface->IsUPeriodic()),
                               static_cast<bool>(sheet.surface->IsVPeriodic())};
     for (int k = 0; k < 2; ++k) {
         const double infinity = std::numeric_limits<double>::infinity();
         const bool ends = !periodic[k];
-        sheet.low[k] = ends && !Precision::IsInfinite(bounds[2 * k]) ? bounds[2 * k] : -infinity;
-        sheet.high[k] = ends && !Precision::IsInfinite(bounds[2 * k + 1]) ? bounds[2 * k + 1] : infinity;
+        sheet.low[k] = ends && !Precision::IsInfinite(bounds[k][0]) ? bounds[k][0] : -infinity;
+        sheet.high[k] = ends && !Precision::IsInfinite(bounds[k][1]) ? bounds[k][1] : infinity;
     }
     add_triangles(*picture, location.Transformation(), sheet.reversed);
     find_feature_size(*picture, sheet.surface);

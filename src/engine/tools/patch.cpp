@@ -18,6 +18,7 @@
 namespace femscalpel {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 const Plane& plane_for(const Tool& tool, const std::string& shape) {
@@ -46,20 +47,91 @@ Vector3d along_plane(const Plane& plane, const Vector3d& direction, const std::s
 }
 
 /// Half the shortest of a polygon's sides and of the distances between its corners and the sides they are not on.
-double half_width(const std::vector<Eigen::Vector2d>& corners) {
+double half_width(const std::vector<Vector2d>& corners) {
     const std::size_t count = corners.size();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < count; ++k) {
-        const Eigen::Vector2d &a = corners[k], along = corners[(k + 1) % count] - a;
+        const Vector2d &a = corners[k], along = corners[(k + 1) % count] - a;
         least = std::min(least, along.norm());
         for (std::size_t j = 2; j < count; ++j) {
-            const Eigen::Vector2d& p = corners[(k + j) % count];
+            const Vector2d& p = corners[(k + j) % count];
             const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
             least = std::min(least, (p - a - t * along).norm());
         }
     }
     return least / 2;
 }
+
+double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Positive when the corners go round counterclockwise.
+double signed_area(const std::vector<Vector2d>& corners) {
+    double area = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) area += cross(corners[k], corners[(k + 1) % corners.size()]) / 2;
+    return area;
+}
+
+/// Whether the sides a-b and b-c are folded back on each other.
+bool folded(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+    const Vector2d p = a - b, q = c - b;
+    return std::abs(cross(p, q)) <= 1e-9 * p.norm() * q.norm() && p.dot(q) > 0;
+}
+
+/// Whether the segments a-b and c-d cross or touch.
+bool crossing(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+    return cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;
+}
+
+void refuse_crossing_sides(const std::vector<Vector2d>& corners) {
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j) {
+            const Vector2d &a = corners[i], &b = corners[(i + 1) % count], &c = corners[j],
+                           &d = corners[(j + 1) % count];
+            const bool bad = j == i + 1                 ? folded(a, b, d)
+                             : i == 0 && j == count - 1 ? folded(b, a, c)
+                                                        : crossing(a, b, c, d);
+            if (bad)
+                throw ToolError("polygon: sides " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
+                                " cross or touch; give the corners in order around it",
+                                "within");
+        }
+}
+
+/// A polygon in coordinates of its plane, about its first corner.
+struct FlatPolygon {
+    Vector3d origin, u, v;
+    std::vector<Vector2d> corners;
+
+    /// The border's point nearest to a point: its distance, negative inside, and the side it is on.
+    struct Nearest {
+        double distance;
+        int side;
+    };
+
+    FlatPolygon(const Plane& plane, const std::vector<Vector3d>& at)
+        : origin(at[0]), u(plane.unit_normal().unitOrthogonal()), v(plane.unit_normal().cross(u)) {
+        for (const Vector3d& x : at) corners.push_back(flat(x));
+    }
+
+    Vector2d flat(const Vector3d& x) const { return {u.dot(x - origin), v.dot(x - origin)}; }
+
+    Nearest nearest(const Vector3d& x) const {
+        const Vector2d p = flat(x);
+        Nearest best{std::numeric_limits<double>::infinity(), 0};
+        bool inside = false;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const Vector2d &a = corners[k], &b = corners[(k + 1) % corners.size()];
+            const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+            const double d = (p - a - t * (b - a)).norm();
+            if (d < best.distance) best = {d, static_cast<int>(k)};
+            if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+                inside = !inside;
+        }
+        if (inside) best.distance = -best.distance;
+        return best;
+    }
+};
 
 /// A patch with a single side.
 Patch one_side(std::unique_ptr<Tool> tool) {
@@ -127,71 +199,22 @@ Patch Polygon::on(const Tool& tool) const {
     const std::size_t count = corners_.size();
     double size = 0;
     for (const Vector3d& c : corners_) size = std::max(size, (c - corners_[0]).norm());
-    // In coordinates of the plane.
-    const Vector3d u = plane.unit_normal().unitOrthogonal(), v = plane.unit_normal().cross(u);
     std::vector<Vector3d> at;
-    std::vector<Eigen::Vector2d> flat;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < count; ++k)
         at.push_back(on_plane(plane, corners_[k], size, "corner " + std::to_string(k + 1) + " of the polygon"));
-        flat.emplace_back(u.dot(at[k] - at[0]), v.dot(at[k] - at[0]));
-    }
-    double area = 0;
-    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; };
-    for (std::size_t k = 0; k < count; ++k) area += cross(flat[k], flat[(k + 1) % count]) / 2;
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t j = i + 1; j < count; ++j) {
-            const Eigen::Vector2d &a = flat[i], &b = flat[(i + 1) % count], &c = flat[j], &d = flat[(j + 1) % count];
-            const bool neighbours = j == i + 1 || (i == 0 && j == count - 1);
-            bool bad;
-            if (neighbours) {
-                // Folded back on itself.
-                const Eigen::Vector2d p = j == i + 1 ? Eigen::Vector2d(a - b) : Eigen::Vector2d(b - a),
-                                      q = j == i + 1 ? Eigen::Vector2d(d - c) : Eigen::Vector2d(c - d);
-                bad = std::abs(cross(p, q)) <= 1e-9 * p.norm() * q.norm() && p.dot(q) > 0;
-            } else {
-                bad = cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;
-            }
-            if (bad)
-                throw ToolError("polygon: sides " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
-                                    " cross or touch; give the corners in order around it",
-                                "within");
-        }
+    const FlatPolygon flat(plane, at);
+    refuse_crossing_sides(flat.corners);
+    const double area = signed_area(flat.corners);
     if (std::abs(area) <= 1e-9 * size * size) throw ToolError("polygon: its area is zero", "within");
     Patch patch;
-    patch.feature_size = half_width(flat);
+    patch.feature_size = half_width(flat.corners);
     for (std::size_t k = 0; k < count; ++k) {
         const Vector3d along = (at[(k + 1) % count] - at[k]).normalized();
         patch.sides.push_back(std::make_unique<Plane>(at[k], (area > 0 ? 1 : -1) * along.cross(plane.unit_normal())));
         patch.corners.push_back({at[k], {static_cast<int>((k + count - 1) % count), static_cast<int>(k)}});
     }
-    const auto nearest = [=](const Vector3d& x, double& distance) {
-        const Eigen::Vector2d p(u.dot(x - at[0]), v.dot(x - at[0]));
-        int best = 0;
-        bool inside = false;
-        distance = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < count; ++k) {
-            const Eigen::Vector2d &a = flat[k], &b = flat[(k + 1) % count];
-            const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-            const double d = (p - a - t * (b - a)).norm();
-            if (d < distance) {
-                distance = d;
-                best = static_cast<int>(k);
-            }
-            if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-                inside = !inside;
-        }
-        if (inside) distance = -distance;
-        return best;
-    };
-    patch.distance = [nearest](const Vector3d& x) {
-        double distance;
-        nearest(x, distance);
-        return distance;
-    };
-    patch.side = [nearest](const Vector3d& x) {
-        double distance;
-        return nearest(x, distance);
-    };
+    patch.distance = [flat](const Vector3d& x) { return flat.nearest(x).distance; };
+    patch.side = [flat](const Vector3d& x) { return flat.nearest(x).side; };
     return patch;
 }
 
