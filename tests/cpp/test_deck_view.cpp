@@ -11,14 +11,15 @@ using namespace rule_testing;
 class DeckViewTest : public RuleTest {};
 
 TEST_F(DeckViewTest, NumbersSteps) {
-    const Mesh mesh = two_tetras("*MATERIAL, NAME=M\n*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*CLOAD\n1, 1, 1.\n");
+    const Mesh mesh = two_tetras(
+        "*MATERIAL, NAME=M\n*STEP\n*STATIC\n*END STEP\n*AMPLITUDE, NAME=A\n0., 1.\n*STEP\n*STATIC\n*CLOAD\n1, 1, 1.\n");
     const DeckView view(mesh);
     std::vector<std::pair<std::string, int>> steps;
     for (std::size_t c = 0; c < view.cards().size(); ++c)
         if (view.cards()[c].keyword != "NODE" && view.cards()[c].keyword != "ELEMENT")
             steps.emplace_back(view.cards()[c].keyword, view.step(c));
     EXPECT_THAT(steps, ElementsAre(Pair("MATERIAL", 0), Pair("STEP", 1), Pair("STATIC", 1), Pair("ENDSTEP", 1),
-                                   Pair("STEP", 2), Pair("STATIC", 2), Pair("CLOAD", 2)));
+                                   Pair("AMPLITUDE", 0), Pair("STEP", 2), Pair("STATIC", 2), Pair("CLOAD", 2)));
 }
 
 TEST_F(DeckViewTest, FindsGroupsOfSets) {

@@ -24,6 +24,8 @@ TEST(DistanceTo, TheNearestTool) {
     EXPECT_EQ(field({0, 0, 1}), 1);
     EXPECT_EQ(field({0, 0, 3.5}), 0.5);
     EXPECT_EQ(field({0, 0, 4.25}), -0.25) << "inside the sphere";
+    const Sphere around({0, 0, 5}, 10);
+    EXPECT_EQ(distance_to(std::vector<const Tool*>{&plane, &around})({0, 0, 0.25}), 0.25) << "not deep inside";
     EXPECT_THAT([] { distance_to(std::vector<const Tool*>()); },
                 testing::ThrowsMessage<ToolError>(HasSubstr("near is empty")));
 }

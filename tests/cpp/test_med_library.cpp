@@ -41,6 +41,7 @@ TEST(MedType, OrdersEachNodeOnce) {
                     return std::minmax<long>(other[0], other[1]) == std::minmax<long>(a, b);
                 });
                 ASSERT_NE(same, t.edges.end()) << t.name;
+                EXPECT_EQ(place(t.corners + static_cast<int>(e)), t.corners + (same - t.edges.begin())) << t.name;
             }
     }
 }

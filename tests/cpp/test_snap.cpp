@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesh/quality.h"
 #include "simple_meshes.h"
@@ -145,6 +146,18 @@ TEST(PutOnTool, MovesANodeWithinRounding) {
     EXPECT_EQ(f.d.constraints[held].freedom, NodeFreedom::fixed);
     EXPECT_TRUE(f.d.contact[held].has(&corner));
     EXPECT_EQ(f.d.held_off[held], 0);
+}
+
+TEST(PutOnTool, DoesNotSlideANodeFarAlongASurface) {
+    // At two degrees between the top and the tool the node would slide 29 times as far as it is off.
+    const Mesh mesh = checks::grid(2, 2, 2);
+    const Vec3 normal = Vec3(std::sin(0.035), 0, std::cos(0.035)), top(1, 1, 2), there = top - 1e-3 * normal;
+    const Plane away({9, 0, 0}, {1, 0, 0}), slanting(there, normal);
+    Workpiece f = checks::whole_workpiece(mesh, away);
+    const int node = node_at(f.d.band, top);
+    put_on_tool(f, node, slanting);
+    EXPECT_LT((f.d.band.nodes[node].at - there).norm(), 1e-12);
+    EXPECT_EQ(f.d.constraints[node].freedom, NodeFreedom::fixed);
 }
 
 TEST(PutOnTool, HoldsANodeBesideWhereItCannotMove) {
