@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/deform.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +15,10 @@
 #include "operators/crack.h"
 #include "operators/cut.h"
 #include "operators/drill.h"
+#include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
+#include "whole_workpiece.h"
 
 namespace femscalpel {
 namespace {
@@ -344,6 +348,33 @@ TEST(DeformHole, OneSurfaceAtATime) {
     slot.name = "CUT";
     slot.method = Method::deform;
     refused([&] { cut(mesh, Plane(Vec3(5, 5, 5), Vec3(1, 0, 0)), 1.5, slot); });
+}
+
+TEST(DeformToTool, TakesTheNodesThatHaveLeastToMove) {
+    const Mesh mesh = checks::grid(4, 2, 2);
+    const Plane near({1.8, 0, 0}, {1, 0, 0});
+    Workpiece f = checks::whole_workpiece(mesh, near);
+    deform_to_tool(f, near, mesh);
+    EXPECT_EQ(f.d.band.size(), 45) << "none is born";
+    for (int v = 0; v < f.d.band.size(); ++v) {
+        const bool moved = f.d.band.nodes[v].start.x() == 2;
+        EXPECT_EQ(f.d.contact[v].has(&near), moved);
+        if (moved) {
+            EXPECT_NEAR(f.d.band.nodes[v].at.x(), 1.8, 1e-12);
+        }
+    }
+}
+
+TEST(DeformToTool, RefusesNodesThatNothingCanMove) {
+    // Corners of the skin, all of them.
+    Mesh mesh;
+    for (const Vec3& at : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+        mesh.add_node(at, mesh.node_count() + 1);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 1);
+    const Plane plane({0, 0, 0.3}, {0, 0, 1});
+    Workpiece f = checks::whole_workpiece(mesh, plane);
+    EXPECT_THAT([&] { deform_to_tool(f, plane, mesh); },
+                testing::ThrowsMessage<QualityError>(testing::HasSubstr("finds no row of nodes")));
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Nodes that equations relate, two sides of a block that move alike: what is born or doubled on one side is related to
 // what is on the other, or it is told.
+#include "deck/related_nodes.h"
+
 #include <map>
 
 #include "deck_testing.h"
 #include "operators/refine.h"
+#include "simple_meshes.h"
 
 namespace femscalpel {
 namespace {
@@ -190,6 +193,66 @@ TEST_F(RelatedNodesOfDeck, RefinementRelatesTooOrTells) {
     const bool all = related == nodes_where(after, [](const Vec3& p) { return p.y() == ny; });
     const bool told = testing::Matches(Contains(HasSubstr("no counterpart")))(warnings_);
     EXPECT_NE(all, told);
+}
+
+/// Two triangles side by side: nodes 1 2 3 and 4 5 6. Node 2 is born between; 4 to 6 move as 1 to 3 do.
+struct RelateNewNodes : testing::Test {
+    RelateNewNodes() {
+        for (const Vec3& at :
+             {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 5), Vec3(2, 0, 5), Vec3(0, 1, 5)})
+            before.add_node(at, before.node_count() + 1);
+        before.add_cell(CellType::triangle, std::array<Index, 3>{0, 1, 2}, 1);
+        before.add_cell(CellType::triangle, std::array<Index, 3>{3, 4, 5}, 2);
+        for (Index n = 1; n <= 3; ++n) equations.push_back({{{n + 3, 1, 1, "1, 1."}, {n, 1, -1, "1, -1."}}});
+        after = before;
+    }
+    void bear(Index number, Index a, Index b, double share = 0.5) {
+        after.add_node((1 - share) * before.points[a - 1] + share * before.points[b - 1], number);
+        changes.born.push_back({number, {a, b}});
+    }
+    void copy(Index number, Index of) {
+        after.add_node(before.points[of - 1], number);
+        changes.copies.push_back({number, of});
+    }
+    RelatedNodes related() const {
+        const NumberIndex numbers(before), now(after);
+        const NodeOrigins origins(before, numbers, after, now, changes);
+        return relate_new_nodes(equations, before, numbers, origins, changes);
+    }
+    Mesh before, after;
+    Changes changes;
+    std::vector<NodeEquation> equations;
+};
+
+TEST_F(RelateNewNodes, NodesBornAtOnePlaceAreRelated) {
+    bear(7, 1, 2);
+    bear(8, 4, 5);
+    const RelatedNodes out = related();
+    ASSERT_EQ(out.made.size(), 1u);
+    EXPECT_THAT(out.made[0].nodes, ElementsAre(8, 7));
+    EXPECT_TRUE(out.missed.empty());
+}
+
+TEST_F(RelateNewNodes, NodesBornElsewhereAreMissed) {
+    bear(7, 1, 2);
+    bear(8, 4, 5, 0.25);
+    const RelatedNodes out = related();
+    EXPECT_TRUE(out.made.empty());
+    std::vector<Index> missed;
+    for (const RelatedNodes::Missed& m : out.missed) missed.push_back(m.node);
+    EXPECT_THAT(missed, testing::UnorderedElementsAre(7, 8));
+}
+
+TEST_F(RelateNewNodes, CopiesFollowWhereAllAreDoubled) {
+    copy(7, 1);
+    copy(8, 4);
+    copy(9, 2);
+    const RelatedNodes out = related();
+    ASSERT_EQ(out.copies_follow.size(), 3u);
+    EXPECT_TRUE(out.copies_follow[0]);
+    EXPECT_FALSE(out.copies_follow[1]) << "node 5 is not doubled";
+    ASSERT_EQ(out.made.size(), 1u);
+    EXPECT_THAT(out.made[0].nodes, ElementsAre(8, 7));
 }
 
 }  // namespace

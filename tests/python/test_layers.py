@@ -78,6 +78,17 @@ def test_headers_of_a_folder_make_no_circle():
     assert_no_circle(uses)
 
 
+def test_every_header_of_the_engine_is_in_a_test():
+    """Directly: what is only included by another header is not what a test is about."""
+    headers = {str(p.relative_to(ENGINE)) for p in ENGINE.rglob("*.h")}
+    tested = set()
+    for path in (ROOT / "tests" / "cpp").iterdir():
+        if path.suffix in (".h", ".cpp"):
+            tested |= set(re.findall(r'^\s*#\s*include\s*"([^"]+)"', path.read_text(), re.M)) & headers
+    assert len(headers) > 100
+    assert not headers - tested
+
+
 def imports_of(path, packages):
     """Modules of one of the packages that a Python file imports, also inside functions, as dotted names."""
     package = path.relative_to(packages).parent.parts

@@ -54,7 +54,8 @@ Mesh read_inp(const std::filesystem::path& path);
 ///
 /// CalculiX reads at most 20 characters of a coordinate. Most values fit exactly; of those that do not
 /// (16 or 17 significant digits below 0.1, or with an exponent) the closest that fits is written: at least
-/// 15 significant digits, 14 with an exponent of three digits. What is not changed in a deck keeps its text.
+/// 15 significant digits; 14 where the exponent has three digits, and of negative values also where it is -86 or less.
+/// What is not changed in a deck keeps its text.
 ///
 /// Throws WriteError for element types CalculiX does not have (pyramids, elements with face or volume
 /// centre nodes), names over 80 characters or with commas, two groups of a kind whose names differ only in

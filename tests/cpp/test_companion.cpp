@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a mesh carries of its file, and the account of where new nodes come from.
+#include "mesh/companion.h"
+
+#include <gtest/gtest.h>
+
+#include "cutting/rebuild.h"
+#include "mesh/changes.h"
+#include "simple_meshes.h"
+
+namespace femscalpel {
+namespace {
+
+struct Numbered : Companion {
+    explicit Numbered(Index number) : largest(number) {}
+    Index largest_other_element() const override { return largest; }
+    Index largest;
+};
+
+TEST(Companion, KeepsNumbersOfElementsThatTheMeshHasNot) {
+    Mesh mesh = checks::grid(1, 1, 1);  // elements 100 to 105, nodes 10 to 17
+    EXPECT_EQ(next_numbers(mesh).cell, 106);
+    mesh.companion = std::make_shared<Numbered>(500);
+    EXPECT_EQ(next_numbers(mesh).cell, 501);
+    EXPECT_EQ(next_numbers(mesh).node, 18);
+    mesh.companion = std::make_shared<Numbered>(0);
+    EXPECT_EQ(next_numbers(mesh).cell, 106);
+    const Mesh copy = mesh;
+    EXPECT_EQ(copy.companion, mesh.companion) << "copies share it";
+}
+
+TEST(Changes, AreEmptyWhenNothingIsNew) {
+    EXPECT_TRUE(Changes().empty());
+    Changes copied, born, parted;
+    copied.copies.push_back({2, 1});
+    born.born.push_back({3, {1, 2}});
+    parted.parts.push_back({5, 4});
+    EXPECT_FALSE(copied.empty());
+    EXPECT_FALSE(born.empty());
+    EXPECT_FALSE(parted.empty());
+}
+
+}  // namespace
+}  // namespace femscalpel

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How often a cut is tried, with what, and what is made of its results.
+#include "cutting/retry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "simple_meshes.h"
+#include "tools/plane.h"
+#include "whole_workpiece.h"
+
+namespace femscalpel {
+namespace {
+
+using checks::node_at;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Plane away({100, 0, 0}, {1, 0, 0});
+
+struct Retry : testing::Test {
+    Mesh mesh = checks::grid(2, 2, 2);
+    Workpiece f = checks::whole_workpiece(mesh, away);
+    int middle = node_at(f.d.band, {1, 1, 1}), end = node_at(f.d.band, {2, 1, 1});
+    int calls = 0;
+
+    /// Moves the middle node so that the worst element has a mean ratio of about 0.06.
+    void spoil(Workpiece& g) const { g.d.band.nodes[middle].at.x() = 1.985; }
+};
+
+TEST_F(Retry, OneTryIsEnoughWhenAllIsWell) {
+    cut_soundly(
+        f,
+        [&](Workpiece& g) {
+            ++calls;
+            g.d.band.nodes[middle].at.x() = 1.1;
+        },
+        mesh.cell_count());
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(f.d.band.nodes[middle].at.x(), 1.1);
+    EXPECT_THAT(f.warnings, IsEmpty());
+}
+
+TEST_F(Retry, BeginsAnewWithOtherChoicesWhereANodeIsOffItsTool) {
+    std::vector<int> off_tool, nodes;
+    const auto cut = [&](Workpiece& g) {
+        off_tool.push_back(static_cast<int>(std::ranges::count(g.d.off_tool, 1)));
+        nodes.push_back(g.d.band.size());
+        if (nodes.size() == 3) return;  // now it is sound
+        g.split_edge(middle, end, Vec3(1.5, 1, 1), &away);
+    };
+    cut_soundly(f, cut, mesh.cell_count());
+    ASSERT_EQ(nodes.size(), 3u);
+    EXPECT_EQ(nodes[0], 27);
+    EXPECT_EQ(nodes[1], 27) << "what the first try made is gone";
+    EXPECT_GT(nodes[2], 27) << "elements were refined";
+    EXPECT_EQ(off_tool[0], 0);
+    EXPECT_GT(off_tool[1], 0) << "nodes there are not to be put on the tool";
+    EXPECT_EQ(off_tool[2], 0);
+}
+
+TEST_F(Retry, GivesUpAndSaysWhere) {
+    const auto cut = [&](Workpiece& g) {
+        ++calls;
+        g.split_edge(middle, end, Vec3(1.5, 1, 1), &away);
+    };
+    EXPECT_THAT([&] { cut_soundly(f, cut, mesh.cell_count(), 1); },
+                testing::ThrowsMessage<QualityError>(
+                    AllOf(HasSubstr("no sound elements were found where the plane meets the skin near ("),
+                          HasSubstr("the mesh is too coarse there"))));
+    EXPECT_EQ(calls, 1);
+}
+
+TEST_F(Retry, TakesWhatAPlaneThroughFlatSurfacesLeavesPoor) {
+    cut_soundly(
+        f,
+        [&](Workpiece& g) {
+            ++calls;
+            spoil(g);
+        },
+        mesh.cell_count(), 12, true);
+    EXPECT_EQ(calls, 1) << "refining would not help";
+    EXPECT_EQ(f.d.band.nodes[middle].at.x(), 1.985);
+    EXPECT_THAT(f.warnings, IsEmpty()) << "others say so";
+}
+
+TEST_F(Retry, TakesTheBestOfPoorResultsAndSaysSo) {
+    const auto cut = [&](Workpiece& g) {
+        spoil(g);
+        if (++calls > 1) g.d.band.nodes[middle].at.x() = 1.9;
+    };
+    cut_soundly(f, cut, mesh.cell_count(), 1);
+    EXPECT_EQ(calls, 1);
+    EXPECT_THAT(f.warnings, ElementsAre(HasSubstr("elements there come out with a mean ratio of 0.0")));
+}
+
+TEST_F(Retry, TriesToHoldNodesThatTheToolPassed) {
+    std::vector<double> parts;
+    const auto cut = [&](Workpiece& g) {
+        parts.push_back(g.part_to_hold(middle));
+        if (parts.size() > 1) return;
+        spoil(g);
+        g.passed[middle] = 1e-3;
+    };
+    cut_soundly(f, cut, mesh.cell_count(), 12, true);
+    EXPECT_THAT(parts, ElementsAre(close_beside, 2e-3));
+    EXPECT_EQ(f.d.band.nodes[middle].at.x(), 1);
+}
+
+}  // namespace
+}  // namespace femscalpel
