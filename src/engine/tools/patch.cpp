@@ -93,7 +93,7 @@ void refuse_crossing_sides(const std::vector<Vector2d>& corners) {
                                                         : crossing(a, b, c, d);
             if (bad)
                 throw ToolError("polygon: sides " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
-                                " cross or touch; give the corners in order around it",
+                                    " cross or touch; give the corners in order around it",
                                 "within");
         }
 }
