@@ -47,6 +47,19 @@ void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int
         }
 }
 
+Mesh two_halves() {
+    Mesh mesh = grid(2, 2, 2);
+    const FamilyIndex left = family_of(mesh, "LEFT", GroupKind::element),
+                      right = family_of(mesh, "RIGHT", GroupKind::element);
+    CellBlock& tetras = mesh.block(CellType::tetra);
+    for (Index c = 0; c < tetras.size(); ++c) {
+        double x = 0;
+        for (const Index n : tetras.nodes(c)) x += mesh.points[n][0] / 4;
+        tetras.families[c] = x < 1 ? left : right;
+    }
+    return mesh;
+}
+
 Mesh second_order(const Mesh& mesh) {
     Mesh out = mesh;
     std::map<std::pair<Index, Index>, Index> mids;

@@ -10,6 +10,9 @@ namespace femscalpel::checks {
 /// A box of nx x ny x nz cubes of side 1 about the origin's octant, each of six tetrahedra around a diagonal.
 Mesh grid(int nx, int ny, int nz);
 
+/// A cube of eight such cubes; the element groups LEFT (0) and RIGHT (1) are its halves in x.
+Mesh two_halves();
+
 /// A plate of 2 nx ny triangles with corner `origin` and cube edges `x`, `y`, sharing nodes that are already there.
 void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int nx, int ny, FamilyIndex family = 0);
 

@@ -43,20 +43,6 @@ struct Kept {
     KeptGeometry g;
 };
 
-/// A cube of eight; the element groups LEFT and RIGHT are its halves in x.
-Mesh two_halves() {
-    Mesh mesh = checks::grid(2, 2, 2);
-    const FamilyIndex left = checks::family_of(mesh, "LEFT", GroupKind::element),
-                      right = checks::family_of(mesh, "RIGHT", GroupKind::element);
-    CellBlock& tetras = mesh.block(CellType::tetra);
-    for (Index c = 0; c < tetras.size(); ++c) {
-        double x = 0;
-        for (const Index n : tetras.nodes(c)) x += mesh.points[n][0] / 4;
-        tetras.families[c] = x < 1 ? left : right;
-    }
-    return mesh;
-}
-
 TEST(KeptGeometry, OfACubeIsItsFacesEdgesAndCorners) {
     const Kept kept(checks::grid(2, 2, 2));
     EXPECT_EQ(kept.g.surfaces.size(), 6u);
@@ -80,7 +66,7 @@ TEST(KeptGeometry, OfACubeIsItsFacesEdgesAndCorners) {
 }
 
 TEST(KeptGeometry, BordersOfElementGroupsPartTheSkinAndAreSurfaces) {
-    const Kept kept(two_halves());
+    const Kept kept(checks::two_halves());
     EXPECT_EQ(kept.g.surfaces.size(), 11u) << "two ends, four sides in two parts, the border";
     EXPECT_EQ(std::ranges::count_if(kept.g.surfaces, &KeptGeometry::Surface::internal), 1);
     EXPECT_EQ(kept.g.curves.size(), 20u) << "12 edges, four of them in two parts, and four around the border";
@@ -91,7 +77,7 @@ TEST(KeptGeometry, BordersOfElementGroupsPartTheSkinAndAreSurfaces) {
     EXPECT_EQ(kept.freedom({0, 1, 0}), NodeFreedom::curve);
     ConstraintOptions options;
     options.drifting_groups = {true, true};
-    EXPECT_EQ(Kept(two_halves(), options).count(), Kept(checks::grid(2, 2, 2)).count());
+    EXPECT_EQ(Kept(checks::two_halves(), options).count(), Kept(checks::grid(2, 2, 2)).count());
 }
 
 TEST(KeptGeometry, NothingPartsFacesBelowTheFeatureAngle) {
@@ -153,7 +139,7 @@ TEST(KeptGeometry, BentMiddlesMakeASurfaceCurved) {
 }
 
 TEST(KeptGeometry, IsMarkedInTheBand) {
-    Kept kept(two_halves());
+    Kept kept(checks::two_halves());
     kept.g.mark(kept.band);
     ASSERT_EQ(kept.band.skin.size(), static_cast<int>(kept.g.facets.size()));
     ASSERT_EQ(kept.band.creases.size(), static_cast<int>(kept.g.segments.size()));

@@ -40,22 +40,8 @@ struct Held {
     NodeConstraints constraints;
 };
 
-/// A cube of eight; the element groups LEFT (0) and RIGHT (1) are its halves in x.
-Mesh two_halves() {
-    Mesh mesh = checks::grid(2, 2, 2);
-    const FamilyIndex left = checks::family_of(mesh, "LEFT", GroupKind::element),
-                      right = checks::family_of(mesh, "RIGHT", GroupKind::element);
-    CellBlock& tetras = mesh.block(CellType::tetra);
-    for (Index c = 0; c < tetras.size(); ++c) {
-        double x = 0;
-        for (const Index n : tetras.nodes(c)) x += mesh.points[n][0] / 4;
-        tetras.families[c] = x < 1 ? left : right;
-    }
-    return mesh;
-}
-
 TEST(NodeConstraints, HaveThePlaceOfTheGeometry) {
-    const Held held(two_halves());
+    const Held held(checks::two_halves());
     EXPECT_EQ(held.freedom({1, 1, 1}), NodeFreedom::surface);
     EXPECT_EQ(held.freedom({1, 1, 0}), NodeFreedom::curve);
     EXPECT_EQ(held.freedom({1, 0, 0}), NodeFreedom::fixed);
@@ -64,7 +50,7 @@ TEST(NodeConstraints, HaveThePlaceOfTheGeometry) {
 }
 
 TEST(NodeConstraints, GroupsThatDriftHoldNothing) {
-    Mesh mesh = two_halves();
+    Mesh mesh = checks::two_halves();
     ConstraintOptions options;
     options.drifting_groups = {true, true};
     EXPECT_EQ(Held(mesh, options).freedom({1, 1, 1}), NodeFreedom::free);
@@ -123,7 +109,7 @@ TEST(NodeConstraints, MiddlesOfGroupsAndPinnedOnesAreFixed) {
 }
 
 TEST(NodeConstraints, NewNodesKeepToWhatTheirEdgeWasOn) {
-    Held held(two_halves());
+    Held held(checks::two_halves());
     const auto of = [&](int node) { return held.constraints[node].freedom; };
     const int on_edge = held.split({0, 0, 0}, {1, 0, 0}), on_skin = held.split({0, 1, 1}, {0, 1, 0}),
               inside = held.split({0, 1, 1}, {1, 1, 1}), on_border = held.split({1, 1, 1}, {1, 0, 1});
@@ -160,7 +146,7 @@ TEST(NodeConstraints, NodesBornBetweenRelatedOnesOnTheSkinAreFixed) {
 }
 
 TEST(NodeConstraints, EdgesAndNodesAreOnTheSkinOrOnBorders) {
-    const Held held(two_halves());
+    const Held held(checks::two_halves());
     const NodeConstraints& c = held.constraints;
     const auto at = [&](double x, double y, double z) { return held.node({x, y, z}); };
     EXPECT_TRUE(c.is_skin_edge(held.band, at(0, 1, 1), at(0, 1, 0)));
@@ -194,7 +180,7 @@ TEST(NodeConstraints, APlateIsExteriorAtItsBorder) {
 }
 
 TEST(NodeConstraints, NodesAreCountedByGroup) {
-    const Held held(two_halves());
+    const Held held(checks::two_halves());
     std::vector<int> nodes;
     for (int v = 0; v < held.band.size(); ++v) nodes.push_back(v);
     const auto counts = held.constraints.count_by_group(held.band, nodes, 2);

@@ -73,15 +73,30 @@ TEST_F(NodeMembershipTest, ANodeBornBetweenAMemberAndAnotherIsNone) {
 }
 
 TEST_F(NodeMembershipTest, AMidSideNodeStaysWhatItIs) {
-    // The ends are members, the mid-side node is not: the node born there joins neither, and merging it would link
-    // them.
+    // The ends are members, as is a mid-side node at one of them, but the one between them is not: the edge is none of
+    // the group's. The node there joins neither, and merging it would link them.
     const Mesh second = checks::second_order(checks::grid(2, 1, 1));
-    use(second, {{1, 0, 0}, {2, 0, 0}});
-    split({1, 0, 0}, {2, 0, 0});
+    use(second, {{1, 0, 0}, {2, 0, 0}, {0.5, 0, 0}});
+    EXPECT_TRUE(membership->groups(split({1, 0, 0}, {2, 0, 0})).empty());
     EXPECT_TRUE(links({1.5, 0, 0}, {1, 0, 0}));
     use(second, {{1, 0, 0}, {1.5, 0, 0}, {2, 0, 0}});
-    split({1, 0, 0}, {2, 0, 0});
+    EXPECT_EQ(membership->groups(split({1, 0, 0}, {2, 0, 0})).size(), 1u);
     EXPECT_FALSE(links({1.5, 0, 0}, {1, 0, 0}));
+}
+
+TEST_F(NodeMembershipTest, AGroupOfCornersAloneHasTheNewCorner) {
+    const Mesh second = checks::second_order(checks::grid(2, 1, 1));
+    use(second, {{1, 0, 0}, {2, 0, 0}});
+    EXPECT_EQ(membership->groups(split({1, 0, 0}, {2, 0, 0})).size(), 1u);
+    EXPECT_FALSE(links({1.5, 0, 0}, {1, 0, 0}));
+    // What a card names by number stays that.
+    Mesh marked = second;
+    const FamilyIndex family = checks::family_of(marked, "MARK", GroupKind::node);
+    marked.groups.back().hidden = true;
+    for (const double x : {1.0, 2.0}) marked.node_families[checks::number_near(marked, {x, 0, 0})] = family;
+    band = extract_band(marked, std::vector<std::int8_t>(marked.points.size(), 0));
+    membership.emplace(band, marked);
+    EXPECT_TRUE(membership->groups(split({1, 0, 0}, {2, 0, 0})).empty());
 }
 
 }  // namespace
