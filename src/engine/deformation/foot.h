@@ -19,6 +19,7 @@ struct Foot {
 /// The closest point of one facet or segment, without `piece`. On a second-order facet, `distance2` is infinite and the
 /// rest undefined if that is surely not less than `limit2`.
 Foot foot_on(const KeptGeometry::Facet& facet, const Vec3& x, double limit2 = std::numeric_limits<double>::infinity());
+/// The same of a segment.
 Foot foot_on(const KeptGeometry::Segment& segment, const Vec3& x);
 
 /// The point closest to `x` of the surface or curve that a node with this constraint (surface or curve) stays on. A
@@ -26,6 +27,7 @@ Foot foot_on(const KeptGeometry::Segment& segment, const Vec3& x);
 /// `c.hint` on, as long as a neighbour is nearer: the closest point nearby. Where that lies on the shape the mesh was
 /// made from, it is the closest point of that.
 Foot surface_foot(const KeptGeometry& geometry, const NodeConstraint& c, const Vec3& x);
+/// The same on a curve.
 Foot curve_foot(const KeptGeometry& geometry, const NodeConstraint& c, const Vec3& x);
 
 }  // namespace femscalpel

@@ -21,14 +21,16 @@ enum class NodeFreedom : std::uint8_t {
     fixed,    ///< a corner, an end, an isolated group node, a point where something else is attached
 };
 
+/// What a moving node has to keep to.
 struct NodeConstraint {
     NodeFreedom freedom = NodeFreedom::free;
     int shape = -1;  ///< surface or curve the node stays on
     int hint = -1;   ///< facet or segment of that shape it was last seen on
 };
 
-/// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of groups (DESIGN
-/// 3, step 4; paper, 3.1.2 and 4.1). It stays what it was in the input, whatever becomes of the band.
+/// The geometry that moving nodes of a band have to keep: the skin, feature lines, and the boundaries of groups
+/// (resources/docs/architecture.md, "constrain"; paper, 3.1.2 and 4.1). It stays what it was in the input, whatever
+/// becomes of the band.
 ///
 /// Surfaces are the input's own triangles, taken apart at feature lines and group borders; a surface whose triangles
 /// are coplanar is treated as the exact plane. Second-order faces are followed as the curved faces they are. Curves
@@ -48,6 +50,7 @@ struct KeptGeometry {
         int shape = -1;  ///< its surface
         int cad = -1;    ///< face of the shape the mesh was made from
     };
+    /// Facets that are one smooth surface.
     struct Surface {
         bool flat = true;
         bool internal = false;  ///< between two tetrahedra
@@ -70,6 +73,7 @@ struct KeptGeometry {
         int cad = -1;       ///< edge of the shape the mesh was made from
         int cad_face = -1;  ///< or face of that it lies on
     };
+    /// Segments that are one smooth curve.
     struct Curve {
         bool straight = true;
         bool border = false;  ///< of a shell

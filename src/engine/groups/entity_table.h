@@ -18,6 +18,7 @@ template <std::size_t N>
 class EntityTable {
 public:
     using Key = std::array<std::uint32_t, N>;
+    /// An entity, and what is known of it so far.
     struct Entry {
         Key given;               ///< the nodes, in their order
         Key key;                 ///< ascending

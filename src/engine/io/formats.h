@@ -30,8 +30,9 @@ std::span<const Format> formats();
 /// The format that a file's extension tells, case ignored; null if none has it.
 const Format* format_of(const std::filesystem::path& path);
 
-/// Extensions of the formats that are read (written), as a list for messages: ".med, .inp, .inp.gz".
+/// Extensions of the formats that are read, as a list for messages: ".med, .inp, .inp.gz".
 std::string extensions_read();
+/// The same of those that are written.
 std::string extensions_written();
 
 }  // namespace femscalpel
