@@ -13,6 +13,7 @@ import FreeCAD
 
 import femmesh_bridge
 import femscalpel
+from femscalpel.signatures import takes
 from femscalpelobjects import operator_options, tool_properties
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
@@ -23,7 +24,6 @@ from femscalpelobjects.drill import Drill
 from femscalpelobjects.example import open_example
 from femscalpelobjects.group_names import rename_group
 from femscalpelobjects.refine import Refine
-from femscalpelobjects.signatures import takes
 
 if FreeCAD.GuiUp:
     from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation

@@ -15,13 +15,7 @@ namespace {
 
 using checks::node_at;
 
-const Plane away({100, 0, 0}, {1, 0, 0});
-
-/// A cube of eight. Bars end at its middle node along the axes (6), the diagonals of faces (6) and of cubes (2).
-struct BarNetwork : testing::Test {
-    Mesh mesh = checks::grid(2, 2, 2);
-    Deformable d = checks::whole_workpiece(mesh, away).d;
-    int middle = node_at(d.band, {1, 1, 1});
+struct BarNetwork : testing::Test, checks::CubeOfEight {
     double stiffness = 6 + 6 / std::sqrt(2.0) + 2 / std::sqrt(3.0);
 };
 

@@ -14,13 +14,7 @@ namespace {
 
 using checks::node_at;
 
-const Plane away({100, 0, 0}, {1, 0, 0});
-
-/// A cube of eight; the elements around its middle node are symmetric about that.
-struct Relaxation : testing::Test {
-    Mesh mesh = checks::grid(2, 2, 2);
-    Deformable d = checks::whole_workpiece(mesh, away).d;
-    int middle = node_at(d.band, {1, 1, 1});
+struct Relaxation : testing::Test, checks::CubeOfEight {
     Vec3& at = d.band.nodes[middle].at;
 };
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Callable, Dict, Tuple
 
 import femscalpel
+from femscalpel.signatures import Argument
 
 from .geometry import geometry_of
 from .on_shape import bookkeeping_groups
-from .signatures import Argument
 
 METHODS = femscalpel.options.METHODS
 

@@ -8,10 +8,10 @@ import FreeCAD
 import Part
 
 import femscalpel
+from femscalpel.signatures import Argument
 from femscalpel.tools import ANGLE, DIRECTION, FACE, LENGTH, POINT, TOOLS
 
 from .geometry import element_of
-from .signatures import Argument
 
 _TYPES = {LENGTH: "App::PropertyLength", ANGLE: "App::PropertyAngle", FACE: "App::PropertyLinkSub"}
 _KINDS = {LENGTH: "float", ANGLE: "float", FACE: "object with a shape, or (object, names of its faces)"}

@@ -5,14 +5,15 @@ An option is a member of `OperatorOptions` in the engine (operators/options.h), 
 all operators and the methods of a session have it then, in their signatures and docstrings.
 """
 
+import dataclasses
 import functools
 import inspect
 import os
-import textwrap
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable, Optional, Union
 
 from . import _arguments, _engine
+from .signatures import Argument, takes
 from .skin import Shape, check_skin
 
 METHODS = ("snap", "deform")
@@ -75,154 +76,128 @@ def _refine(value):
 
 
 @dataclass(frozen=True)
-class Option:
-    """A choice that all operators offer."""
+class Option(Argument):
+    """A choice that all operators offer: a parameter, and a member of the engine's options of the same name."""
 
-    name: str  #: of the parameter, and of the engine's member
-    annotation: Any
-    default: Any
-    check: Callable[[Any], Any]  #: what the engine takes; raises TypeError or ValueError that names the parameter
-    kind: str  #: what it may be, for the docstrings
-    text: str  #: likewise; empty if every operator has its own
+    #: What the engine takes; raises TypeError or ValueError that names the parameter.
+    check: Callable[[Any], Any] = None
 
 
 OPTIONS = (
-    Option("name", str, None, lambda value: _arguments.text(value, "name"), "str", ""),
+    Option(
+        "name",
+        None,
+        "str",
+        "",
+        str,
+        lambda value: _arguments.text(value, "name"),
+    ),
     Option(
         "method",
-        str,
         "snap",
-        _method,
         '{"snap", "deform"}',
         '"snap" moves nodes near the tool onto it and splits what still crosses; it always succeeds on a sound mesh. '
         '"deform" only moves nodes (the paper, 3.1.1) and may end in QualityError.',
+        str,
+        _method,
     ),
     Option(
         "transition",
-        Optional[int],
         None,
-        _transition,
         "int, optional",
         "How many rings of nodes around those on the tool may move (the paper's bandwidth i, 3.1.2), 1 to 20. When not "
         'given: with "deform" as in the paper, the largest distance of an interface node from the tool over the mean '
         'edge length, at least 2; with "snap", which moves nodes by less than an edge and splits the rest, 2: more do '
         "not make better elements.",
+        Optional[int],
+        _transition,
     ),
     Option(
         "feature_angle",
-        float,
         30.0,
-        _feature_angle,
         "float",
         "Degrees; a skin edge sharper than this is a feature line that keeps its shape.",
+        float,
+        _feature_angle,
     ),
     Option(
         "strict",
-        bool,
         False,
-        lambda value: _arguments.flag(value, "strict"),
         "bool",
         "For a mesh read from a CalculiX deck: what its cards say is carried over to new nodes and elements, and where "
         "that is not possible the report warns with file and line. With strict=True that is an Error.",
+        bool,
+        lambda value: _arguments.flag(value, "strict"),
     ),
     Option(
         "preserve",
-        Optional[Iterable[str]],
         None,
-        _preserve,
         "names, optional",
         "The groups whose boundary keeps its shape when nodes move; the boundaries of others may drift, which leaves "
         "more freedom for the elements' shape. All are kept when not given; ``preserve=()`` keeps none. The skin and "
         "its feature lines are kept always, and so is what a deck's cards name by number.",
+        Optional[Iterable[str]],
+        _preserve,
     ),
     Option(
         "band_only",
-        bool,
         False,
-        lambda value: _arguments.flag(value, "band_only"),
         "bool",
         "For previews: the result's mesh is only the elements near the tool, exactly as the whole operation would make "
         "them, with their numbers, coordinates and groups. The report is that of the whole operation, but without what "
         "carrying a CalculiX deck over has to say. With a :class:`Scalpel` this costs little more than the elements "
         "near the tool.",
+        bool,
+        lambda value: _arguments.flag(value, "band_only"),
     ),
     Option(
         "refine",
-        RefineOption,
         None,
-        _refine,
         "None, False or number",
         "Whether elements near the tool are bisected first, as :func:`refine` does. None: where the tool is finer than "
         "the mesh, that is where edges are longer than half its radius (of a crack within a part of a tool, than a "
         'quarter of that part\'s width); a plane has no radius, and method "deform" never refines of itself. A number: '
         "where edges are longer than this; of a crack within a part of a tool, around its front. False: never. "
         "``result.report.refinement`` says what was done.",
+        RefineOption,
+        _refine,
     ),
     Option(
         "skin",
-        ShapeOption,
         None,
-        check_skin,
         "Shape, path or FreeCAD shape, optional",
         "The CAD shape the mesh was made from: a :class:`Shape`, a path or a FreeCAD shape. Nodes of the skin that are "
         "born or move come to lie on its faces and edges, not on the mesh's triangles, so that the skin gets better "
         "than the input's; all others stay where they are. Edges between triangles of one face are no feature lines, "
         "whatever their angle. What of the skin lies on no face of the shape is kept as it is, with a warning.",
+        ShapeOption,
+        check_skin,
     ),
 )
 
 
 def _engine_options(values) -> _engine.Options:
-    """Takes the options out of the arguments of a call."""
+    """The engine's options of their values by name."""
     out = _engine.Options()
     for option in OPTIONS:
-        setattr(out, option.name, option.check(values.pop(option.name)))
+        setattr(out, option.name, option.check(values[option.name]))
     return out
 
 
-def _parameters(own, name, after):
-    """The parameters of an operator with `own` and all options: those of `own` that are in `after` follow the option
-    that it says, the others come first."""
-    out = [p for p in own if p.name not in after]
-    for option in OPTIONS:
-        default = name if option.name == "name" else option.default
-        out.append(
-            inspect.Parameter(
-                option.name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default, annotation=option.annotation
-            )
-        )
-        out += [p for p in own if after.get(p.name) == option.name]
-    return [p.replace(kind=inspect.Parameter.POSITIONAL_OR_KEYWORD) for p in out]
-
-
 def takes_options(name, after=None):
-    """Makes an operator of a function that takes the engine's options as its last argument, `options`.
+    """Makes an operator of a function that takes the engine's options as its keyword `options`.
 
-    `name` is the default of the option of that name, `after` says behind which option a parameter of the function's own
-    stands in the signature, where that is not the beginning. Arguments are checked, options first.
+    `name` is the default of the option of that name; `after` as for femscalpel.signatures.takes(). Options are checked
+    before the other arguments.
     """
+    table = [dataclasses.replace(o, default=name) if o.name == "name" else o for o in OPTIONS]
 
     def decorate(function):
-        own = [p for p in inspect.signature(function).parameters.values() if p.name != "options"]
-        signature = inspect.Signature(
-            _parameters(own, name, after or {}), return_annotation=inspect.signature(function).return_annotation
-        )
-
         @functools.wraps(function)
-        def operator(*args, **kwargs):
-            try:
-                bound = signature.bind(*args, **kwargs)
-            except TypeError as error:
-                raise TypeError(f"{function.__name__}() {error}") from None
-            bound.apply_defaults()
-            options = _engine_options(bound.arguments)
-            return function(**bound.arguments, options=options)
+        def operator(*args, options, **kwargs):
+            return function(*args, options=_engine_options(options), **kwargs)
 
-        operator.__signature__ = signature
-        del operator.__wrapped__
-        if operator.__doc__:
-            operator.__doc__ = operator.__doc__.replace("    {options}\n", _documentation())
-        return operator
+        return takes(after, options=table)(operator)
 
     return decorate
 
@@ -241,13 +216,3 @@ def on_session(operator):
     del method.__wrapped__
     method.__doc__ = f"As :func:`femscalpel.{operator.__name__}`, on the session's mesh."
     return method
-
-
-def _documentation() -> str:
-    """The options that have a text (the others every operator describes itself), as numpydoc parameters."""
-    lines = []
-    for option in OPTIONS:
-        if option.text:
-            lines.append(f"    {option.name} : {option.kind}\n")
-            lines += [f"        {line}\n" for line in textwrap.wrap(option.text, 112)]
-    return "".join(lines)

@@ -14,6 +14,7 @@ from typing import Any, Callable, Dict, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _arguments, _engine
+from .signatures import bind
 
 __all__ = ["Cone", "Cylinder", "Face", "Plane", "Sphere", "Tool", "Torus"]
 
@@ -100,10 +101,7 @@ def _constructor(tool, parameters):
     signature = inspect.Signature(own)
 
     def __init__(self, *args, **kwargs):
-        try:
-            given = signature.bind(*args, **kwargs).arguments
-        except TypeError as error:
-            raise TypeError(f"{tool.__name__}() {error}") from None
+        given = bind(tool.__name__, signature, args, kwargs).arguments
         super(tool, self).__init__(*(p.kind.check(given[p.name], p.name) for p in parameters))
 
     __init__.__signature__ = signature.replace(parameters=[inspect.Parameter("self", positional), *own])

@@ -15,7 +15,16 @@ class Argument:
     name: str
     default: Any
     kind: str  #: what it may be, for docstrings
-    text: str  #: likewise
+    text: str  #: likewise; empty where every function has its own
+    annotation: Any = inspect.Parameter.empty
+
+
+def bind(function, signature, args, kwargs) -> inspect.BoundArguments:
+    """The arguments of a call; TypeError that names `function`, a name, where they do not fit."""
+    try:
+        return signature.bind(*args, **kwargs)
+    except TypeError as error:
+        raise TypeError(f"{function}() {error}") from None
 
 
 def takes(after=None, **tables):
@@ -27,15 +36,14 @@ def takes(after=None, **tables):
     """
 
     def decorate(function):
-        own = [p for p in inspect.signature(function).parameters.values() if p.name not in tables]
-        signature = inspect.Signature(_in_order(own, [a for table in tables.values() for a in table], after or {}))
+        whole = inspect.signature(function)
+        own = [p for p in whole.parameters.values() if p.name not in tables]
+        taken = [a for table in tables.values() for a in table]
+        signature = whole.replace(parameters=_in_order(own, taken, after or {}))
 
         @functools.wraps(function)
         def taking(*args, **kwargs):
-            try:
-                bound = signature.bind(*args, **kwargs)
-            except TypeError as error:
-                raise TypeError(f"{function.__name__}() {error}") from None
+            bound = bind(function.__name__, signature, args, kwargs)
             bound.apply_defaults()
             values = bound.arguments
             taken = {key: {a.name: values.pop(a.name) for a in table} for key, table in tables.items()}
@@ -53,7 +61,9 @@ def takes(after=None, **tables):
 def _in_order(own, taken, after):
     """Parameters of a signature: `own`, then `taken`, each followed by those that stand after it."""
     kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
-    waiting = [p.replace(kind=kind) for p in own] + [inspect.Parameter(a.name, kind, default=a.default) for a in taken]
+    waiting = [p.replace(kind=kind) for p in own] + [
+        inspect.Parameter(a.name, kind, default=a.default, annotation=a.annotation) for a in taken
+    ]
     out = []
 
     def place(parameter):
@@ -69,5 +79,7 @@ def _in_order(own, taken, after):
 
 
 def _described(argument):
+    if not argument.text:
+        return ""
     lines = textwrap.wrap(argument.text, 112)
     return "".join([f"    {argument.name} : {argument.kind}\n", *(f"        {line}\n" for line in lines)])
