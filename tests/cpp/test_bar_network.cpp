@@ -13,6 +13,7 @@
 namespace femscalpel {
 namespace {
 
+using checks::away;
 using checks::node_at;
 
 struct BarNetwork : testing::Test, checks::CubeOfEight {

@@ -12,6 +12,7 @@
 namespace femscalpel {
 namespace {
 
+using checks::away;
 using checks::node_at;
 
 struct Relaxation : testing::Test, checks::CubeOfEight {

@@ -14,11 +14,13 @@ Workpiece whole_workpiece(const Mesh& mesh, const Tool& tool);
 /// The band node there.
 int node_at(const BandMesh& band, const Vec3& at);
 
+/// A tool far from everything.
+inline const Plane away({100, 0, 0}, {1, 0, 0});
+
 /// A cube of eight, away from any tool, and its middle node. Bars end there along the axes (6), the diagonals of faces
 /// (6) and of cubes (2); the elements around it are symmetric about it.
 struct CubeOfEight {
     Mesh mesh = grid(2, 2, 2);
-    Plane away{{100, 0, 0}, {1, 0, 0}};
     Deformable d = whole_workpiece(mesh, away).d;
     int middle = node_at(d.band, {1, 1, 1});
 };
