@@ -407,6 +407,7 @@ private:
         };
         // Open chains from their ends, then closed ones.
         std::vector<int> nodes;
+        nodes.reserve(next.size());
         for (const auto& [v, neighbours] : next) nodes.push_back(v);
         for (const int v : nodes)
             if (next[v].size() % 2 == 1) walk(v);

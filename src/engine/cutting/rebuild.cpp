@@ -193,6 +193,7 @@ private:
                                     const std::array<int, N>& images) {
         const CellTraits& t = traits(type);
         std::vector<Index> nodes;
+        nodes.reserve(static_cast<std::size_t>(t.nodes));
         for (int image : images) nodes.push_back(out_.node[image]);
         if (t.quadratic)
             for (const auto& e : t.edges)

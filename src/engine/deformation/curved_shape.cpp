@@ -105,7 +105,7 @@ double ratio(std::span<const Vec3> corner, auto mid, ShapeAt at = ShapeAt::corne
     bool straight = true;
     const auto edges = edges_of(corner.size());
     for (std::size_t k = 0; k < edges.size(); ++k) {
-        const int i = edges[k][0], j = edges[k][1];
+        const auto [i, j] = edges[k];
         const MidSide m = mid(k);
         if (!m.fits) return -1;
         x[corner.size() + k] = m.at;
