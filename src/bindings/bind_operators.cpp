@@ -10,6 +10,7 @@
 #include "operators/crack.h"
 #include "operators/cut.h"
 #include "operators/drill.h"
+#include "operators/merge.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
 
@@ -206,6 +207,20 @@ void bind_functions(py::module_& module) {
         py::arg("plane"), py::arg("width"), py::arg("options"), py::arg("bottom"));
 }
 
+void bind_merge(py::module_& module) {
+    bind_operator<const Mesh&, const OperatorOptions&, std::optional<double>, const std::string&, bool>(
+        module, "merge",
+        [](const Mesh& mesh, const Prepared& known, const Mesh& addition, const OperatorOptions& options,
+           std::optional<double> tolerance, const std::string& prefix, bool join_groups) {
+            auto o = with<MergeOptions>(options);
+            o.tolerance = tolerance;
+            o.prefix = prefix;
+            o.join_groups = join_groups;
+            return merge(mesh, addition, o, known);
+        },
+        py::arg("addition"), py::arg("options"), py::arg("tolerance"), py::arg("prefix"), py::arg("join_groups"));
+}
+
 void bind_refine(py::module_& module) {
     module.def(
         "refine",
@@ -245,6 +260,7 @@ void bind_operators(py::module_& module) {
     bind_options(module);
     bind_session(module);
     bind_functions(module);
+    bind_merge(module);
     bind_refine(module);
 }
 

@@ -75,6 +75,8 @@ struct Workpiece {
     };
     /// Folded or strongly curved ones of the input, see folded_input.h; by whether it is a triangle, and slot.
     std::map<std::pair<bool, int>, FoldedElement> folded_input = {};
+    /// Of lines that were made edges (imprint.h): by line and stop the node there.
+    std::vector<std::vector<int>> at_stop = {};
     bool patched = false;  ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Splits the edge a-b at `at` and returns the new node, which lies on `tools`: everything known of nodes holds for

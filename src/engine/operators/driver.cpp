@@ -171,6 +171,7 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
     const Naming naming = recipe.naming();
     Edited edited = edit.finish(f, opening, naming, options.strict, watch);
     Result result{{}, account.close(f, blades, opening, naming, edited)};
+    recipe.finished(edited.rebuilt);
     result.mesh = std::move(edited.rebuilt.mesh);
     remove_marks(result.mesh);
     watch.lap("report");

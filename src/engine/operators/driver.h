@@ -59,6 +59,9 @@ public:
 
     /// Opens or removes what was cut. Throws QualityError or ToolError when that is not what was asked for.
     virtual Opening open(Workpiece& f, const Site& site) = 0;
+
+    /// With the band put back: where its nodes are in the result.
+    virtual void finished(const Rebuilt& rebuilt) { (void)rebuilt; }
 };
 
 /// Runs a recipe on a mesh (resources/docs/architecture.md): refines the mesh first where it is coarser than the tools,

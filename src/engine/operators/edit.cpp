@@ -12,7 +12,7 @@ namespace femscalpel {
 namespace {
 
 void add_front(const Opening& opening, const std::string& name, Rebuilt& rebuilt) {
-    if (opening.front_nodes.empty()) return;
+    if (opening.front_nodes.empty() || name.empty()) return;
     Mesh& mesh = rebuilt.mesh;
     const GroupIndex group = mesh.add_group(name, GroupKind::node);
     for (const int v : opening.front_nodes) {

@@ -20,7 +20,7 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import Format, formats, read, write
-from .operators import Result, Scalpel, crack, cut, drill, refine
+from .operators import Result, Scalpel, crack, cut, drill, merge, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, HeldNodes, PoorPlace, Quality, QualitySummary, Refinement, Report
 from .skin import Shape
@@ -69,6 +69,7 @@ __all__ = [
     "from_meshio",
     "mean_ratio",
     "measure",
+    "merge",
     "read",
     "refine",
     "scaled_jacobian",

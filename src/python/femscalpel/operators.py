@@ -235,6 +235,81 @@ def cut(
     return _run(_engine.cut, mesh, first, second, options, bottom)
 
 
+def merge(
+    mesh: Mesh,
+    other: Mesh,
+    name: str = "ADD",
+    tolerance: Optional[float] = None,
+    prefix: str = "",
+    join_groups: bool = True,
+    feature_angle: float = 30.0,
+    strict: bool = False,
+) -> Result:
+    """Joins another mesh to a mesh: a stiffener, a doubler, a bracket.
+
+    Where the surfaces of the two meet, both get the same nodes and edges: the line is made edges of the mesh as a crack
+    would be, but not opened; the addition is divided likewise, and the two share its nodes. Elsewhere everything of the
+    mesh keeps its number, its coordinates bit for bit and its groups. `mesh` and `other` themselves are not changed.
+
+    Shells meet in lines: where the border of one is on the other (a T), where borders meet (an L), where they cross (an
+    X); several pieces of an addition at once.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh that is added to: shells of triangles, linear or quadratic, where the two meet; anything elsewhere.
+    other : Mesh
+        What is added. One of another order is brought to the mesh's.
+    name : str
+        Prefix of the new groups: ``name_SEAM``, the nodes that the two share, and ``name_ADDED``, the addition's
+        elements.
+    tolerance : float, optional
+        What is nearer than this to the other's surface touches it, and is moved there. A fiftieth of the shorter mean
+        edge length when not given.
+    prefix : str
+        Of groups of the addition whose name the mesh has for others; the name and "_" when not given.
+    join_groups : bool
+        Whether groups of one name and kind become one.
+    feature_angle, strict
+        As for :func:`crack`.
+
+    Returns
+    -------
+    Result
+        The report's groups are those of both meshes, before as the mesh had them.
+
+    Raises
+    ------
+    ToolError
+        The name is bad or taken, or the two do not meet.
+    UnsupportedElementError
+        Quadrangles or other elements that are no simplices are where the two meet.
+    QualityError
+        No valid mesh can be made this way: the message says where.
+
+    Examples
+    --------
+    >>> result = merge(caisson, stiffener, name="RIB")
+    >>> result.mesh.groups["RIB_SEAM"].ids
+    """
+    addition = check_mesh(other, "other")
+    options = _engine.Options()
+    options.name = _arguments.text(name, "name")
+    options.feature_angle = _arguments.real(feature_angle, "feature_angle")
+    options.strict = _arguments.flag(strict, "strict")
+    if tolerance is not None and (tolerance := _arguments.real(tolerance, "tolerance")) <= 0:
+        raise _arguments.about("tolerance", ValueError(f"tolerance must be a positive length, not {tolerance}"))
+    return _run(
+        _engine.merge,
+        mesh,
+        addition,
+        options,
+        tolerance,
+        _arguments.text(prefix, "prefix"),
+        _arguments.flag(join_groups, "join_groups"),
+    )
+
+
 def refine(
     mesh: Mesh,
     near: Union[Tool, Sequence[Tool], np.ndarray],

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// A triangle of a mesh's surface, by corners.
+struct SurfaceFace {
+    std::array<Index, 3> nodes;  ///< of a solid's skin: normal outwards
+    bool shell;                  ///< an element of its own, not the face of a tetrahedron
+};
+
+/// The faces of a mesh's surface that reach into a box: faces that only one tetrahedron has, and triangles that are no
+/// face of a tetrahedron. Elements that are no simplices have none. One pass over the elements.
+std::vector<SurfaceFace> surface_near(const Mesh& mesh, const Eigen::AlignedBox3d& box);
+
+/// The box around all nodes of a mesh that elements have.
+Eigen::AlignedBox3d box_around(const Mesh& mesh);
+
+}  // namespace femscalpel

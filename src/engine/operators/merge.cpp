@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "cancel.h"
+#include "cutting/meeting.h"
+#include "mesh/order.h"
+#include "mesh/rounding.h"
+#include "mesh/surface.h"
+#include "operators/seam.h"
+#include "operators/unite.h"
+#include "tools/ribbon.h"
+
+namespace femscalpel {
+namespace {
+
+/// What touches, in the shorter of the two mean edge lengths.
+constexpr double touching = 0.02;
+/// A node of the one nearer to a node of the other than this, in the shortest edge of the line there, is the same.
+constexpr double same_node = 0.25;
+/// How often the two may be divided where the other was.
+constexpr int most_rounds = 4;
+
+/// Mean edge length of the elements of the mesh's dimension that reach into a box.
+double mean_edge(const Mesh& mesh, const Eigen::AlignedBox3d& box) {
+    double sum = 0;
+    Index count = 0;
+    for (const SurfaceFace& f : surface_near(mesh, box))
+        for (int k = 0; k < 3; ++k, ++count) sum += (mesh.points[f.nodes[k]] - mesh.points[f.nodes[(k + 1) % 3]]).norm();
+    return count ? sum / static_cast<double>(count) : 0;
+}
+
+/// A line in which the two meshes meet, and which nodes it has of each by now.
+struct Line {
+    std::array<std::unique_ptr<Ribbon>, 2> standing;  ///< through the meeting's points, on the surface of each
+    bool closed = false;
+    /// Places where both are to have a node, along the line, and the nodes there, or -1.
+    struct Stop {
+        Vec3 at;
+        std::array<Index, 2> node;
+    };
+    std::vector<Stop> stops;
+};
+
+/// Of the ends of a line.
+bool is_end(const MeetingLine& line, std::size_t point) {
+    return !line.closed && (point == 0 || point + 1 == line.points.size());
+}
+
+/// The places of a meeting where nodes are to be: its ends, and where one of the meshes has one; of places that are
+/// nearer to each other than edges there should be, one.
+std::vector<Line::Stop> stops_of(const MeetingLine& line) {
+    std::vector<std::size_t> points;
+    for (std::size_t k = 0; k < line.points.size(); ++k)
+        if (is_end(line, k) || line.points[k].node[0] >= 0 || line.points[k].node[1] >= 0) points.push_back(k);
+    // How far it is to the next node of the same mesh.
+    const auto room = [&](std::size_t i, std::size_t mesh) {
+        double out = std::numeric_limits<double>::infinity();
+        for (const std::size_t k : points)
+            if (k != points[i] && line.points[k].node[mesh] >= 0)
+                out = std::min(out, (line.points[k].at - line.points[points[i]].at).norm());
+        return out;
+    };
+    std::vector<Line::Stop> stops;
+    std::vector<double> rooms;
+    std::vector<char> fixed;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const MeetingLine::Point& p = line.points[points[i]];
+        double own = std::numeric_limits<double>::infinity();
+        for (const std::size_t m : {0U, 1U})
+            if (p.node[m] >= 0) own = std::min(own, room(i, m));
+        const Line::Stop stop{p.at, p.node};
+        const bool end = is_end(line, points[i]);
+        if (!stops.empty()) {
+            Line::Stop& last = stops.back();
+            const bool different = (last.node[0] < 0 || stop.node[0] < 0) && (last.node[1] < 0 || stop.node[1] < 0);
+            if (different && !(fixed.back() && end) &&
+                (last.at - stop.at).norm() < same_node * std::min(rooms.back(), own)) {
+                // The end stays where it is, else the mesh's node; the other's goes there.
+                const bool stay = fixed.back() || (!end && last.node[0] >= 0);
+                const std::array<Index, 2> both{std::max(last.node[0], stop.node[0]),
+                                                std::max(last.node[1], stop.node[1])};
+                if (!stay) last.at = stop.at;
+                last.node = both;
+                fixed.back() = fixed.back() || end;
+                continue;
+            }
+        }
+        stops.push_back(stop);
+        rooms.push_back(own);
+        fixed.push_back(end);
+    }
+    return stops;
+}
+
+Line line_of(const MeetingLine& meeting) {
+    Line out;
+    out.closed = meeting.closed;
+    std::vector<Vec3> points;
+    std::array<std::vector<Vec3>, 2> normals;
+    for (const MeetingLine::Point& p : meeting.points) {
+        points.push_back(p.at);
+        for (const std::size_t m : {0U, 1U}) normals[m].push_back(p.normal[m]);
+    }
+    for (const std::size_t m : {0U, 1U}) out.standing[m] = std::make_unique<Ribbon>(points, normals[m], out.closed);
+    out.stops = stops_of(meeting);
+    if (out.stops.empty()) out.stops.push_back({points.front(), {-1, -1}});
+    return out;
+}
+
+/// Two meshes that are given the same edges along lines.
+class Meeting {
+public:
+    Meeting(const Mesh& mesh, const Mesh& addition, std::vector<Line> lines, const OperatorOptions& options)
+        : lines_(std::move(lines)), options_(options) {
+        mesh_ = {&mesh, &addition};
+        // Refining is for the tools of other operators.
+        options_.refine.when = RefineFirst::When::never;
+    }
+
+    void run(const Prepared& known) {
+        imprint(0, known);
+        for (int round = 0; round < most_rounds; ++round) {
+            if (!imprint((round + 1) % 2, {})) return;
+        }
+        throw QualityError(
+            "the two meshes cannot be given the same nodes where they meet: their elements there differ too much in "
+            "size. Refine the coarser one there first");
+    }
+
+    Mesh& mesh(std::size_t m) { return results_[m].mesh; }
+    const std::vector<Line>& lines() const { return lines_; }
+    Report& report(std::size_t m) { return results_[m].report; }
+
+private:
+    /// Makes the lines edges of mesh m, with nodes at all stops. Whether that needs nodes which the other has not.
+    bool imprint(std::size_t m, const Prepared& known) {
+        const bool first = ribbons_.empty();
+        std::vector<ImprintLine> wanted;
+        for (Line& line : lines_) {
+            ImprintLine& out = wanted.emplace_back();
+            out.ribbon = first ? line.standing[m].get() : ribbon_through_stops(line, m);
+            for (const Line::Stop& stop : line.stops) {
+                out.places.push_back(stop.at);
+                out.known.push_back(stop.node[m]);
+            }
+            out.stops = lengths(*out.ribbon, line);
+        }
+        if (first) ribbons_.emplace_back();
+        const Mesh& input = done_[m] ? results_[m].mesh : *mesh_[m];
+        Seamed seamed = imprint_seam(input, std::move(wanted), !first, options_, known);
+        bool more = false;
+        for (std::size_t k = 0; k < lines_.size(); ++k) more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
+        if (done_[m]) seamed.result.report = joined(results_[m].report, std::move(seamed.result.report));
+        results_[m] = std::move(seamed.result);
+        done_[m] = true;
+        return more || !done_[1 - m];
+    }
+
+    const Ribbon* ribbon_through_stops(const Line& line, std::size_t m) {
+        std::vector<Vec3> points, standing;
+        for (const Line::Stop& stop : line.stops) {
+            points.push_back(stop.at);
+            standing.push_back(line.standing[m]->foot(stop.at).standing);
+        }
+        ribbons_.push_back(std::make_unique<Ribbon>(std::move(points), std::move(standing), line.closed));
+        return ribbons_.back().get();
+    }
+
+    static std::vector<double> lengths(const Ribbon& ribbon, const Line& line) {
+        std::vector<double> out;
+        for (const Line::Stop& stop : line.stops) out.push_back(ribbon.foot(stop.at).arc);
+        if (line.closed) return out;
+        out.front() = 0;
+        out.back() = ribbon.length();
+        return out;
+    }
+
+    /// The line's stops are the nodes that mesh m has there now.
+    static bool take(Line& line, std::size_t m, const SeamLine& seam, const Mesh& mesh) {
+        std::vector<Line::Stop> stops;
+        for (const Index n : seam.nodes) {
+            Line::Stop& stop = stops.emplace_back(Line::Stop{mesh.points[n], {-1, -1}});
+            stop.node[m] = n;
+        }
+        for (std::size_t s = 0; s < seam.at_stop.size(); ++s) {
+            Line::Stop& stop = stops[seam.at_stop[s]];
+            stop.node[1 - m] = std::max(stop.node[1 - m], line.stops[s].node[1 - m]);
+        }
+        const bool more = std::ranges::any_of(stops, [&](const Line::Stop& s) { return s.node[1 - m] < 0; });
+        line.stops = std::move(stops);
+        return more;
+    }
+
+    static Report joined(const Report& before, Report after) {
+        after.quality_before = before.quality_before;
+        after.nodes_added += before.nodes_added;
+        after.nodes_split += before.nodes_split;
+        after.nodes_moved = std::max(after.nodes_moved, before.nodes_moved);
+        after.elements_added += before.elements_added;
+        after.warnings.insert(after.warnings.begin(), before.warnings.begin(), before.warnings.end());
+        return after;
+    }
+
+    std::array<const Mesh*, 2> mesh_;
+    std::vector<Line> lines_;
+    OperatorOptions options_;
+    std::array<Result, 2> results_;
+    std::array<bool, 2> done_{};
+    std::vector<std::unique_ptr<Ribbon>> ribbons_;
+};
+
+std::string point_text(const Vec3& x) {
+    std::ostringstream out;
+    out << "(" << x.transpose() << ")";
+    return out.str();
+}
+
+[[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition, double tolerance) {
+    const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
+    std::ostringstream out;
+    out << "the addition does not meet the mesh: nothing of it is within the tolerance of " << tolerance
+        << " of the mesh's surface. The mesh reaches from " << point_text(a.min()) << " to " << point_text(a.max())
+        << ", the addition from " << point_text(b.min()) << " to " << point_text(b.max())
+        << ". Move the addition, or give a larger tolerance";
+    throw ToolError(out.str(), "other");
+}
+
+void check(const Mesh& mesh, const Mesh& addition) {
+    if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
+    if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
+    if (mesh.dimension() != 2 || addition.dimension() != 2)
+        throw ToolError("merge joins shells to shells: the mesh has elements of dimension " +
+                        std::to_string(mesh.dimension()) + ", the addition of dimension " +
+                        std::to_string(addition.dimension()), "other");
+}
+
+/// Throws ToolError when a group that the operator makes has a name already.
+void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name) {
+    for (const char* suffix : {"_SEAM", "_ADDED"})
+        for (const Mesh* m : {&mesh, &addition})
+            if (m->find_group(name + suffix))
+                throw ToolError("name '" + name + "' is taken: " + (m == &mesh ? "the mesh" : "the addition") +
+                                    " already has a group '" + name + suffix + "'; choose another",
+                                "name");
+}
+
+void add_quality(QualitySummary& sum, const QualitySummary& more) {
+    const Index count = sum.count + more.count;
+    if (count > 0)
+        sum.mean = (sum.mean * static_cast<double>(sum.count) + more.mean * static_cast<double>(more.count)) /
+                   static_cast<double>(count);
+    sum.count = count;
+    sum.minimum = std::min(sum.minimum, more.minimum);
+    for (std::size_t k = 0; k < sum.histogram.size(); ++k) sum.histogram[k] += more.histogram[k];
+}
+
+/// The report on the mesh, with what the addition brings.
+Report report_of(const Mesh& input, Meeting& meeting, const Mesh& result, Index shared) {
+    Report out = std::move(meeting.report(0));
+    const Report& other = meeting.report(1);
+    std::vector<GroupRecord> records =
+        compare_groups(input, family_totals(input), result, family_totals(result));
+    for (GroupRecord& r : records)
+        for (const GroupRecord& was : out.groups)
+            if (was.name == r.name && was.kind == r.kind) {
+                const GroupRecord now = r;
+                r = was;
+                r.count_after = now.count_after;
+                r.measure_after = now.measure_after;
+                if (was.status == "untouched" && now.count_after != now.count_before) r.status = now.status;
+            }
+    out.groups = std::move(records);
+    add_quality(out.quality_before, other.quality_before);
+    add_quality(out.quality_after, other.quality_after);
+    out.nodes_added += meeting.mesh(1).node_count() - shared;
+    out.elements_added += meeting.mesh(1).cell_count();
+    for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
+    return out;
+}
+
+}  // namespace
+
+Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
+    Stopwatch::Time started = Stopwatch::now();
+    check(mesh, other);
+    check_names(mesh, other, options.name);
+    const Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
+    const Eigen::AlignedBox3d box = box_around(addition);
+    const double tolerance =
+        options.tolerance.value_or(std::max({touching * std::min(mean_edge(mesh, box), mean_edge(addition, box)),
+                                             coordinate_rounding(mesh.points), coordinate_rounding(addition.points)}));
+    std::vector<Line> lines;
+    for (const MeetingLine& line : find_meeting(mesh, addition, tolerance)) lines.push_back(line_of(line));
+    if (lines.empty()) fail_apart(mesh, addition, tolerance);
+    Meeting meeting(mesh, addition, std::move(lines), options);
+    meeting.run(known);
+    check_cancelled();
+
+    Result out;
+    out.mesh = std::move(meeting.mesh(0));
+    std::vector<Index> shared(meeting.mesh(1).points.size(), -1), seam;
+    for (const Line& line : meeting.lines())
+        for (const Line::Stop& stop : line.stops) {
+            shared[stop.node[1]] = stop.node[0];
+            seam.push_back(stop.node[0]);
+        }
+    std::ranges::sort(seam);
+    const auto [rest, end] = std::ranges::unique(seam);
+    seam.erase(rest, end);
+    const GroupIndex seam_group = out.mesh.add_group(options.name + "_SEAM", GroupKind::node);
+    out.mesh.add_group(options.name + "_ADDED", GroupKind::element);
+    for (const Index n : seam)
+        out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], seam_group);
+    unite(out.mesh, meeting.mesh(1), shared, options.name + "_ADDED",
+          {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups});
+    out.report = report_of(mesh, meeting, out.mesh, static_cast<Index>(seam.size()));
+    out.report.seconds = {{"merge", Stopwatch::since(started)}};
+    return out;
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/unite.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "cutting/rebuild.h"
+#include "error.h"
+#include "mesh/band_mesh.h"
+
+namespace femscalpel {
+namespace {
+
+/// Mid-side nodes on edges between some corners, by these.
+std::unordered_map<std::uint64_t, Index> middles_between(const Mesh& mesh, const std::unordered_set<Index>& corners) {
+    std::unordered_map<std::uint64_t, Index> out;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (!t.quadratic) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (std::size_t k = 0; k < t.edges.size(); ++k)
+                if (corners.contains(n[t.edges[k][0]]) && corners.contains(n[t.edges[k][1]]))
+                    out.emplace(edge_key(static_cast<int>(n[t.edges[k][0]]), static_cast<int>(n[t.edges[k][1]])),
+                                n[t.corners + k]);
+        }
+    }
+    return out;
+}
+
+class Uniter {
+public:
+    Uniter(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const UniteNames& names)
+        : mesh_(mesh), addition_(addition), place_(shared), names_(names), number_(next_numbers(mesh)) {}
+
+    void run(GroupIndex added) {
+        find_groups();
+        share_middles();
+        for (Index n = 0; n < addition_.node_count(); ++n) {
+            if (place_[n] < 0) {
+                place_[n] = mesh_.add_node(addition_.points[n], number_.node++, family(0, addition_.node_families[n]));
+                continue;
+            }
+            FamilyIndex& own = mesh_.node_families[place_[n]];
+            own = family(own, addition_.node_families[n]);
+        }
+        add_elements(added);
+    }
+
+private:
+    /// Which group of the mesh each of the addition's becomes.
+    void find_groups() {
+        for (const Group& g : addition_.groups) {
+            if (g.hidden) {
+                group_.push_back(-1);
+                continue;
+            }
+            const auto same = mesh_.find_group(g.name, g.kind);
+            if (same && names_.join_groups) {
+                group_.push_back(*same);
+                continue;
+            }
+            const std::string name = mesh_.find_group(g.name) ? names_.prefix + g.name : g.name;
+            if (mesh_.find_group(name))
+                throw ToolError("the addition's group '" + g.name + "' has the name of one that the mesh has, and so has '" +
+                                    name + "': give another prefix",
+                                "prefix");
+            group_.push_back(mesh_.add_group(name, g.kind));
+        }
+    }
+
+    FamilyIndex family(FamilyIndex own, FamilyIndex of_addition) {
+        for (const GroupIndex g : addition_.families.groups(of_addition))
+            if (group_[g] >= 0) own = mesh_.families.with(own, group_[g]);
+        return own;
+    }
+
+    void share_middles() {
+        std::unordered_set<Index> here, there;
+        for (Index n = 0; n < addition_.node_count(); ++n)
+            if (place_[n] >= 0) {
+                here.insert(place_[n]);
+                there.insert(n);
+            }
+        const auto ours = middles_between(mesh_, here);
+        if (ours.empty()) return;
+        for (const auto& [key, middle] : middles_between(addition_, there)) {
+            const auto found = ours.find(edge_key(static_cast<int>(place_[static_cast<Index>(key >> 32)]),
+                                                  static_cast<int>(place_[static_cast<Index>(key & 0xffffffffU)])));
+            if (found != ours.end()) place_[middle] = found->second;
+        }
+    }
+
+    void add_elements(GroupIndex added) {
+        std::array<Index, cell_type_count> first{};
+        for (const CellBlock& b : addition_.blocks()) {
+            first[static_cast<int>(b.type)] = mesh_.block(b.type).size();
+            std::vector<Index> nodes;
+            for (Index c = 0; c < b.size(); ++c) {
+                nodes.clear();
+                for (const Index n : b.nodes(c)) nodes.push_back(place_[n]);
+                mesh_.add_cell(b.type, nodes, number_.cell++, mesh_.families.with(family(0, b.families[c]), added));
+            }
+        }
+        for (const Facet& f : addition_.facets)
+            mesh_.facets.push_back(
+                {f.type, f.face, family(0, f.family), first[static_cast<int>(f.type)] + f.cell});
+    }
+
+    Mesh& mesh_;
+    const Mesh& addition_;
+    std::vector<Index> place_;  // in the mesh, by node of the addition
+    const UniteNames& names_;
+    Numbering number_;
+    std::vector<GroupIndex> group_;  // of the mesh, by group of the addition; -1: none
+};
+
+}  // namespace
+
+void unite(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const std::string& added,
+           const UniteNames& names) {
+    const auto group = mesh.find_group(added, GroupKind::element);
+    if (!group) throw ToolError("there is no element group '" + added + "'");
+    Uniter(mesh, addition, shared, names).run(*group);
+}
+
+}  // namespace femscalpel
