@@ -17,7 +17,8 @@
 namespace femscalpel {
 namespace {
 
-/// As in snap.cpp: how far a node may be off a line to be moved onto it, and how far it may go, in its mean edge length.
+/// As in snap.cpp: how far a node may be off a line to be moved onto it, and how far it may go, in its mean edge
+/// length.
 constexpr double snap_reach = 0.45;
 constexpr double snap_slide = 1.0;
 /// The same for stops, in the shortest edge of the line there.
@@ -80,9 +81,14 @@ std::vector<int> line_nodes(const Workpiece& f, const ImprintLine& line, const s
 
 class Imprinter {
 public:
-    Imprinter(Workpiece& f, const ImprintLine& line, int tag, bool exact,
-              std::vector<std::unique_ptr<Plane>>& planes)
-        : f_(f), d_(f.d), band_(f.d.band), line_(line), ribbon_(*line.ribbon), tag_(tag), exact_(exact),
+    Imprinter(Workpiece& f, const ImprintLine& line, int tag, bool exact, std::vector<std::unique_ptr<Plane>>& planes)
+        : f_(f),
+          d_(f.d),
+          band_(f.d.band),
+          line_(line),
+          ribbon_(*line.ribbon),
+          tag_(tag),
+          exact_(exact),
           planes_(planes) {}
 
     std::vector<int> run() {
@@ -167,7 +173,8 @@ private:
         if (exact_) target = asked;
         if ((target - node.start).norm() > d_.constraints.leash(v)) return false;
         const double before = quality_around(d_, v, node.at), after = quality_around(d_, v, target);
-        if (!(after >= std::min(enough, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return false;
+        if (!(after >= std::min(enough, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target))
+            return false;
         node.at = target;
         return true;
     }
@@ -205,9 +212,10 @@ private:
     }
 
     [[noreturn]] void fail_end(const Vec3& x) const {
-        throw QualityError("the seam's end at " + place(x) +
-                           " cannot be made a node: the mesh is too coarse there, or the place too close to a corner or "
-                           "border. Refine the mesh there first, or move the addition a little");
+        throw QualityError(
+            "the seam's end at " + place(x) +
+            " cannot be made a node: the mesh is too coarse there, or the place too close to a corner or "
+            "border. Refine the mesh there first, or move the addition a little");
     }
 
     /// A node of the surface at the point `foot` of a face, or -1: one of the face's moved there, or a new one.
@@ -286,7 +294,8 @@ private:
             high = std::max(high, value_[v]);
         }
         if (low > 0 || high < 0) return false;
-        const Vec3 middle = (at(n[0]) + at(n[1]) + at(n[2])) / 3, normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
+        const Vec3 middle = (at(n[0]) + at(n[1]) + at(n[2])) / 3,
+                   normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
         const double size = std::sqrt(normal.norm());
         const Ribbon::Foot foot = ribbon_.foot(middle);
         if (std::abs(normal.dot(foot.standing)) < lying * normal.norm()) return false;
@@ -390,7 +399,8 @@ private:
 
     void split_edges() {
         for (const auto& [a, b] : crossing_edges()) {
-            const Contact tools = d_.edge_contact(a, b).full() ? d_.edge_contact(a, b) : d_.edge_contact(a, b).with(&ribbon_);
+            const Contact tools =
+                d_.edge_contact(a, b).full() ? d_.edge_contact(a, b) : d_.edge_contact(a, b).with(&ribbon_);
             const int v = f_.split_edge(a, b, d_.fitted_split(a, b, crossing(a, b), tools).at, tools);
             extend_values();
             value_[v] = 0;
@@ -463,7 +473,8 @@ private:
         const double arc = line_.stops[stop];
         for (std::size_t k = 0; k + (ribbon_.closed() ? 0 : 1) < nodes.size(); ++k) {
             const int a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-            const double from = arc_of(a), here = ribbon_.arc_between(from, arc), whole = ribbon_.arc_between(from, arc_of(b));
+            const double from = arc_of(a), here = ribbon_.arc_between(from, arc),
+                         whole = ribbon_.arc_between(from, arc_of(b));
             if (here < 0 || here > whole || whole <= 0) continue;
             const Contact tools = Contact(&ribbon_);
             const double t = here / whole;

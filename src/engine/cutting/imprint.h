@@ -31,9 +31,9 @@ struct ImprintedLine {
 };
 
 /// Makes edges of the surface lie along lines: nodes near a line are moved onto it along the surface, nearest first;
-/// edges of the surface that still cross it are split on it, longest first; then its stops become nodes, by moving those
-/// near them or by splitting edges of the line. Nothing is relaxed. The edges are put into BandMesh::cut_edges, each
-/// under the index of its line as tag.
+/// edges of the surface that still cross it are split on it, longest first; then its stops become nodes, by moving
+/// those near them or by splitting edges of the line. Nothing is relaxed. The edges are put into BandMesh::cut_edges,
+/// each under the index of its line as tag.
 ///
 /// Nodes at stops come to lie at their places, or, if they are held or the surface is elsewhere, a little beside; with
 /// `exact` in any case at their places, bit by bit, even a little off the surface.

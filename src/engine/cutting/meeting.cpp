@@ -3,77 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
+#include <limits>
+#include <memory>
 #include <set>
-#include <unordered_map>
 #include <unsupported/Eigen/BVH>
 
 #include "cancel.h"
+#include "mesh/closest_point.h"
 #include "mesh/stopwatch.h"
+#include "mesh/surface.h"
+#include "mesh/surface_tree.h"
 
 namespace femscalpel {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
-using Triangle = std::array<Vec3, 3>;
 
-/// A line that turns more than this (cosine), or whose surfaces do, has a corner there.
-const double corner = std::cos(30 * M_PI / 180);
-/// Sine of the angle below which two faces do not cross but lie on each other.
-constexpr double nearly_parallel = 0.03;
-
-/// Part of a plane's line that a triangle has.
-using Span = std::array<Vec3, 2>;
-
-/// Where a triangle crosses a plane, of which its vertices are so far; nothing if in less than a segment, or all of it.
-std::optional<Span> cross_plane(const Triangle& t, std::array<double, 3> off, double tolerance) {
-    std::array<Vec3, 6> found;
-    std::size_t count = 0;
-    for (double& d : off)
-        if (std::abs(d) <= tolerance) d = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        if (off[k] == 0) found[count++] = t[k];
-    if (count == 3) return {};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t l = (k + 1) % 3;
-        if (off[k] * off[l] < 0) found[count++] = t[k] + off[k] / (off[k] - off[l]) * (t[l] - t[k]);
-    }
-    if (count != 2) return {};
-    return Span{found[0], found[1]};
-}
-
-/// The segment in which two triangles cross.
-std::optional<Span> cross(const Triangle& a, const Triangle& b, double tolerance) {
-    const Vec3 na = (a[1] - a[0]).cross(a[2] - a[0]).normalized(), nb = (b[1] - b[0]).cross(b[2] - b[0]).normalized();
-    const Vec3 along = na.cross(nb);
-    if (along.norm() < nearly_parallel) return {};
-    std::array<double, 3> off_a{}, off_b{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        off_a[k] = nb.dot(a[k] - b[0]);
-        off_b[k] = na.dot(b[k] - a[0]);
-    }
-    const auto of_a = cross_plane(a, off_a, tolerance), of_b = cross_plane(b, off_b, tolerance);
-    if (!of_a || !of_b) return {};
-    const Vec3 direction = along.normalized();
-    const auto ordered = [&](Span s) {
-        if (direction.dot(s[1] - s[0]) < 0) std::swap(s[0], s[1]);
-        return s;
-    };
-    const Span p = ordered(*of_a), q = ordered(*of_b);
-    // A node of b has the say where one of a is not nearer to the end of what both have.
-    const Vec3 low = direction.dot(p[0] - q[0]) > tolerance ? p[0] : q[0];
-    const Vec3 high = direction.dot(p[1] - q[1]) < -tolerance ? p[1] : q[1];
-    if (direction.dot(high - low) <= tolerance) return {};
-    // Spans of planes that are but tolerance apart at the vertices may miss each other sideways.
-    for (const Vec3& x : {low, high})
-        for (const Span& s : {p, q}) {
-            const Vec3 way = s[1] - s[0];
-            const double t = std::clamp((x - s[0]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-            if ((s[0] + t * way - x).norm() > 4 * tolerance) return {};
-        }
-    return Span{low, high};
-}
+/// What touches, in the shorter of the two mean edge lengths.
+constexpr double touching = 0.1;
+/// Where surfaces cross, what is nearer than this part of the shortest mean edge length is one point.
+constexpr double crossing_tolerance = 1e-3;
+/// Sine of the angle from which on a border that comes near does not lie there.
+constexpr double steep = 0.3;
+/// Cosine of the angle from which on a border does not run along another.
+constexpr double parallel = 0.8;
+/// Places along a border edge at which it is looked whether it touches.
+constexpr int samples = 16;
 
 /// For Eigen's BVIntersect: all pairs of faces whose boxes meet.
 struct Pairs {
@@ -92,208 +47,245 @@ struct Pairs {
     // NOLINTEND(readability-identifier-naming)
 };
 
-Triangle corners(const Mesh& mesh, const SurfaceFace& f) {
-    return {mesh.points[f.nodes[0]], mesh.points[f.nodes[1]], mesh.points[f.nodes[2]]};
+Box grown(Box box, double by) {
+    box.min().array() -= by;
+    box.max().array() += by;
+    return box;
 }
 
-std::vector<std::pair<int, int>> near_pairs(const std::array<const Mesh*, 2>& mesh,
-                                            const std::array<std::vector<SurfaceFace>, 2>& faces, double tolerance) {
-    std::array<std::vector<Box>, 2> boxes;
-    std::array<Eigen::KdBVH<double, 3, int>, 2> trees;
-    for (std::size_t m = 0; m < 2; ++m) {
-        std::vector<int> objects;
-        for (const SurfaceFace& f : faces[m]) {
-            Box box;
-            for (const Vec3& x : corners(*mesh[m], f)) box.extend(x);
-            box.min().array() -= tolerance;
-            box.max().array() += tolerance;
-            objects.push_back(static_cast<int>(boxes[m].size()));
-            boxes[m].push_back(box);
-        }
-        trees[m].init(objects.begin(), objects.end(), boxes[m].begin(), boxes[m].end());
-    }
-    Pairs pairs{boxes[0], boxes[1], {}};
-    Eigen::BVIntersect(trees[0], trees[1], pairs);
-    std::ranges::sort(pairs.found);
-    return pairs.found;
-}
+/// A piece of a border on the other mesh.
+struct Touch {
+    Span span;
+    MeetingLines::Sides sides;
+    double reach;  ///< as far it may be off
+};
 
-/// Segments as a graph, whose points are one where they are nearer than the tolerance.
-class Lines {
+/// Finds the meeting of two meshes. A node of the second that touches the first counts as being there.
+class Meeter {
 public:
-    explicit Lines(double tolerance) : tolerance_(tolerance) {}
-
-    void add(const Span& span, const Vec3& normal_a, const Vec3& normal_b) {
-        const int p = point(span[0]), q = point(span[1]);
-        if (p == q) return;
-        for (const int v : {p, q}) {
-            add_normal(points_[v].normal[0], normal_a);
-            add_normal(points_[v].normal[1], normal_b);
-        }
-        next_[p].insert(q);
-        next_[q].insert(p);
+    Meeter(const Mesh& a, const Mesh& b, std::optional<double> tolerance) : given_(tolerance) {
+        meshes_ = {a, b};
+        for (const std::size_t m : {0U, 1U}) meshes_[m].companion.reset();
+        const Box box_a = box_around(a), box_b = box_around(b);
+        // How far apart what touches can be is known only when the faces there are.
+        const double apart = tolerance.value_or(touching * std::min(coarse_edge(a), coarse_edge(b)));
+        const Box common = grown(box_a, apart).intersection(grown(box_b, apart));
+        for (const std::size_t m : {0U, 1U})
+            faces_[m] = common.isEmpty() ? std::vector<SurfaceFace>() : surface_near(meshes_[m], grown(common, apart));
+        for (const std::size_t m : {0U, 1U}) trees_[m] = std::make_unique<SurfaceTree>(meshes_[m], faces_[m]);
     }
 
-    /// Makes a point the node of a mesh that lies there.
-    void name_node(const Vec3& x, std::size_t mesh, Index node) {
-        const int p = find(x);
-        if (p < 0 || points_[p].node[mesh] >= 0) return;
-        points_[p].node[mesh] = node;
-        // The first mesh stays as it is.
-        if (mesh == 0 || points_[p].node[0] < 0) points_[p].at = x;
-    }
-
-    std::vector<MeetingLine> pieces() {
-        bridge();
-        for (MeetingLine::Point& p : points_)
-            for (Vec3& n : p.normal) n.normalize();
-        for (const auto& [p, others] : next_)
-            if (is_end(p)) stops_.insert(p);
-        std::vector<MeetingLine> out;
-        for (const int p : stops_)
-            for (const int q : std::set<int>(next_[p]))
-                if (next_[p].contains(q)) out.push_back(walk(p, q));
-        for (const auto& [p, others] : next_)
-            if (!others.empty()) out.push_back(walk(p, *others.begin()));
-        std::erase_if(out, [&](const MeetingLine& line) { return length(line) < 3 * tolerance_; });
-        for (MeetingLine& line : out) turn_alike(line);
+    Meeting run() {
+        if (faces_[0].empty() || faces_[1].empty()) return {};
+        find_fineness();
+        find_touches(0);
+        find_touches(1);
+        put_touching_nodes_there();
+        find_crossings();
+        Meeting out{lines(), 0};
+        for (const Touch& t : touches_) out.tolerance = std::max(out.tolerance, t.reach);
         return out;
     }
 
 private:
-    using Cell = std::array<std::int64_t, 3>;
+    struct Crossing {
+        Span span;
+        std::array<int, 2> face;
+    };
 
-    static void add_normal(Vec3& sum, const Vec3& n) { sum += sum.dot(n) < 0 ? Vec3(-n) : n; }
-
-    Cell cell_of(const Vec3& x) const {
-        const double size = 2 * tolerance_;
-        return {static_cast<std::int64_t>(std::floor(x[0] / size)), static_cast<std::int64_t>(std::floor(x[1] / size)),
-                static_cast<std::int64_t>(std::floor(x[2] / size))};
+    /// The longest edge of a mesh's surface, roughly: of its box's size if it has few elements.
+    static double coarse_edge(const Mesh& mesh) {
+        double longest = 0;
+        for (const CellBlock& b : mesh.blocks()) {
+            const CellTraits& t = traits(b.type);
+            for (Index c = 0; c < b.size(); ++c) {
+                const auto n = b.nodes(c);
+                for (const auto& e : t.edges)
+                    longest = std::max(longest, (mesh.points[n[e[0]]] - mesh.points[n[e[1]]]).squaredNorm());
+            }
+        }
+        return std::sqrt(longest);
     }
 
-    int find(const Vec3& x) const {
-        const Cell c = cell_of(x);
-        int best = -1;
-        double least = 2 * tolerance_;
-        for (std::int64_t i = -1; i <= 1; ++i)
-            for (std::int64_t j = -1; j <= 1; ++j)
-                for (std::int64_t k = -1; k <= 1; ++k) {
-                    const auto found = cells_.find({c[0] + i, c[1] + j, c[2] + k});
-                    if (found == cells_.end()) continue;
-                    for (const int p : found->second)
-                        if (const double d = (first_at_[p] - x).norm(); d < least) {
-                            least = d;
-                            best = p;
-                        }
+    void find_fineness() {
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::size_t m : {0U, 1U})
+            for (int f = 0; f < static_cast<int>(faces_[m].size()); ++f) least = std::min(least, trees_[m]->size(f));
+        fine_ = crossing_tolerance * least;
+    }
+
+    /// A border edge of a mesh.
+    struct Edge {
+        std::size_t mesh;
+        Index nodes[2];
+        Vec3 start, way;
+        double size;  ///< the shorter of its length and its face's mean edge
+        Vec3 at(double t) const { return start + t * way; }
+    };
+
+    /// Where a point of a border is on the other mesh; nothing where it does not touch. `reach`: as far it may be off.
+    std::optional<SurfaceTree::Foot> touch(const Edge& edge, double t, double* reach = nullptr) const {
+        const SurfaceTree& other = *trees_[1 - edge.mesh];
+        const Vec3 x = edge.at(t);
+        SurfaceTree::Foot foot = other.closest(x);
+        const double most = given_.value_or(
+            std::max(touching * std::min(edge.size, other.size(foot.piece)), 1.5 * other.sag(foot.piece)));
+        if (reach) *reach = most;
+        if (foot.distance > most) return {};
+        // Beside the other's border only what runs along it is on it.
+        const SurfaceTree::Foot border = other.closest_on_border(x);
+        if (border.piece < 0 || border.distance > most) return foot;
+        const auto [a, b] = other.border()[border.piece];
+        const auto& points = meshes_[1 - edge.mesh].points;
+        const bool along = std::abs((points[b] - points[a]).normalized().dot(edge.way.normalized())) > parallel;
+        const Vec3 off = x - foot.at;
+        const double beside = (off - other.normal(foot.piece) * other.normal(foot.piece).dot(off)).norm();
+        if (!along) return beside > 0.1 * most ? std::nullopt : std::optional(foot);
+        return SurfaceTree::Foot{border.at, border.distance, other.face_at_border(border.piece)};
+    }
+
+    /// Pieces of the border of mesh m that are on the other.
+    void find_touches(std::size_t m) {
+        const SurfaceTree& own = *trees_[m];
+        const auto& points = meshes_[m].points;
+        SparseCheck check(64);
+        for (int e = 0; e < static_cast<int>(own.border().size()); ++e) {
+            check();
+            const auto [p, q] = own.border()[e];
+            const Vec3 way = points[q] - points[p];
+            const Edge edge{m, {p, q}, points[p], way, std::min(own.size(own.face_at_border(e)), way.norm())};
+            const auto at = [&](double t) { return touch(edge, t).has_value(); };
+            for (int from = 0; from <= samples;) {
+                if (!at(from / static_cast<double>(samples))) {
+                    ++from;
+                    continue;
                 }
-        return best;
-    }
-
-    int point(const Vec3& x) {
-        if (const int p = find(x); p >= 0) return p;
-        const int p = static_cast<int>(points_.size());
-        points_.push_back({x, {Vec3::Zero(), Vec3::Zero()}, {-1, -1}});
-        first_at_.push_back(x);
-        cells_[cell_of(x)].push_back(p);
-        return p;
-    }
-
-    /// Points closer than a few tolerances to each other, both at loose ends, are one place.
-    void bridge() {
-        std::vector<int> loose;
-        for (const auto& [p, others] : next_)
-            if (others.size() == 1) loose.push_back(p);
-        for (std::size_t i = 0; i < loose.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                const int p = loose[i], q = loose[j];
-                if (next_[p].size() != 1 || next_[q].size() != 1 || next_[p].contains(q)) continue;
-                if ((points_[p].at - points_[q].at).norm() > 4 * tolerance_) continue;
-                next_[p].insert(q);
-                next_[q].insert(p);
+                int to = from;
+                while (to < samples && at((to + 1) / static_cast<double>(samples))) ++to;
+                add_touch(edge, own.normal(own.face_at_border(e)), edge_of_touch(at, from, -1),
+                          edge_of_touch(at, to, +1));
+                from = to + 1;
             }
-    }
-
-    bool is_end(int p) const {
-        const std::set<int>& others = next_.at(p);
-        if (others.size() != 2) return !others.empty();
-        const Vec3 in = (points_[p].at - points_[*others.begin()].at).normalized(),
-                   out = (points_[*others.rbegin()].at - points_[p].at).normalized();
-        if (in.dot(out) < corner) return true;
-        return std::ranges::any_of(others, [&](int q) {
-            for (std::size_t m = 0; m < 2; ++m)
-                if (std::abs(points_[p].normal[m].dot(points_[q].normal[m])) < corner) return true;
-            return false;
-        });
-    }
-
-    MeetingLine walk(int from, int to) {
-        MeetingLine line;
-        line.points.push_back(points_[from]);
-        const int start = from;
-        for (;;) {
-            next_[from].erase(to);
-            next_[to].erase(from);
-            if (to == start && !stops_.contains(to)) {
-                line.closed = true;
-                return line;
-            }
-            line.points.push_back(points_[to]);
-            if (next_[to].size() != 1 || stops_.contains(to)) return line;
-            from = to;
-            to = *next_[from].begin();
         }
     }
 
-    static double length(const MeetingLine& line) {
-        double sum = 0;
-        for (std::size_t k = 1; k < line.points.size(); ++k) sum += (line.points[k].at - line.points[k - 1].at).norm();
-        return sum;
+    /// Where between a sample that touches and the next, which does not, that ends.
+    static double edge_of_touch(auto at, int sample, int step) {
+        double in = sample / static_cast<double>(samples);
+        if (sample + step < 0 || sample + step > samples) return in;
+        double out = (sample + step) / static_cast<double>(samples);
+        for (int k = 0; k < 30; ++k) {
+            const double middle = (in + out) / 2;
+            (at(middle) ? in : out) = middle;
+        }
+        return in;
     }
 
-    static void turn_alike(MeetingLine& line) {
-        for (std::size_t k = 1; k < line.points.size(); ++k)
-            for (std::size_t m = 0; m < 2; ++m)
-                if (line.points[k].normal[m].dot(line.points[k - 1].normal[m]) < 0) line.points[k].normal[m] *= -1;
+    void add_touch(const Edge& edge, const Vec3& normal, double start, double end) {
+        const std::size_t m = edge.mesh;
+        const SurfaceTree& other = *trees_[1 - m];
+        double reach = 0;
+        const auto first = touch(edge, start), last = touch(edge, end, &reach), middle = touch(edge, (start + end) / 2);
+        const double length = (end - start) * edge.way.norm();
+        if (!first || !last || !middle || length <= 0) return;
+        // An edge that but ends there, or passes, at an angle, does not lie there.
+        const auto [low, high] = std::minmax({first->distance, last->distance, middle->distance});
+        if (length < 4 * reach && high - low > steep * length) return;
+        Touch out{{first->at, last->at},
+                  {{normal, other.normal(middle->piece)}, {edge.size, other.size(middle->piece)}},
+                  reach};
+        if (m == 1) {
+            std::swap(out.sides.normal[0], out.sides.normal[1]);
+            std::swap(out.sides.size[0], out.sides.size[1]);
+        }
+        for (const auto& [t, k] : {std::pair(start, 0U), std::pair(end, 1U)}) {
+            if (t != 0 && t != 1) continue;
+            const Index n = edge.nodes[k];
+            // The first mesh stays as it is.
+            if (m == 0) out.span[k] = meshes_[0].points[n];
+            placed_[m].insert_or_assign(n, out.span[k]);
+        }
+        touches_.push_back(out);
     }
 
-    double tolerance_;
-    std::vector<MeetingLine::Point> points_;
-    std::vector<Vec3> first_at_;  // by point: where it was found
-    std::map<Cell, std::vector<int>> cells_;
-    std::map<int, std::set<int>> next_;
-    std::set<int> stops_;  // where pieces end
+    void put_touching_nodes_there() {
+        for (const auto& [n, at] : placed_[1]) meshes_[1].points[n] = at;
+    }
+
+    bool is_touched(const Span& span) const {
+        const auto near = [&](const Vec3& x) {
+            return std::ranges::any_of(touches_, [&](const Touch& t) {
+                return (closest_on_segment(t.span[0], t.span[1], x) - x).norm() <= 2 * t.reach;
+            });
+        };
+        return near(span[0]) && near(span[1]) && near((span[0] + span[1]) / 2);
+    }
+
+    std::vector<std::pair<int, int>> near_pairs() const {
+        std::array<std::vector<Box>, 2> boxes;
+        std::array<Eigen::KdBVH<double, 3, int>, 2> trees;
+        for (const std::size_t m : {0U, 1U}) {
+            std::vector<int> objects;
+            for (const SurfaceFace& f : faces_[m]) {
+                Box box;
+                for (const Vec3& x : corners(m, f)) box.extend(x);
+                objects.push_back(static_cast<int>(boxes[m].size()));
+                boxes[m].push_back(grown(box, fine_));
+            }
+            trees[m].init(objects.begin(), objects.end(), boxes[m].begin(), boxes[m].end());
+        }
+        Pairs pairs{boxes[0], boxes[1], {}};
+        Eigen::BVIntersect(trees[0], trees[1], pairs);
+        std::ranges::sort(pairs.found);
+        return pairs.found;
+    }
+
+    Triangle corners(std::size_t m, const SurfaceFace& f) const {
+        const auto& points = meshes_[m].points;
+        return {points[f.nodes[0]], points[f.nodes[1]], points[f.nodes[2]]};
+    }
+
+    void find_crossings() {
+        SparseCheck check(64);
+        for (const auto& [i, j] : near_pairs()) {
+            check();
+            const auto span = cross_triangles(corners(0, faces_[0][i]), corners(1, faces_[1][j]), fine_);
+            if (span && !is_touched(*span)) crossings_.push_back({*span, {i, j}});
+        }
+    }
+
+    std::vector<MeetingLine> lines() const {
+        MeetingLines out(fine_);
+        for (const std::size_t m : {0U, 1U}) {
+            for (const auto& [n, at] : placed_[m]) out.add_node(at, m, n);
+            std::set<Index> nodes;
+            const auto& points = meshes_[m].points;
+            for (const Crossing& c : crossings_)
+                for (const Index n : faces_[m][c.face[m]].nodes)
+                    if (points[n] == c.span[0] || points[n] == c.span[1]) nodes.insert(n);
+            for (const Index n : nodes) out.add_node(points[n], m, n);
+        }
+        for (const Crossing& c : crossings_)
+            out.add(c.span, {{trees_[0]->normal(c.face[0]), trees_[1]->normal(c.face[1])},
+                             {trees_[0]->size(c.face[0]), trees_[1]->size(c.face[1])}});
+        for (const Touch& t : touches_) out.add(t.span, t.sides, t.reach);
+        return out.pieces();
+    }
+
+    std::optional<double> given_;
+    std::array<Mesh, 2> meshes_;
+    std::array<std::vector<SurfaceFace>, 2> faces_;
+    std::array<std::unique_ptr<SurfaceTree>, 2> trees_;
+    double fine_ = 0;  // crossing_tolerance, as a length
+    std::vector<Touch> touches_;
+    std::array<std::map<Index, Vec3>, 2> placed_;  // nodes of borders that touch, and where
+    std::vector<Crossing> crossings_;
 };
 
 }  // namespace
 
-std::vector<MeetingLine> find_meeting(const Mesh& a, const Mesh& b, double tolerance) {
-    const std::array<const Mesh*, 2> mesh{&a, &b};
-    Box common = box_around(a).intersection([&] {
-        Box box = box_around(b);
-        box.min().array() -= tolerance;
-        box.max().array() += tolerance;
-        return box;
-    }());
-    if (common.isEmpty()) return {};
-    common.min().array() -= tolerance;
-    common.max().array() += tolerance;
-    const std::array<std::vector<SurfaceFace>, 2> faces{surface_near(a, common), surface_near(b, common)};
-    if (faces[0].empty() || faces[1].empty()) return {};
-    Lines lines(tolerance);
-    SparseCheck check(64);
-    std::array<std::set<Index>, 2> nodes;
-    for (const auto& [i, j] : near_pairs(mesh, faces, tolerance)) {
-        check();
-        const Triangle p = corners(a, faces[0][i]), q = corners(b, faces[1][j]);
-        const auto span = cross(p, q, tolerance);
-        if (!span) continue;
-        lines.add(*span, (p[1] - p[0]).cross(p[2] - p[0]).normalized(), (q[1] - q[0]).cross(q[2] - q[0]).normalized());
-        nodes[0].insert(faces[0][i].nodes.begin(), faces[0][i].nodes.end());
-        nodes[1].insert(faces[1][j].nodes.begin(), faces[1][j].nodes.end());
-    }
-    for (const std::size_t m : {0U, 1U})
-        for (const Index n : nodes[m]) lines.name_node(mesh[m]->points[n], m, n);
-    return lines.pieces();
+Meeting find_meeting(const Mesh& a, const Mesh& b, std::optional<double> tolerance) {
+    return Meeter(a, b, tolerance).run();
 }
 
 }  // namespace femscalpel

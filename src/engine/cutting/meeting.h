@@ -1,32 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <span>
+#include <optional>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/surface.h"
+#include "cutting/meeting_lines.h"
 
 namespace femscalpel {
 
-/// A line in which the surfaces of two meshes meet: one smooth piece, between corners and junctions.
-struct MeetingLine {
-    /// A point of it.
-    struct Point {
-        Vec3 at;
-        std::array<Vec3, 2> normal;  ///< unit normals of the two surfaces there, turned alike along the line
-        std::array<Index, 2> node;   ///< the node of each mesh that lies there, or -1
-    };
-    std::vector<Point> points;
-    bool closed = false;  ///< then the last point is joined to the first
+/// What find_meeting() returns.
+struct Meeting {
+    std::vector<MeetingLine> lines;
+    double tolerance = 0;  ///< the largest that there was
 };
 
-/// Where the surfaces of two meshes meet, crossing each other, or with the border or a feature line of one on the other;
-/// what is nearer than `tolerance` touches. Where they lie on each other over an area, it is the outline of that.
-/// Pieces of less than three tolerances are left out.
-///
-/// Faces are intersected pair by pair (Möller, "A fast triangle-triangle intersection test", J. Graphics Tools 2,
-/// 1997), vertices within the tolerance of the other's plane lying in it.
-std::vector<MeetingLine> find_meeting(const Mesh& a, const Mesh& b, double tolerance);
+/// Where the surfaces of two meshes meet: where they cross, and where the border of one is on the other. A border is so
+/// where it is no farther off than `tolerance`, or, if not given, a tenth of the shorter mean edge length there, or as
+/// far as a curved surface may be off its faces; its points are then on the other's surface, or border if that is as
+/// near, the first mesh's nodes where they are.
+Meeting find_meeting(const Mesh& a, const Mesh& b, std::optional<double> tolerance);
 
 }  // namespace femscalpel

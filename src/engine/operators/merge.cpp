@@ -9,8 +9,8 @@
 #include "cancel.h"
 #include "cutting/meeting.h"
 #include "mesh/order.h"
-#include "mesh/rounding.h"
 #include "mesh/surface.h"
+#include "operators/refine_first.h"
 #include "operators/seam.h"
 #include "operators/unite.h"
 #include "tools/ribbon.h"
@@ -18,20 +18,17 @@
 namespace femscalpel {
 namespace {
 
-/// What touches, in the shorter of the two mean edge lengths.
-constexpr double touching = 0.02;
 /// A node of the one nearer to a node of the other than this, in the shortest edge of the line there, is the same.
 constexpr double same_node = 0.25;
 /// How often the two may be divided where the other was.
 constexpr int most_rounds = 4;
+/// Edges of the one at the line may be so many times longer than those of the other.
+constexpr double coarser = 2.5;
 
-/// Mean edge length of the elements of the mesh's dimension that reach into a box.
-double mean_edge(const Mesh& mesh, const Eigen::AlignedBox3d& box) {
-    double sum = 0;
-    Index count = 0;
-    for (const SurfaceFace& f : surface_near(mesh, box))
-        for (int k = 0; k < 3; ++k, ++count) sum += (mesh.points[f.nodes[k]] - mesh.points[f.nodes[(k + 1) % 3]]).norm();
-    return count ? sum / static_cast<double>(count) : 0;
+std::string point_text(const Vec3& x) {
+    std::ostringstream out;
+    out << "(" << x.transpose() << ")";
+    return out.str();
 }
 
 /// A line in which the two meshes meet, and which nodes it has of each by now.
@@ -53,7 +50,7 @@ bool is_end(const MeetingLine& line, std::size_t point) {
 
 /// The places of a meeting where nodes are to be: its ends, and where one of the meshes has one; of places that are
 /// nearer to each other than edges there should be, one.
-std::vector<Line::Stop> stops_of(const MeetingLine& line) {
+std::vector<Line::Stop> stops_of(const MeetingLine& line, const Mesh& mesh) {
     std::vector<std::size_t> points;
     for (std::size_t k = 0; k < line.points.size(); ++k)
         if (is_end(line, k) || line.points[k].node[0] >= 0 || line.points[k].node[1] >= 0) points.push_back(k);
@@ -70,22 +67,25 @@ std::vector<Line::Stop> stops_of(const MeetingLine& line) {
     std::vector<char> fixed;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const MeetingLine::Point& p = line.points[points[i]];
-        double own = std::numeric_limits<double>::infinity();
+        double own = std::min(p.size[0], p.size[1]);
         for (const std::size_t m : {0U, 1U})
             if (p.node[m] >= 0) own = std::min(own, room(i, m));
-        const Line::Stop stop{p.at, p.node};
+        // The mesh stays as it is.
+        const Line::Stop stop{p.node[0] >= 0 ? mesh.points[p.node[0]] : p.at, p.node};
         const bool end = is_end(line, points[i]);
         if (!stops.empty()) {
             Line::Stop& last = stops.back();
             const bool different = (last.node[0] < 0 || stop.node[0] < 0) && (last.node[1] < 0 || stop.node[1] < 0);
             if (different && !(fixed.back() && end) &&
                 (last.at - stop.at).norm() < same_node * std::min(rooms.back(), own)) {
-                // The end stays where it is, else the mesh's node; the other's goes there.
+                // The end stays where it is, else the mesh's node, and the addition's goes there. What node of the mesh
+                // goes to an end is seen later.
                 const bool stay = fixed.back() || (!end && last.node[0] >= 0);
-                const std::array<Index, 2> both{std::max(last.node[0], stop.node[0]),
-                                                std::max(last.node[1], stop.node[1])};
                 if (!stay) last.at = stop.at;
-                last.node = both;
+                last.node = {fixed.back() ? last.node[0]
+                             : end        ? stop.node[0]
+                                          : std::max(last.node[0], stop.node[0]),
+                             std::max(last.node[1], stop.node[1])};
                 fixed.back() = fixed.back() || end;
                 continue;
             }
@@ -97,29 +97,100 @@ std::vector<Line::Stop> stops_of(const MeetingLine& line) {
     return stops;
 }
 
-Line line_of(const MeetingLine& meeting) {
-    Line out;
-    out.closed = meeting.closed;
-    std::vector<Vec3> points;
-    std::array<std::vector<Vec3>, 2> normals;
+/// The ribbon through a meeting's points, on the surface of mesh m.
+std::unique_ptr<Ribbon> ribbon_of(const MeetingLine& meeting, std::size_t m) {
+    std::vector<Vec3> points, normals;
     for (const MeetingLine::Point& p : meeting.points) {
         points.push_back(p.at);
-        for (const std::size_t m : {0U, 1U}) normals[m].push_back(p.normal[m]);
+        normals.push_back(p.normal[m]);
     }
-    for (const std::size_t m : {0U, 1U}) out.standing[m] = std::make_unique<Ribbon>(points, normals[m], out.closed);
-    out.stops = stops_of(meeting);
-    if (out.stops.empty()) out.stops.push_back({points.front(), {-1, -1}});
+    return std::make_unique<Ribbon>(std::move(points), std::move(normals), meeting.closed);
+}
+
+Line line_of(const MeetingLine& meeting, const Mesh& mesh) {
+    Line out;
+    out.closed = meeting.closed;
+    for (const std::size_t m : {0U, 1U}) out.standing[m] = ribbon_of(meeting, m);
+    out.stops = stops_of(meeting, mesh);
+    if (out.stops.empty()) out.stops.push_back({meeting.points.front().at, {-1, -1}});
     return out;
 }
 
-/// Two meshes that are given the same edges along lines.
-class Meeting {
+/// The meshes, refined where the other is much finer.
+class Refining {
 public:
-    Meeting(const Mesh& mesh, const Mesh& addition, std::vector<Line> lines, const OperatorOptions& options)
+    Refining(const Mesh& mesh, const Mesh& addition, const OperatorOptions& options)
+        : meshes_{&mesh, &addition}, options_(options) {
+        // Elements are divided to fit each other.
+        options_.skin = nullptr;
+    }
+
+    void run(const std::vector<MeetingLine>& meeting) {
+        for (const std::size_t m : {0U, 1U}) {
+            std::vector<std::unique_ptr<Ribbon>> ribbons;
+            std::vector<RefineZone> zones;
+            for (const MeetingLine& line : meeting) {
+                double sum = 0;
+                for (const MeetingLine::Point& p : line.points) sum += p.size[1 - m];
+                ribbons.push_back(ribbon_of(line, m));
+                const Ribbon& ribbon = *ribbons.back();
+                zones.push_back({[&ribbon](const Vec3& x) {
+                                     return std::hypot(ribbon.distance(x), std::max(0.0, ribbon.beyond(x)));
+                                 },
+                                 coarser * sum / static_cast<double>(line.points.size())});
+            }
+            refined_[m] = refine_first(*meshes_[m], zones, options_);
+        }
+    }
+
+    bool any() const { return is_refined(0) || is_refined(1); }
+    const Mesh& mesh(std::size_t m) const { return is_refined(m) ? refined_[m]->mesh : *meshes_[m]; }
+
+    /// Adds what was done to mesh m to a report on what was done then.
+    void join(std::size_t m, Report& report) const {
+        if (!refined_[m]) return;
+        const Report& first = refined_[m]->report;
+        report.warnings.insert(report.warnings.begin(), first.warnings.begin(), first.warnings.end());
+        if (!is_refined(m)) return;
+        report.refinement = refined_[m]->summary;
+        report.nodes_added += first.nodes_added;
+        report.nodes_split += first.nodes_split;
+        report.elements_added += first.elements_added;
+    }
+
+private:
+    bool is_refined(std::size_t m) const { return refined_[m] && !refined_[m]->tried_in_vain; }
+
+    std::array<const Mesh*, 2> meshes_;
+    OperatorOptions options_;
+    std::array<std::optional<Refined>, 2> refined_;
+};
+
+/// Mid-side nodes go half as far as each end of their edge did.
+void drag_middles(const Mesh& before, Mesh& after) {
+    std::vector<char> dragged(after.points.size(), 0);
+    for (const CellBlock& b : after.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (!t.quadratic) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (std::size_t k = 0; k < t.edges.size(); ++k) {
+                const Index i = n[t.edges[k][0]], j = n[t.edges[k][1]], middle = n[t.corners + k];
+                if (dragged[middle] || (after.points[i] == before.points[i] && after.points[j] == before.points[j]))
+                    continue;
+                dragged[middle] = 1;
+                after.points[middle] += (after.points[i] - before.points[i] + after.points[j] - before.points[j]) / 2;
+            }
+        }
+    }
+}
+
+/// Two meshes that are given the same edges along lines.
+class Joint {
+public:
+    Joint(const Mesh& mesh, const Mesh& addition, std::vector<Line> lines, const OperatorOptions& options)
         : lines_(std::move(lines)), options_(options) {
         mesh_ = {&mesh, &addition};
-        // Refining is for the tools of other operators.
-        options_.refine.when = RefineFirst::When::never;
     }
 
     void run(const Prepared& known) {
@@ -151,17 +222,37 @@ private:
             out.stops = lengths(*out.ribbon, line);
         }
         if (first) ribbons_.emplace_back();
-        const Mesh& input = done_[m] ? results_[m].mesh : *mesh_[m];
+        const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
         Seamed seamed = imprint_seam(input, std::move(wanted), !first, options_, known);
         bool more = false;
-        for (std::size_t k = 0; k < lines_.size(); ++k) more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
+        for (std::size_t k = 0; k < lines_.size(); ++k)
+            more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
         if (done_[m]) seamed.result.report = joined(results_[m].report, std::move(seamed.result.report));
         results_[m] = std::move(seamed.result);
         done_[m] = true;
         return more || !done_[1 - m];
     }
 
+    /// The mesh with the nodes it has at stops there, and mid-side nodes half as far.
+    Mesh with_nodes_in_place(const Mesh& mesh, std::size_t m) const {
+        Mesh out = mesh;
+        bool any = false;
+        for (const Line& line : lines_)
+            for (const Line::Stop& stop : line.stops)
+                if (stop.node[m] >= 0 && out.points[stop.node[m]] != stop.at) {
+                    out.points[stop.node[m]] = stop.at;
+                    any = true;
+                }
+        if (any) drag_middles(mesh, out);
+        return out;
+    }
+
     const Ribbon* ribbon_through_stops(const Line& line, std::size_t m) {
+        if (line.stops.size() < (line.closed ? 3U : 2U))
+            throw QualityError(
+                "the two meet at " + point_text(line.stops.front().at) +
+                " in a loop that is smaller than the elements there. Move the addition so that it meets the mesh "
+                "properly, or refine the mesh there first");
         std::vector<Vec3> points, standing;
         for (const Line::Stop& stop : line.stops) {
             points.push_back(stop.at);
@@ -214,19 +305,13 @@ private:
     std::vector<std::unique_ptr<Ribbon>> ribbons_;
 };
 
-std::string point_text(const Vec3& x) {
-    std::ostringstream out;
-    out << "(" << x.transpose() << ")";
-    return out.str();
-}
-
-[[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition, double tolerance) {
+[[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
     const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
     std::ostringstream out;
-    out << "the addition does not meet the mesh: nothing of it is within the tolerance of " << tolerance
-        << " of the mesh's surface. The mesh reaches from " << point_text(a.min()) << " to " << point_text(a.max())
-        << ", the addition from " << point_text(b.min()) << " to " << point_text(b.max())
-        << ". Move the addition, or give a larger tolerance";
+    out << "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
+           "other. The mesh reaches from "
+        << point_text(a.min()) << " to " << point_text(a.max()) << ", the addition from " << point_text(b.min())
+        << " to " << point_text(b.max()) << ". Move the addition, or give a larger tolerance";
     throw ToolError(out.str(), "other");
 }
 
@@ -235,8 +320,9 @@ void check(const Mesh& mesh, const Mesh& addition) {
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
     if (mesh.dimension() != 2 || addition.dimension() != 2)
         throw ToolError("merge joins shells to shells: the mesh has elements of dimension " +
-                        std::to_string(mesh.dimension()) + ", the addition of dimension " +
-                        std::to_string(addition.dimension()), "other");
+                            std::to_string(mesh.dimension()) + ", the addition of dimension " +
+                            std::to_string(addition.dimension()),
+                        "other");
 }
 
 /// Throws ToolError when a group that the operator makes has a name already.
@@ -260,11 +346,10 @@ void add_quality(QualitySummary& sum, const QualitySummary& more) {
 }
 
 /// The report on the mesh, with what the addition brings.
-Report report_of(const Mesh& input, Meeting& meeting, const Mesh& result, Index shared) {
-    Report out = std::move(meeting.report(0));
-    const Report& other = meeting.report(1);
-    std::vector<GroupRecord> records =
-        compare_groups(input, family_totals(input), result, family_totals(result));
+Report report_of(const Mesh& input, Joint& joint, const Mesh& result, Index shared) {
+    Report out = std::move(joint.report(0));
+    const Report& other = joint.report(1);
+    std::vector<GroupRecord> records = compare_groups(input, family_totals(input), result, family_totals(result));
     for (GroupRecord& r : records)
         for (const GroupRecord& was : out.groups)
             if (was.name == r.name && was.kind == r.kind) {
@@ -277,8 +362,8 @@ Report report_of(const Mesh& input, Meeting& meeting, const Mesh& result, Index 
     out.groups = std::move(records);
     add_quality(out.quality_before, other.quality_before);
     add_quality(out.quality_after, other.quality_after);
-    out.nodes_added += meeting.mesh(1).node_count() - shared;
-    out.elements_added += meeting.mesh(1).cell_count();
+    out.nodes_added += joint.mesh(1).node_count() - shared;
+    out.elements_added += joint.mesh(1).cell_count();
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
     return out;
 }
@@ -290,21 +375,24 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     check(mesh, other);
     check_names(mesh, other, options.name);
     const Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
-    const Eigen::AlignedBox3d box = box_around(addition);
-    const double tolerance =
-        options.tolerance.value_or(std::max({touching * std::min(mean_edge(mesh, box), mean_edge(addition, box)),
-                                             coordinate_rounding(mesh.points), coordinate_rounding(addition.points)}));
+    Meeting meeting = find_meeting(mesh, addition, options.tolerance);
+    if (meeting.lines.empty()) fail_apart(mesh, addition);
+    Refining refined(mesh, addition, options);
+    refined.run(meeting.lines);
+    // Smaller elements do not make what is off a curved surface nearer.
+    if (refined.any())
+        meeting = find_meeting(refined.mesh(0), refined.mesh(1), options.tolerance.value_or(meeting.tolerance));
     std::vector<Line> lines;
-    for (const MeetingLine& line : find_meeting(mesh, addition, tolerance)) lines.push_back(line_of(line));
-    if (lines.empty()) fail_apart(mesh, addition, tolerance);
-    Meeting meeting(mesh, addition, std::move(lines), options);
-    meeting.run(known);
+    for (const MeetingLine& line : meeting.lines) lines.push_back(line_of(line, refined.mesh(0)));
+    Joint joint(refined.mesh(0), refined.mesh(1), std::move(lines), options);
+    joint.run(&refined.mesh(0) == &mesh ? known : Prepared{});
     check_cancelled();
+    for (const std::size_t m : {0U, 1U}) refined.join(m, joint.report(m));
 
     Result out;
-    out.mesh = std::move(meeting.mesh(0));
-    std::vector<Index> shared(meeting.mesh(1).points.size(), -1), seam;
-    for (const Line& line : meeting.lines())
+    out.mesh = std::move(joint.mesh(0));
+    std::vector<Index> shared(joint.mesh(1).points.size(), -1), seam;
+    for (const Line& line : joint.lines())
         for (const Line::Stop& stop : line.stops) {
             shared[stop.node[1]] = stop.node[0];
             seam.push_back(stop.node[0]);
@@ -316,9 +404,9 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     out.mesh.add_group(options.name + "_ADDED", GroupKind::element);
     for (const Index n : seam)
         out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], seam_group);
-    unite(out.mesh, meeting.mesh(1), shared, options.name + "_ADDED",
+    unite(out.mesh, joint.mesh(1), shared, options.name + "_ADDED",
           {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups});
-    out.report = report_of(mesh, meeting, out.mesh, static_cast<Index>(seam.size()));
+    out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
 }

@@ -12,8 +12,9 @@ namespace femscalpel {
 
 /// Options of merge() beside those of all operators, of which `name`, `feature_angle` and `strict` count.
 struct MergeOptions : OperatorOptions {
-    std::optional<double> tolerance;  ///< what is nearer than this touches; a fiftieth of the shorter mean edge if absent
-    std::string prefix;               ///< see UniteNames; the name and "_" if empty
+    std::optional<double>
+        tolerance;       ///< what is nearer than this touches; a fiftieth of the shorter mean edge if absent
+    std::string prefix;  ///< see UniteNames; the name and "_" if empty
     bool join_groups = true;
 };
 

@@ -63,8 +63,9 @@ private:
             }
             const std::string name = mesh_.find_group(g.name) ? names_.prefix + g.name : g.name;
             if (mesh_.find_group(name))
-                throw ToolError("the addition's group '" + g.name + "' has the name of one that the mesh has, and so has '" +
-                                    name + "': give another prefix",
+                throw ToolError("the addition's group '" + g.name +
+                                    "' has the name of one that the mesh has, and so has '" + name +
+                                    "': give another prefix",
                                 "prefix");
             group_.push_back(mesh_.add_group(name, g.kind));
         }
@@ -104,8 +105,7 @@ private:
             }
         }
         for (const Facet& f : addition_.facets)
-            mesh_.facets.push_back(
-                {f.type, f.face, family(0, f.family), first[static_cast<int>(f.type)] + f.cell});
+            mesh_.facets.push_back({f.type, f.face, family(0, f.family), first[static_cast<int>(f.type)] + f.cell});
     }
 
     Mesh& mesh_;

@@ -15,8 +15,8 @@ struct UniteNames {
 };
 
 /// Adds the nodes and elements of `addition` to `mesh`, numbered above those in use; nodes with `shared[node] >= 0`
-/// (index in `mesh`) are that node of the mesh, which joins their groups, as is the mid-side node of an edge between two
-/// shared nodes that the mesh has one on. Groups of the addition keep their names; of one that the mesh has, see
+/// (index in `mesh`) are that node of the mesh, which joins their groups, as is the mid-side node of an edge between
+/// two shared nodes that the mesh has one on. Groups of the addition keep their names; of one that the mesh has, see
 /// `names`. Hidden groups and what a file said besides the addition are left out. All elements of the addition join the
 /// element group `added`, which must exist.
 ///

@@ -12,9 +12,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Beyond so many of its sizes from the line, distances need not be exact.
-constexpr double far_away = 2;
-
 /// Fraction of the segment a-b at which it is closest to x, and the square of the distance.
 std::pair<double, double> closest(const Vec3& a, const Vec3& b, const Vec3& x) {
     const Vec3 along = b - a;
@@ -57,7 +54,6 @@ Ribbon::Ribbon(std::vector<Vec3> points, std::vector<Vec3> standing, bool closed
         arcs_.push_back(arcs_.back() + length);
         segments.push_back(static_cast<int>(k));
         boxes.emplace_back(points_[k].cwiseMin(points_[next(k)]), points_[k].cwiseMax(points_[next(k)]));
-        box_.extend(boxes.back());
     }
     tree_.init(segments.begin(), segments.end(), boxes.begin(), boxes.end());
     // Of the circle that turns as the line does.
@@ -72,7 +68,8 @@ Ribbon::Ribbon(std::vector<Vec3> points, std::vector<Vec3> standing, bool closed
 
 Vec3 Ribbon::tangent_at(std::size_t point) const {
     Vec3 sum = Vec3::Zero();
-    if (point > 0 || closed_) sum += (points_[point] - points_[point == 0 ? points_.size() - 1 : point - 1]).normalized();
+    if (point > 0 || closed_)
+        sum += (points_[point] - points_[point == 0 ? points_.size() - 1 : point - 1]).normalized();
     if (point + 1 < points_.size() || closed_) sum += (points_[next(point)] - points_[point]).normalized();
     return sum.normalized();
 }
@@ -103,8 +100,6 @@ Ribbon::Foot Ribbon::foot(const Vec3& x) const {
 }
 
 double Ribbon::distance(const Vec3& x) const {
-    const double size = box_.diagonal().norm(), outside = box_.exteriorDistance(x);
-    if (outside > far_away * size) return outside;
     const Foot f = foot(x);
     Vec3 off = x - f.at;
     off -= f.standing * f.standing.dot(off);
@@ -127,8 +122,6 @@ Vec3 Ribbon::project(const Vec3& x) const {
 }
 
 double Ribbon::beyond(const Vec3& x) const {
-    const double size = box_.diagonal().norm(), outside = box_.exteriorDistance(x);
-    if (outside > far_away * size) return outside;
     const Foot f = foot(x);
     const double off = std::abs(f.standing.dot(x - f.at));
     return closed_ ? off : std::max({off, -f.arc, f.arc - length()});
@@ -136,9 +129,8 @@ double Ribbon::beyond(const Vec3& x) const {
 
 Vec3 Ribbon::at(double arc) const {
     if (closed_) arc -= std::floor(arc / length()) * length();
-    const auto k = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(arcs_, arc) - arcs_.begin() - 1, 0,
-                                   static_cast<std::ptrdiff_t>(count()) - 1));
+    const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+        std::ranges::upper_bound(arcs_, arc) - arcs_.begin() - 1, 0, static_cast<std::ptrdiff_t>(count()) - 1));
     const double t = std::clamp((arc - arcs_[k]) / (arcs_[k + 1] - arcs_[k]), 0.0, 1.0);
     if (t == 0) return points_[k];
     if (t == 1) return points_[next(k)];

@@ -55,7 +55,6 @@ private:
     bool closed_;
     double feature_size_;
     Eigen::KdBVH<double, 3, int> tree_;  // of segments
-    Eigen::AlignedBox3d box_;
 };
 
 }  // namespace femscalpel
