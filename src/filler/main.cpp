@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
@@ -156,13 +157,16 @@ Filling fill(const Cavity& cavity, const Attempt& attempt) {
     return failed;
 }
 
-/// The best of some attempts, the first that is good enough.
+/// The best of some attempts, the first that is good enough; of large cavities one that is done must do.
 Filling best_filling(const Cavity& cavity) {
+    constexpr std::chrono::seconds patience(4);
+    const auto start = std::chrono::steady_clock::now();
     Filling best;
     for (const Attempt& attempt : {Attempt{1, 3}, Attempt{1, 8}, Attempt{0.5, 5}, Attempt{2, 5}, Attempt{0.25, 8}}) {
         Filling next = fill(cavity, attempt);
         if (next.worst > best.worst || best.tetras.empty()) best = std::move(next);
         if (best.worst >= cavity.request.enough) break;
+        if (best.worst > 0.2 && std::chrono::steady_clock::now() - start > patience) break;
     }
     return best;
 }
