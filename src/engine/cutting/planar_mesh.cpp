@@ -231,8 +231,12 @@ std::vector<Triangle> triangulate(std::span<const Vec2> polygon, std::span<const
     for (std::size_t k = polygon.size(); k < points.size(); ++k) all.insert(static_cast<int>(k));
     std::vector<Triangle> triangles = all.take();
     double sum = 0;
-    for (const Triangle& t : triangles) sum += area(points[t[0]], points[t[1]], points[t[2]]);
-    if (!(std::abs(sum - polygon_area(polygon)) <= 1e-9 * sum))
+    bool sound = true;
+    for (const Triangle& t : triangles) {
+        sum += area(points[t[0]], points[t[1]], points[t[2]]);
+        sound = sound && area(points[t[0]], points[t[1]], points[t[2]]) > 0;
+    }
+    if (!sound || !(std::abs(sum - polygon_area(polygon)) <= 1e-9 * sum))
         throw QualityError("the outline of a surface to be meshed crosses itself");
     return triangles;
 }
