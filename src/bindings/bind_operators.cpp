@@ -10,6 +10,7 @@
 #include "operators/crack.h"
 #include "operators/cut.h"
 #include "operators/drill.h"
+#include "operators/fillet.h"
 #include "operators/merge.h"
 #include "operators/refine.h"
 #include "operators/scalpel.h"
@@ -186,6 +187,15 @@ void bind_functions(py::module_& module) {
             return drill(mesh, tools, o, known);
         },
         py::arg("tools"), py::arg("options"), py::arg("depth"));
+    bind_operator<const std::string&, const std::vector<Index>&, const RealArray&, double, const OperatorOptions&>(
+        module, "fillet",
+        [](const Mesh& mesh, const Prepared& known, const std::string& group, const std::vector<Index>& nodes,
+           const RealArray& points, double radius, const OperatorOptions& options) {
+            Along along{group, nodes, {}};
+            for (py::ssize_t i = 0; i < points.size() / 3; ++i) along.points.emplace_back(points.data() + 3 * i);
+            return fillet(mesh, along, radius, with<FilletOptions>(options), known);
+        },
+        py::arg("group"), py::arg("nodes"), py::arg("points"), py::arg("radius"), py::arg("options"));
     // Two tools, or a plane and a width.
     bind_operator<const Tool&, const Tool&, const OperatorOptions&, const Tool*>(
         module, "cut",

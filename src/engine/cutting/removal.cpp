@@ -47,10 +47,15 @@ public:
         drop_tags(band_.cut_faces);
         drop_tags(band_.cut_edges);
         make_walls(tetras, shells);
+        take_out(tetras, shells);
+        return static_cast<int>(tetras.size() + shells.size());
+    }
+
+    /// Takes these out, whose place is filled.
+    void take_out(const std::vector<int>& tetras, const std::vector<int>& shells) {
         for (const int t : tetras) take(band_.tetras, band_.tetra_cells, t);
         for (const int t : shells) take(band_.triangles, band_.triangle_cells, t);
         take_what_they_carried();
-        return static_cast<int>(tetras.size() + shells.size());
     }
 
 private:
@@ -274,6 +279,10 @@ void note_slivers(Workpiece& f, std::span<const Tool* const> tool_of_tag, int si
 int remove_inside(Workpiece& f, std::span<const Tool* const> tools, int first_tag) {
     return Remover(f, tools, first_tag).run();
 }
+
+void remove_elements(Workpiece& f, const std::vector<int>& tetras) { Remover(f, {}, 0).take_out(tetras, {}); }
+
+void remove_shells(Workpiece& f, const std::vector<int>& triangles) { Remover(f, {}, 0).take_out({}, triangles); }
 
 void release_all_but_walls(Workpiece& f, std::span<const Tool* const> tool_of_tag) {
     const BandMesh& band = f.d.band;

@@ -16,6 +16,13 @@ namespace femscalpel {
 /// Elements must not reach to both sides: cut_along() all tools first. Returns the number of elements removed.
 int remove_inside(Workpiece& workpiece, std::span<const Tool* const> tools, int first_tag);
 
+/// Takes these tetrahedra out of the band, with what only they carried. Others may already fill their place
+/// (SimplexList::add_part()): what lies on faces and edges of those stays.
+void remove_elements(Workpiece& workpiece, const std::vector<int>& tetras);
+
+/// The same with triangles, of shells.
+void remove_shells(Workpiece& workpiece, const std::vector<int>& triangles);
+
 /// Nodes keep contact only with the tools of the walls they are on.
 void release_all_but_walls(Workpiece& workpiece, std::span<const Tool* const> tool_of_tag);
 

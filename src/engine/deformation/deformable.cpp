@@ -48,6 +48,17 @@ int Deformable::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
     return node;
 }
 
+int Deformable::add_node(const Vec3& at, int a, int b, const Contact& tools, bool exterior) {
+    const int node = band.add_node(at, a, b);
+    contact.push_back(tools);
+    side.push_back(0);
+    off_tool.push_back(0);
+    held_off.push_back(0);
+    constraints.add_lone_node(band, node, exterior);
+    membership.add_node(band, node);
+    return node;
+}
+
 void Deformable::hold_beside(int node, const Contact& tools) {
     contact[node] = tools;
     constraints.fix_node(node);

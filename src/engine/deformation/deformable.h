@@ -34,6 +34,9 @@ struct Deformable {
     /// Splits the edge a-b at `at`, with everything that hangs on it, and returns the new node.
     int split_edge(int a, int b, const Vec3& at, const Contact& tools);
 
+    /// Adds a node that is on no edge, as BandMesh::add_node() does; on the skin (`exterior`) it stays where it is.
+    int add_node(const Vec3& at, int a, int b, const Contact& tools, bool exterior);
+
     /// Makes a node count as lying on `tools` where it is, though something else holds it a little beside them: it
     /// stays there.
     void hold_beside(int node, const Contact& tools);

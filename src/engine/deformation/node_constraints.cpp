@@ -273,6 +273,16 @@ void NodeConstraints::add_node(const BandMesh& band, int node) {
         if (is_border(band, s)) exterior_[node] = 1;
 }
 
+void NodeConstraints::add_lone_node(const BandMesh& band, int node, bool exterior) {
+    nodes_.resize(static_cast<std::size_t>(band.size()));
+    exterior_.resize(static_cast<std::size_t>(band.size()), 0);
+    leash_.resize(static_cast<std::size_t>(band.size()), std::numeric_limits<double>::infinity());
+    if (!related_.empty()) related_.resize(static_cast<std::size_t>(band.size()));
+    if (!exterior) return;
+    exterior_[node] = 1;
+    fix_node(node);
+}
+
 bool NodeConstraints::is_skin_edge(const BandMesh& band, int a, int b) const {
     return std::ranges::any_of(band.skin.around(a), [&](int s) {
         return !surface(band, s).internal && std::ranges::find(band.skin[s], b) != band.skin[s].end();

@@ -32,6 +32,9 @@ public:
     /// Must be called after BandMesh::split_edge() made `node`: it keeps to what its edge was on.
     void add_node(const BandMesh& band, int node);
 
+    /// Must be called after BandMesh::add_node() made `node`: it is free inside the material, fixed on the skin.
+    void add_lone_node(const BandMesh& band, int node, bool exterior);
+
     /// Whether equations relate the node to others, or both ends of the edge it was born on; and whether an edge of the
     /// skin runs between such nodes. What is made or taken away there on one side of a pair would be missed on the
     /// other.

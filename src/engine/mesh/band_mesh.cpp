@@ -128,6 +128,13 @@ struct Extraction {
 
 }  // namespace
 
+int BandMesh::add_node(const Vec3& at, int a, int b) {
+    nodes.push_back({at, at, -1, 0});
+    births.push_back({a, b});
+    for_each_list(*this, [&](auto& list) { list.resize_nodes(size()); });
+    return size() - 1;
+}
+
 int BandMesh::split_edge(int a, int b, const Vec3& at) {
     const int p = size();
     nodes.push_back({at, at, -1, 0});

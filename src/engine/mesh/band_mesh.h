@@ -59,6 +59,15 @@ public:
         return s;
     }
 
+    /// Adds a further part of the simplex in slot `of`, whose origin and tag it inherits.
+    int add_part(const Nodes& nodes, int of) {
+        const int s = add(nodes, tag_[of]);
+        origin_[s] = origin_[of];
+        merged_.resize(nodes_.size(), 0);
+        merged_[s] = 1;
+        return s;
+    }
+
     /// Bisects every simplex that holds nodes a and b at node p. The part with a stays in its slot, the
     /// part with b gets a new one and inherits origin and tag. Orientation is kept.
     void split(int a, int b, int p) {
@@ -197,6 +206,9 @@ public:
 
     /// Whether, of the `cut_faces` of some tag, only one is at the edge a-b.
     bool is_cut_border(int a, int b) const;
+
+    /// Adds a node that is on no edge and has no elements yet, and returns it; it counts as born between a and b.
+    int add_node(const Vec3& at, int a, int b);
 
     /// Splits the edge a-b in every list at a new node and returns it.
     int split_edge(int a, int b, const Vec3& at);

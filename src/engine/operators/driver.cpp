@@ -85,7 +85,8 @@ public:
 
     /// Finds the band of the recipe's blades. With the option band_only, `edit` goes on with that alone.
     void find_band(const Recipe& recipe) {
-        const std::span<const Blade> blades = recipe.blades();
+        std::vector<Blade> blades(recipe.blades().begin(), recipe.blades().end());
+        blades.insert(blades.end(), recipe.surroundings().begin(), recipe.surroundings().end());
         location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency());
         if (!options_.transition && options_.method == Method::deform) {
             width_ = bandwidth(location_, edit_.mesh());

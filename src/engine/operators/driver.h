@@ -45,6 +45,9 @@ public:
     /// The surfaces; known after start(), and at least one.
     virtual std::span<const Blade> blades() const = 0;
 
+    /// Further surfaces that are not cut along, but whose elements are to be in the band; known after start().
+    virtual std::span<const Blade> surroundings() const { return {}; }
+
     /// How what is made is called; known after start().
     virtual Naming naming() const = 0;
 

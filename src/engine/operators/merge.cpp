@@ -318,10 +318,10 @@ private:
 void check(const Mesh& mesh, const Mesh& addition) {
     if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
-    if (mesh.dimension() != 2 || addition.dimension() != 2)
-        throw ToolError("merge joins shells to shells: the mesh has elements of dimension " +
-                            std::to_string(mesh.dimension()) + ", the addition of dimension " +
-                            std::to_string(addition.dimension()),
+    if (mesh.dimension() < 2 || addition.dimension() != 2)
+        throw ToolError("an addition of dimension " + std::to_string(addition.dimension()) +
+                            " cannot be joined to a mesh of dimension " + std::to_string(mesh.dimension()) +
+                            ": shells are joined to shells and to solids",
                         "other");
 }
 

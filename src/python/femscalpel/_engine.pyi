@@ -289,6 +289,25 @@ def drill(
 
 def elementary_groups(mesh: Mesh) -> list[tuple[str, int, tuple[str, ...], NDArray[np.int64]]]: ...
 
+@overload
+def fillet(
+    mesh: Mesh,
+    group: str,
+    nodes: Sequence[int],
+    points: ArrayLike,
+    radius: float,
+    options: Options,
+) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def fillet(
+    session: Scalpel,
+    group: str,
+    nodes: Sequence[int],
+    points: ArrayLike,
+    radius: float,
+    options: Options,
+) -> tuple[Mesh, dict[str, Any]]: ...
+
 def formats() -> list: ...
 
 def read(path: str | os.PathLike[str]) -> Mesh: ...

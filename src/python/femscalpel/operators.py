@@ -161,6 +161,75 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], depth: Optional[float]
     return _run(_engine.drill, mesh, _tools(tools), options, _depth(depth))
 
 
+@takes_options("FILLET", after={"radius": "along"})
+def fillet(mesh: Mesh, along, radius: float, *, options) -> Result:
+    """Rounds edges of a part.
+
+    The new face is that of a ball which rolls along the edge and touches the faces on both sides: convex edges lose
+    material, concave ones gain it. Its nodes lie on the cylinder (of a straight edge) or torus (of a circular one)
+    exactly. Where the edge ends at a plane face, the new face runs out through that. Elements between the edge and the
+    lines where the ball touches the faces are replaced by new ones, which are in the groups of those they replace; the
+    mesh is refined there first, to four elements over the arc at least. `mesh` itself is not changed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Tetrahedra near the edge; anything elsewhere.
+    along : str, sequence of int, or array of shape (n, 3)
+        The edge: a group of segments or nodes, numbers of nodes, or points near feature lines of the skin. Each is
+        rounded as far as it goes on without a corner. It must be straight or an arc of a circle, between planes, or
+        cylinders and cones about the circle's axis.
+    radius : number
+        Of the ball.
+    name : str
+        Prefix of the new group ``name_FACE``: the triangles of the new face, normals out of the material.
+    method, transition, feature_angle, strict, preserve, band_only, refine, skin
+        As for :func:`crack`; `feature_angle` also says what is an edge.
+
+    Returns
+    -------
+    Result
+        Groups of what lay on the edge lose that; the report says so.
+
+    Raises
+    ------
+    ToolError
+        The name is bad or taken, there is no such edge, or the radius is too large for the faces beside it.
+    UnsupportedElementError, QualityError, Error, TypeError, ValueError
+        As for :func:`crack`; also where elements of different groups meet at the edge.
+
+    Examples
+    --------
+    >>> result = fillet(mesh, [(10, 0, 5)], radius=2)
+    >>> result.mesh.groups["FILLET_FACE"].ids
+    """
+    return _run(_engine.fillet, mesh, *_along(along), _arguments.real(radius, "radius"), options)
+
+
+def _along(along) -> tuple:
+    """(group, node numbers, points) of fillet()'s parameter."""
+    none = np.empty((0, 3))
+    if isinstance(along, str):
+        return along, [], none
+    given = _arguments.describe(along)
+    message = f"along must be a group's name, node numbers or an array of points of shape (n, 3), not {given}"
+    try:
+        values = np.asarray(along)
+    except (TypeError, ValueError):
+        raise _arguments.about("along", TypeError(message)) from None
+    if values.ndim == 1 and values.size and np.issubdtype(values.dtype, np.integer):
+        return "", [int(n) for n in values], none
+    try:
+        points = np.array(along, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise _arguments.about("along", TypeError(message)) from None
+    if points.shape == (3,):
+        points = points.reshape(1, 3)
+    if points.ndim != 2 or points.shape[1] != 3 or not points.size or not np.isfinite(points).all():
+        raise _arguments.about("along", TypeError(message))
+    return "", [], points
+
+
 def _walls(tool, width, other, bottom) -> tuple:
     """The two positional and the last argument of the engine's cut()."""
     if (width is None) == (other is None):
@@ -425,3 +494,4 @@ class Scalpel:
     crack = on_session(crack)
     drill = on_session(drill)
     cut = on_session(cut)
+    fillet = on_session(fillet)

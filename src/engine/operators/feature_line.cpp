@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/feature_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+#include "cancel.h"
+#include "mesh/band_mesh.h"
+
+namespace femscalpel {
+namespace {
+
+using Face = std::array<Index, 3>;
+
+/// Two edges of a line that turns by more are not one line: a circle of eight segments still is.
+const double largest_turn = std::cos(50 * std::numbers::pi / 180);
+
+Vec3 normal(const Mesh& mesh, const Face& f) {
+    return (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
+}
+
+/// The edges of the skin that are feature lines.
+class FeatureEdges {
+public:
+    struct Edge {
+        std::array<Index, 2> ends;
+        std::array<Face, 2> faces;  // the first runs from ends[0] to ends[1]
+    };
+
+    FeatureEdges(const Mesh& mesh, double feature_angle) : mesh_(mesh) {
+        const std::vector<Face> skin = skin_of(mesh);
+        std::map<std::array<Index, 2>, Face> side;
+        for (const Face& f : skin)
+            for (int k = 0; k < 3; ++k) side[{f[k], f[(k + 1) % 3]}] = f;
+        const double limit = std::cos(feature_angle * std::numbers::pi / 180);
+        SparseCheck check;
+        for (const auto& [ends, face] : side) {
+            check();
+            if (ends[0] > ends[1]) continue;
+            const auto other = side.find({ends[1], ends[0]});
+            if (other == side.end()) continue;
+            if (normal(mesh, face).dot(normal(mesh, other->second)) >= limit) continue;
+            for (const Index n : ends) at_[n].push_back(static_cast<int>(edges.size()));
+            edges.push_back({ends, {face, other->second}});
+        }
+    }
+
+    /// The one edge that goes on from an edge at its end `node`, if the line does.
+    std::optional<int> next(int edge, Index node) const {
+        const std::vector<int>& all = at_.at(node);
+        if (all.size() != 2) return {};
+        const int other = all[0] == edge ? all[1] : all[0];
+        const Vec3 in = mesh_.points[node] - mesh_.points[far_end(edge, node)],
+                   out = mesh_.points[far_end(other, node)] - mesh_.points[node];
+        if (in.normalized().dot(out.normalized()) < largest_turn) return {};
+        return other;
+    }
+
+    Index far_end(int edge, Index node) const {
+        return edges[edge].ends[0] == node ? edges[edge].ends[1] : edges[edge].ends[0];
+    }
+
+    std::vector<Edge> edges;
+
+private:
+    const Mesh& mesh_;
+    std::unordered_map<Index, std::vector<int>> at_;
+};
+
+double distance_to(const Vec3& x, const Vec3& a, const Vec3& b) {
+    const double t = std::clamp((b - a).dot(x - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    return (a + t * (b - a) - x).norm();
+}
+
+/// Edges that `along` names, by index.
+class Seeds {
+public:
+    Seeds(const Mesh& mesh, const Along& along, const FeatureEdges& all) : mesh_(mesh), all_(all) {
+        if (!along.group.empty())
+            of_group(along.group);
+        else if (!along.nodes.empty())
+            of_numbers(along.nodes);
+        else
+            of_points(along.points);
+    }
+
+    std::vector<int> edges;
+
+private:
+    [[noreturn]] static void refuse(const std::string& text) { throw ToolError("along: " + text, "along"); }
+
+    void of_group(const std::string& name) {
+        std::set<Index> nodes;
+        bool known = false;
+        for (const GroupKind kind : {GroupKind::element, GroupKind::node}) {
+            const auto group = mesh_.find_group(name, kind);
+            if (!group) continue;
+            known = true;
+            if (kind == GroupKind::node) {
+                for (Index n = 0; n < mesh_.node_count(); ++n)
+                    if (mesh_.families.contains(mesh_.node_families[n], *group)) nodes.insert(n);
+                continue;
+            }
+            for (const CellBlock& b : mesh_.blocks())
+                for (Index c = 0; c < b.size(); ++c) {
+                    if (!mesh_.families.contains(b.families[c], *group)) continue;
+                    if (traits(b.type).dimension != 1)
+                        refuse("group '" + name +
+                               "' has elements other than segments: it is no edge. Name a group of segments or nodes");
+                    for (int k = 0; k < 2; ++k) nodes.insert(b.nodes(c)[k]);
+                }
+        }
+        if (!known) refuse("the mesh has no group of segments or nodes '" + name + "'");
+        if (nodes.empty()) refuse("group '" + name + "' is empty");
+        between(nodes, "group '" + name + "'");
+    }
+
+    void of_numbers(const std::vector<Index>& ids) {
+        const NumberIndex numbers(mesh_);
+        std::set<Index> nodes;
+        for (const Index id : ids) {
+            const auto n = numbers.node(id);
+            if (!n) refuse("the mesh has no node " + std::to_string(id));
+            nodes.insert(*n);
+        }
+        between(nodes, "the nodes named");
+    }
+
+    void between(const std::set<Index>& nodes, const std::string& what) {
+        for (int e = 0; e < static_cast<int>(all_.edges.size()); ++e)
+            if (nodes.contains(all_.edges[e].ends[0]) && nodes.contains(all_.edges[e].ends[1])) edges.push_back(e);
+        if (edges.empty())
+            refuse(what + " is no edge: no feature line of the skin (sharper than feature_angle) runs along it");
+    }
+
+    void of_points(const std::vector<Vec3>& points) {
+        if (points.empty()) refuse("nothing is named");
+        if (all_.edges.empty()) refuse("the skin has no feature line (edges sharper than feature_angle)");
+        for (const Vec3& x : points) {
+            int best = 0;
+            double nearest = std::numeric_limits<double>::infinity();
+            for (int e = 0; e < static_cast<int>(all_.edges.size()); ++e) {
+                const auto& [a, b] = all_.edges[e].ends;
+                const double d = distance_to(x, mesh_.points[a], mesh_.points[b]);
+                if (d >= nearest) continue;
+                nearest = d;
+                best = e;
+            }
+            edges.push_back(best);
+        }
+    }
+
+    const Mesh& mesh_;
+    const FeatureEdges& all_;
+};
+
+/// The whole line through an edge.
+FeatureLine line_through(const FeatureEdges& all, int seed, std::set<int>& used) {
+    FeatureLine line;
+    std::vector<int> edges{seed};
+    used.insert(seed);
+    const auto go = [&](Index from) {
+        std::vector<int> out;
+        Index node = from;
+        int edge = seed;
+        for (;;) {
+            const auto next = all.next(edge, node);
+            if (!next || used.contains(*next)) {
+                line.closed = next && *next == seed && !out.empty();
+                return out;
+            }
+            edge = *next;
+            used.insert(edge);
+            out.push_back(edge);
+            node = all.far_end(edge, node);
+        }
+    };
+    Index start = all.edges[seed].ends[0];
+    for (const int e : go(all.edges[seed].ends[1])) edges.push_back(e);
+    if (!line.closed) {
+        const std::vector<int> before = go(start);
+        edges.insert(edges.begin(), before.rbegin(), before.rend());
+        for (const int e : before) start = all.far_end(e, start);
+    }
+    Index node = start;
+    for (const int e : edges) {
+        line.nodes.push_back(node);
+        const bool forwards = all.edges[e].ends[0] == node;
+        const auto& [left, right] = all.edges[e].faces;
+        line.faces.push_back(forwards ? std::array{left, right} : std::array{right, left});
+        node = all.far_end(e, node);
+    }
+    if (!line.closed) line.nodes.push_back(node);
+    return line;
+}
+
+}  // namespace
+
+std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
+    struct Entry {
+        Face key, face;
+    };
+    std::vector<Entry> entries;
+    for (const CellType type : {CellType::tetra, CellType::tetra10}) {
+        const CellBlock& b = mesh.block(type);
+        entries.reserve(entries.size() + static_cast<std::size_t>(4 * b.size()));
+        SparseCheck check;
+        for (Index c = 0; c < b.size(); ++c) {
+            check();
+            const auto n = b.nodes(c);
+            for (const auto& f : outward_faces) {
+                Entry e{{n[f[0]], n[f[1]], n[f[2]]}, {n[f[0]], n[f[1]], n[f[2]]}};
+                std::ranges::sort(e.key);
+                entries.push_back(e);
+            }
+        }
+    }
+    check_cancelled();
+    std::ranges::sort(entries, {}, &Entry::key);
+    std::vector<Face> skin;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        const bool twice = (k > 0 && entries[k].key == entries[k - 1].key) ||
+                           (k + 1 < entries.size() && entries[k].key == entries[k + 1].key);
+        if (!twice) skin.push_back(entries[k].face);
+    }
+    return skin;
+}
+
+std::vector<FeatureLine> find_feature_lines(const Mesh& mesh, const Along& along, double feature_angle) {
+    const FeatureEdges all(mesh, feature_angle);
+    const Seeds seeds(mesh, along, all);
+    const std::set<int> named(seeds.edges.begin(), seeds.edges.end());
+    std::set<int> used;
+    std::vector<FeatureLine> lines;
+    for (const int seed : seeds.edges) {
+        if (used.contains(seed)) continue;
+        const std::size_t before = used.size();
+        lines.push_back(line_through(all, seed, used));
+        std::size_t count = 0;
+        for (const int e : named) count += used.contains(e);
+        lines.back().extended = along.points.empty() && used.size() > count && used.size() > before + 1;
+    }
+    return lines;
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// What names an edge of a part: one of these.
+struct Along {
+    std::string group;         ///< of segments or nodes
+    std::vector<Index> nodes;  ///< numbers
+    std::vector<Vec3> points;  ///< near feature lines
+};
+
+/// A feature line of the skin of tetrahedra, from one of its ends to the other; of a closed one the first node is not
+/// repeated at the end.
+struct FeatureLine {
+    std::vector<Index> nodes;  ///< indices in the mesh
+    bool closed = false;
+    bool extended = false;  ///< it is longer than what was named
+    /// Skin faces at each edge, normals outwards: the first has the edge in the line's direction.
+    std::vector<std::array<std::array<Index, 3>, 2>> faces;
+};
+
+/// Triangles of the skin of the mesh's tetrahedra, by corners, normals outwards.
+std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh);
+
+/// The feature lines (edges of the skin sharper than `feature_angle`, degrees) that `along` names, each as long as it
+/// goes on smoothly. Throws ToolError (parameter "along") when there is no such group or node, or no feature line
+/// there.
+std::vector<FeatureLine> find_feature_lines(const Mesh& mesh, const Along& along, double feature_angle);
+
+}  // namespace femscalpel

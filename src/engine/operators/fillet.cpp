@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/fillet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+#include "cutting/checks.h"
+#include "cutting/improve.h"
+#include "cutting/removal.h"
+#include "cutting/retry.h"
+#include "cutting/snap.h"
+#include "operators/driver.h"
+#include "operators/fillet_cavity.h"
+#include "operators/fillet_path.h"
+
+namespace femscalpel {
+namespace {
+
+/// Elements over the arc, at least.
+constexpr double fewest_over_arc = 5;
+constexpr int fillet_attempts = 8;
+
+/// Zero within some distance of an edge, so that everything there is in the band.
+class Surroundings final : public Tool {
+public:
+    Surroundings(const FilletPath& path, double reach) : path_(path), reach_(reach) {}
+    std::string kind() const override { return "edge"; }
+    double distance(const Vec3& x) const override { return std::max(0.0, path_.distance(x, reach_) - reach_); }
+    Vec3 normal(const Vec3& x) const override { return path_.ball().normal(x); }
+    double feature_size() const override { return std::numeric_limits<double>::infinity(); }
+
+private:
+    const FilletPath& path_;
+    double reach_;
+};
+
+/// An edge being rounded.
+struct Rounding {
+    std::unique_ptr<FilletPath> path;
+    double reach;  // what is replaced lies within this distance of the edge
+    std::unique_ptr<Surroundings> surroundings;
+};
+
+class Fillet final : public Recipe {
+public:
+    Fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options) : options_(options) {
+        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
+        for (const FeatureLine& line : find_feature_lines(mesh, along, options.feature_angle)) {
+            Rounding r{std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr};
+            r.reach = r.path->convex() ? 1.02 * r.path->centre().norm() : r.path->tangent_length() + 1.2 * radius;
+            r.surroundings = std::make_unique<Surroundings>(*r.path, r.reach);
+            if (line.extended)
+                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
+            roundings_.push_back(std::move(r));
+        }
+        for (const Rounding& r : roundings_)
+            for (const int side : {0, 1}) {
+                Blade blade{&r.path->wall(side), {}, {}, -1};
+                blade.bound = [&path = *r.path, reach = r.reach, side](const Vec3& x) {
+                    return std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
+                };
+                if (side == 1) blade.inside.push_back(&r.path->wall(0));
+                blades_.push_back(std::move(blade));
+            }
+        for (const Rounding& r : roundings_) surroundings_.push_back({r.surroundings.get(), {}, {}, -1});
+    }
+
+    const char* kind() const override { return "fillet"; }
+    void start(const Mesh&) override {}
+
+    std::vector<RefineZone> zones() const override {
+        std::vector<RefineZone> zones;
+        if (options_.refine.when == RefineFirst::When::never) return zones;
+        for (const Rounding& r : roundings_)
+            zones.push_back({[&path = *r.path](const Vec3& x) {
+                                 return std::max(0.0, path.distance(x, 0) - 1.1 * path.tangent_length());
+                             },
+                             options_.refine.when == RefineFirst::When::to_size
+                                 ? options_.refine.size
+                                 : r.path->arc_length() / fewest_over_arc});
+        return zones;
+    }
+
+    std::span<const Blade> blades() const override { return blades_; }
+    std::span<const Blade> surroundings() const override { return surroundings_; }
+
+    Naming naming() const override {
+        Naming out;
+        out.groups.push_back({options_.name + "_FACE"});
+        return out;
+    }
+
+    bool cut(Workpiece& f, const Site& site) override {
+        f.warnings.insert(f.warnings.end(), warnings_.begin(), warnings_.end());
+        cut_soundly(
+            f,
+            [&](Workpiece& g) {
+                for (std::size_t k = 0; k < blades_.size(); ++k) cut_along(g, blades_[k]);
+                relax_band(g);
+            },
+            site.whole.cell_count(), fillet_attempts);
+        return true;
+    }
+
+    Opening open(Workpiece& f, const Site& site) override {
+        for (const Rounding& r : roundings_) FilletCavity(f, site.mesh, *r.path, r.reach).replace(0);
+        for (int v = 0; v < f.d.band.size(); ++v) {
+            Contact on;
+            for (const Rounding& r : roundings_)
+                if (f.d.contact[v].has(&r.path->ball())) on = on.with(&r.path->ball());
+            f.d.contact[v] = on;
+            if (!on) f.d.held_off[v] = 0;
+        }
+        check_shape(f, site.mesh);
+        find_node_sets(f);
+        check_contacts(f);
+        return open_walls(f);
+    }
+
+private:
+    const FilletOptions& options_;
+    std::vector<Rounding> roundings_;
+    std::vector<Blade> blades_, surroundings_;
+    std::vector<std::string> warnings_;
+};
+
+void check_radius(double radius) {
+    if (std::isfinite(radius) && radius > 0) return;
+    std::ostringstream message;
+    message << "radius is " << radius << "; it must be a positive length";
+    throw ToolError(message.str(), "radius");
+}
+
+}  // namespace
+
+Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
+              const Prepared& prepared) {
+    check_radius(radius);
+    Fillet recipe(mesh, along, radius, options);
+    return perform(recipe, mesh, options, prepared);
+}
+
+}  // namespace femscalpel

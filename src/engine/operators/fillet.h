@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "operators/feature_line.h"
+#include "operators/options.h"
+#include "operators/prepared.h"
+#include "operators/report.h"
+
+namespace femscalpel {
+
+/// What the user of fillet() can choose.
+struct FilletOptions : OperatorOptions {
+    FilletOptions() { name = "FILLET"; }  // new group: NAME_FACE
+};
+
+/// Rounds edges of a part by the surface of a ball of this radius that rolls along (the paper's Figure 3.c, with
+/// elements added): convex edges lose material, concave ones gain it. The nodes of the new face lie on the cylinder (of
+/// straight edges) or torus (of circular ones) exactly; it touches the faces on both sides, and runs out through the
+/// plane faces where the edge ends. Elements between the edge and the tangent lines are replaced; new ones are in the
+/// groups of those they replace. The mesh is refined first to four elements over the arc at least.
+///
+/// New group: NAME_FACE, the triangles of the new face (normals out of the material). Throws ToolError (parameter
+/// "along": no edge, or not of that kind; "radius": too large for the faces), QualityError (no sound mesh, groups that
+/// meet at the edge) and what crack() throws.
+Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options = {},
+              const Prepared& prepared = {});
+
+}  // namespace femscalpel

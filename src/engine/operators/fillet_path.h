@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "cutting/planar_mesh.h"
+#include "operators/feature_line.h"
+#include "tools/tool.h"
+
+namespace femscalpel {
+
+/// A straight edge, or one that is an arc of a circle, and its two faces, straight in sections across it: planes, or
+/// planes, cylinders and cones about the circle's axis. A ball that rolls along touches them at the tangent lines.
+///
+/// A point is known by its place `s` along the edge (of a circle: angle times its radius) and its section coordinates:
+/// the edge is at (0, 0).
+class FilletPath {
+public:
+    struct Place {
+        double s;
+        Vec2 p;
+    };
+
+    /// Throws ToolError (parameter "along" or "radius") when the line is of another kind, or the ball too large for
+    /// its faces: `skin` is all of the mesh's.
+    FilletPath(const Mesh& mesh, const FeatureLine& line, double radius, const std::vector<std::array<Index, 3>>& skin);
+
+    Place place(const Vec3& x) const;
+    Vec3 at(double s, const Vec2& p) const;
+
+    /// Distance to the edge, which counts as going on beyond its ends by `beyond`.
+    double distance(const Vec3& x, double beyond) const;
+
+    /// The point of the arc at an angle from 0 (on the first face) to arc_angle(), in section coordinates.
+    Vec2 arc(double angle) const {
+        return centre_ + radius_ * (std::cos(angle) * to_first_ + std::sin(angle) * across_);
+    }
+    double arc_angle() const { return arc_angle_; }
+    double arc_length() const { return radius_ * arc_angle_; }
+    double radius() const { return radius_; }
+
+    /// Unit vector in the section from the edge along a face (0 or 1), and the tangent point.
+    const Vec2& along_face(int face) const { return along_face_[face]; }
+    Vec2 tangent_point(int face) const { return tangent_length_ * along_face_[face]; }
+    /// The normal of a face, out of the material.
+    const Vec2& normal(int face) const { return normal_[face]; }
+    const Vec2& centre() const { return centre_; }
+    double tangent_length() const { return tangent_length_; }
+
+    bool convex() const { return convex_; }
+    bool closed() const { return closed_; }
+    bool is_straight() const { return edge_radius_ == 0; }
+    double begin() const { return begin_; }
+    double end() const { return end_; }
+    double length() const { return end_ - begin_; }
+    double mean_edge() const { return mean_edge_; }
+    /// How far the edge's segments may be off it.
+    double sag() const { return sag_; }
+
+    /// The surface through a tangent line that is perpendicular to its face; negative on the edge's side.
+    const Tool& wall(int face) const { return *walls_[face]; }
+    /// The surface of the rolling ball.
+    const Tool& ball() const { return *ball_; }
+
+private:
+    void fit(const Mesh& mesh, const FeatureLine& line);
+    void fit_circle(const std::vector<Vec3>& points);
+    void find_faces(const Mesh& mesh, const FeatureLine& line);
+    void check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
+
+    bool closed_ = false, convex_ = true;
+    Vec3 origin_ = Vec3::Zero(), direction_ = Vec3::Zero();  // of the edge, or of the circle's axis
+    Vec3 x_ = Vec3::Zero(), y_ = Vec3::Zero();  // of the section; of a circle: towards where s is 0, and across
+    double edge_radius_ = 0, begin_ = 0, end_ = 0, mean_edge_ = 0, sag_ = 0;
+    double radius_, tangent_length_ = 0, arc_angle_ = 0;
+    std::array<Vec2, 2> along_face_, normal_;
+    Vec2 centre_ = Vec2::Zero(), to_first_ = Vec2::Zero(), across_ = Vec2::Zero();
+    std::array<std::unique_ptr<Tool>, 2> walls_;
+    std::unique_ptr<Tool> ball_;
+};
+
+}  // namespace femscalpel

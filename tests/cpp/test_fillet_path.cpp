@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/fillet_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simple_meshes.h"
+
+namespace femscalpel {
+namespace {
+
+FilletPath path_near(const Mesh& mesh, const Vec3& near, double radius) {
+    return {mesh, find_feature_lines(mesh, {{}, {}, {near}}, 30).at(0), radius, skin_of(mesh)};
+}
+
+TEST(FilletPath, EdgeOfABox) {
+    const FilletPath path = path_near(checks::grid(5, 4, 4), {2.4, 0, 0}, 1.5);
+    EXPECT_TRUE(path.is_straight());
+    EXPECT_TRUE(path.convex());
+    EXPECT_FALSE(path.closed());
+    EXPECT_NEAR(path.length(), 5, 1e-12);
+    EXPECT_NEAR(path.tangent_length(), 1.5, 1e-12);
+    EXPECT_NEAR(path.arc_angle(), M_PI / 2, 1e-12);
+    EXPECT_EQ(path.ball().kind(), "cylinder");
+    const Vec3 x(1.2, 0.3, 0.4);
+    const auto [s, p] = path.place(x);
+    EXPECT_LT((path.at(s, p) - x).norm(), 1e-12);
+    EXPECT_NEAR(path.ball().distance({3, 1.5, 0}), 0, 1e-12);
+    EXPECT_NEAR(path.ball().distance({3, 0, 1.5}), 0, 1e-12);
+    EXPECT_NEAR(path.wall(0).distance({3, 1.5, 1.5}), 0, 1e-12);
+    EXPECT_NEAR(path.wall(1).distance({3, 1.5, 1.5}), 0, 1e-12);
+    EXPECT_NEAR(std::abs(path.wall(0).normal(x).dot(path.wall(1).normal(x))), 0, 1e-12);
+    for (const double angle : {0.0, 0.3, path.arc_angle()})
+        EXPECT_NEAR(path.ball().distance(path.at(2, path.arc(angle))), 0, 1e-12);
+    EXPECT_NEAR(path.distance({-2, 0, 0}, 0.5), 1.5, 1e-12);
+}
+
+TEST(FilletPath, ConcaveEdge) {
+    Mesh mesh = checks::grid(4, 4, 2);
+    CellBlock& block = mesh.block(CellType::tetra);
+    CellBlock kept = block;
+    kept.connectivity.clear(), kept.ids.clear(), kept.families.clear();
+    for (Index c = 0; c < block.size(); ++c) {
+        Vec3 centre = Vec3::Zero();
+        for (const Index n : block.nodes(c)) centre += mesh.points[n] / 4;
+        if (centre.x() > 2 && centre.y() > 2) continue;
+        kept.connectivity.insert(kept.connectivity.end(), block.nodes(c).begin(), block.nodes(c).end());
+        kept.ids.push_back(block.ids[c]);
+        kept.families.push_back(0);
+    }
+    block = kept;
+    const FilletPath path = path_near(mesh, {2, 2, 1}, 1);
+    EXPECT_FALSE(path.convex());
+    EXPECT_NEAR(path.ball().distance({3, 3, 1}), -1, 1e-12);
+    EXPECT_NEAR((path.at(1, path.centre()) - path.at(1, Vec2::Zero())).norm(), std::sqrt(2.0), 1e-12);
+    EXPECT_THROW(path_near(mesh, {2, 2, 1}, 2.1), ToolError);
+}
+
+TEST(FilletPath, RadiusTooLargeNamesFaceAndParameter) {
+    try {
+        path_near(checks::grid(5, 2, 4), {2.4, 0, 0}, 2.2);
+        FAIL();
+    } catch (const ToolError& e) {
+        EXPECT_STREQ(e.parameter(), "radius");
+        EXPECT_THAT(e.what(), testing::HasSubstr("2.2 is too large for a face beside the edge"));
+    }
+}
+
+}  // namespace
+}  // namespace femscalpel
