@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cutting/locate.h"
@@ -60,6 +61,9 @@ public:
     /// Opens or removes what was cut. Throws QualityError or ToolError when that is not what was asked for.
     virtual Opening open(Workpiece& f, const Site& site) = 0;
 };
+
+/// Throws ToolError that names `name` when an operator could not call its groups so.
+void check_name(const Mesh& mesh, const std::string& name, const Naming& naming);
 
 /// Runs a recipe on a mesh (resources/docs/architecture.md): refines the mesh first where it is coarser than the tools,
 /// finds the band and what its nodes have to keep to, has the recipe cut and open it, puts the band back, carries the
