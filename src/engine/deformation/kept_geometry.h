@@ -126,6 +126,18 @@ struct KeptGeometry {
     /// that bends, a point where surfaces only touch) its place.
     Place place_of(int node) const;
 
+    /// Takes a facet or segment out of what is around its nodes: it counts no more for their places.
+    void forget_facet(int facet) {
+        for (const int v : facets[facet].node) std::erase(facets_around[v], facet);
+    }
+    void forget_segment(int segment) {
+        for (const int v : segments[segment].node) std::erase(segments_around[v], segment);
+    }
+
+    /// Whether two surfaces lie in one plane, or two curves on one line.
+    bool are_one_plane(int surface, int other) const;
+    bool are_one_line(int curve, int other) const;
+
     /// Puts the facets and segments into the band's `skin` and `creases` (tag: surface or curve), to be split along
     /// with the elements. Those must be empty.
     void mark(BandMesh& band) const;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/wall.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace femscalpel {
+namespace {
+
+/// Corners of a tetrahedron's face, or of a triangle's edge, in the order in which its normal points out of the
+/// material (the material is on its left).
+std::array<int, 3> outwards(const BandMesh& band, const std::array<int, 3>& face) {
+    for (const int t : band.tetras.around(face[0])) {
+        const auto& v = band.tetras[t];
+        for (const auto& f : outward_faces) {
+            const std::array<int, 3> corners{v[f[0]], v[f[1]], v[f[2]]};
+            if (std::ranges::all_of(face, [&](int n) { return std::ranges::find(corners, n) != corners.end(); }))
+                return corners;
+        }
+    }
+    return face;
+}
+
+class Releaser {
+public:
+    Releaser(Workpiece& f, const Covered& covered) : f_(f), band_(f.d.band), covered_(covered) {
+        out_.faces = covered.faces;
+    }
+
+    Wall run() {
+        std::map<Index, int> local;
+        for (int v = 0; v < band_.size(); ++v) local.emplace(band_.nodes[v].global, v);
+        for (const auto& part : covered_.parts) {
+            std::array<int, 3> nodes{-1, -1, -1};
+            for (int k = 0; k < (covered_.faces ? 3 : 2); ++k) nodes[k] = local.at(part[k]);
+            covered_.faces ? add_face(nodes) : add_edge({nodes[0], nodes[1]});
+        }
+        out_.nodes.assign(nodes_.begin(), nodes_.end());
+        std::vector<int> facets, segments(edges_.begin(), edges_.end());
+        if (covered_.faces)
+            for (const Wall::Patch& p : out_.patches) facets.insert(facets.end(), p.parts.begin(), p.parts.end());
+        f_.d.constraints.release(band_, facets, segments);
+        return std::move(out_);
+    }
+
+private:
+    [[noreturn]] static void refuse(const char* what) {
+        throw ToolError(std::string("the group covers ") + what + ", which cannot be moved", "group");
+    }
+
+    int tag_of(int shape, int slot) {
+        const auto [it, fresh] = tags_.try_emplace(shape, static_cast<int>(out_.patches.size()));
+        if (fresh) out_.patches.push_back({shape, {}});
+        out_.patches[it->second].parts.push_back(slot);
+        return it->second;
+    }
+
+    void add_face(const std::array<int, 3>& nodes) {
+        const int slot = band_.skin.find(nodes);
+        if (slot < 0 || band_.tetras.around(nodes[0]).empty()) refuse("a triangle that is no face of a tetrahedron");
+        const KeptGeometry::Facet& facet = f_.d.constraints.geometry().facets[slot];
+        if (f_.d.constraints.geometry().surfaces[facet.shape].shell)
+            refuse("a triangle that is no face of a tetrahedron");
+        band_.cut_faces.add(outwards(band_, nodes), tag_of(facet.shape, slot));
+        for (int k = 0; k < 3; ++k) {
+            nodes_.insert(nodes[k]);
+            if (const int crease = band_.creases.find({nodes[k], nodes[(k + 1) % 3]}); crease >= 0)
+                edges_.insert(crease);
+        }
+    }
+
+    void add_edge(const std::array<int, 2>& nodes) {
+        const int slot = band_.creases.find(nodes);
+        if (slot < 0 || band_.triangles.around(nodes[0]).empty()) refuse("an edge that is none of a shell's border");
+        band_.cut_edges.add(nodes, tag_of(f_.d.constraints.geometry().segments[slot].shape, slot));
+        nodes_.insert(nodes.begin(), nodes.end());
+        edges_.insert(slot);
+    }
+
+    Workpiece& f_;
+    BandMesh& band_;
+    const Covered& covered_;
+    std::map<int, int> tags_;  // by shape
+    std::set<int> nodes_, edges_;
+    Wall out_;
+};
+
+}  // namespace
+
+Wall release_wall(Workpiece& f, const Covered& covered) { return Releaser(f, covered).run(); }
+
+std::vector<int> wall_tags(const BandMesh& band, int node) {
+    std::set<int> out;
+    for (const int s : band.cut_faces.around(node)) out.insert(band.cut_faces.tag(s));
+    for (const int s : band.cut_edges.around(node)) out.insert(band.cut_edges.tag(s));
+    return {out.begin(), out.end()};
+}
+
+}  // namespace femscalpel

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "cutting/workpiece.h"
+#include "groups/covered.h"
+
+namespace femscalpel {
+
+/// A part of the skin of a band (of the border of its shells) that is to be moved. Where surfaces of the kept geometry
+/// part it, it has several patches.
+struct Wall {
+    struct Patch {
+        int shape;               ///< surface (of shells: curve) of the kept geometry that it was
+        std::vector<int> parts;  ///< slots in BandMesh::skin (creases) of the input
+    };
+    bool faces = true;           ///< of faces, which are in BandMesh::cut_faces now; else of edges, in cut_edges
+    std::vector<Patch> patches;  ///< by the tag of these
+    std::vector<int> nodes;      ///< ascending
+};
+
+/// Finds in the band what a group covers, and takes it out of what is kept there (NodeConstraints::release()): its
+/// parts go to BandMesh::cut_faces (cut_edges). `parts` by nodes of the mesh, as in Covered. Nothing may have moved yet.
+/// Throws ToolError when a part is none of the band.
+Wall release_wall(Workpiece& f, const Covered& covered);
+
+/// Tags of the wall's parts around a node, ascending.
+std::vector<int> wall_tags(const BandMesh& band, int node);
+
+/// Whether a node is one of the wall.
+inline bool is_on_wall(const BandMesh& band, int node) {
+    return !band.cut_faces.around(node).empty() || !band.cut_edges.around(node).empty();
+}
+
+}  // namespace femscalpel

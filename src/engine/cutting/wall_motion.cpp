@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/wall_motion.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cancel.h"
+
+namespace femscalpel {
+namespace {
+
+/// A wall that is carried may end so far beside a curved surface that its nodes keep to, in edge lengths: the facets of
+/// both differ by as much.
+constexpr double beside_curved = 0.1;
+
+/// Points and normals of a patch.
+struct Sample {
+    std::vector<Vec3> points, normals;
+};
+
+Sample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch& patch) {
+    const KeptGeometry& g = f.d.constraints.geometry();
+    Sample out;
+    for (const int part : patch.parts) {
+        if (wall.faces) {
+            const KeptGeometry::Facet& facet = g.facets[part];
+            out.points.insert(out.points.end(), facet.corner.begin(), facet.corner.end());
+            if (facet.curved) out.points.insert(out.points.end(), facet.mid.begin(), facet.mid.end());
+            out.normals.push_back(
+                (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).normalized());
+            continue;
+        }
+        const KeptGeometry::Segment& s = g.segments[part];
+        out.points.insert(out.points.end(), s.end.begin(), s.end.end());
+        if (s.curved) out.points.push_back(s.mid);
+        for (const int t : f.d.band.triangles.around(s.node[0]))
+            if (std::ranges::find(f.d.band.triangles[t], s.node[1]) != f.d.band.triangles[t].end())
+                out.normals.push_back((s.end[1] - s.end[0]).cross(f.d.shell_normals[t]).normalized());
+    }
+    std::ranges::sort(out.points, [](const Vec3& a, const Vec3& b) {
+        return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);
+    });
+    out.points.erase(std::unique(out.points.begin(), out.points.end()), out.points.end());
+    return out;
+}
+
+/// For the border of a plane shell: lines and circles in it are planes and cylinders across it, which points of one
+/// plane do not tell. So they are doubled, above it.
+void double_across(Sample& sample, const Vec3& normal, double height) {
+    const std::size_t count = sample.points.size();
+    for (std::size_t k = 0; k < count; ++k) sample.points.push_back(sample.points[k] + height * normal);
+}
+
+/// The direction that a wall with these normals runs along, if it is but one; zero else.
+Vec3 direction_along(const std::vector<Vec3>& normals, bool several) {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vec3& n : normals) spread += n * n.transpose() / static_cast<double>(normals.size());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    if (axes.eigenvalues()[several ? 1 : 0] > 1e-6) return Vec3::Zero();
+    return axes.eigenvectors().col(0);
+}
+
+}  // namespace
+
+void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
+    motion.tools.assign(wall.patches.size(), motion.onto);
+    if (motion.onto) return;
+    const KeptGeometry& g = f.d.constraints.geometry();
+    const double tolerance = std::max(1e-8 * g.size, g.rounding);
+    std::vector<Vec3> normals;
+    for (std::size_t k = 0; k < wall.patches.size(); ++k) {
+        Sample sample = sample_of(f, wall, wall.patches[k]);
+        normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
+        if (!wall.faces) {
+            const int t = f.d.band.triangles.around(g.segments[wall.patches[k].parts[0]].node[0])[0];
+            double_across(sample, f.d.shell_normals[t], g.size);
+        }
+        motion.own.push_back(fitted_tool(sample.points, sample.normals, tolerance, motion.carried));
+        motion.tools[k] = motion.own.back().get();
+    }
+    motion.along = direction_along(normals, false);
+}
+
+WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh)
+    : f_(f), motion_(motion), goal_(static_cast<std::size_t>(f.d.band.size()), Vec3::Zero()) {
+    for (const int v : wall.nodes) {
+        check_cancelled();
+        const Vec3& at = f.d.band.nodes[v].at;
+        Vec3 move = motion.onto ? Vec3(Vec3::Zero()) : Vec3(motion.carried(at) - at);
+        // What runs along the wall itself does not change it.
+        move -= motion.along * motion.along.dot(move);
+        const std::optional<Vec3> x = place(v, at + move);
+        if (!x) refuse(v, mesh);
+        goal_[v] = *x;
+    }
+}
+
+Contact WallGoals::tools(int node) const {
+    Contact out;
+    for (const int tag : wall_tags(f_.d.band, node))
+        if (motion_.tools[tag] && !out.full()) out = out.with(motion_.tools[tag]);
+    return out;
+}
+
+/// Nothing where there is none nearby.
+std::optional<Vec3> WallGoals::place(int node, const Vec3& guess) const {
+    const NodeConstraints& constraints = f_.d.constraints;
+    const NodeConstraint& c = constraints[node];
+    const Contact on = tools(node);
+    Vec3 x = guess;
+    if (on) {
+        if (c.freedom == NodeFreedom::fixed) x = f_.d.band.nodes[node].at;
+        if (!constraints.project(node, on, x)) return {};
+        for (const Tool* t : on.tools())
+            if (t->bounded() && t->beyond(x) > 1e-6 * constraints.geometry().size) return {};
+        return x;
+    }
+    if (c.freedom == NodeFreedom::free) return x;
+    if (c.freedom == NodeFreedom::fixed)
+        return (x - f_.d.band.nodes[node].at).norm() <= 1e-9 * constraints.geometry().size ? std::optional(x)
+                                                                                           : std::nullopt;
+    if (constraints.is_straight(c)) {
+        Vec3 on_it = x;
+        constraints.project(c, {}, on_it);
+        if ((on_it - x).norm() > 1e-6 * f_.d.band.mean_edge_length(node)) return {};
+        return on_it;
+    }
+    if (constraints.distance(c, x) > beside_curved * f_.d.band.mean_edge_length(node)) return {};
+    return x;
+}
+
+void WallGoals::refuse(int node, const Mesh& mesh) const {
+    const Index number = mesh.node_ids[f_.d.band.nodes[node].global];
+    std::ostringstream message;
+    message << "node " << number << " of the wall cannot get there: ";
+    if (f_.d.constraints[node].freedom == NodeFreedom::fixed)
+        message << "surfaces or lines beside the wall meet in it, and hold it";
+    else if (tools(node))
+        message << "what is beside the wall and the surface it is to lie on do not meet near it";
+    else
+        message << "the surfaces beside the wall do not run along the motion. Give onto=, a tool, instead";
+    throw ToolError(message.str(), motion_.parameter);
+}
+
+void WallGoals::add_nodes() {
+    const BandMesh& band = f_.d.band;
+    for (int v = static_cast<int>(goal_.size()); v < band.size(); ++v) {
+        goal_.push_back(band.nodes[v].at);
+        if (!is_on_wall(band, v)) continue;
+        const auto& [a, b] = band.births[v - band.original_nodes()];
+        const Vec3 between = (goal_[a] + goal_[b]) / 2 + (band.nodes[v].at - (band.nodes[a].at + band.nodes[b].at) / 2);
+        const std::optional<Vec3> x = place(v, between);
+        goal_[v] = x ? *x : Vec3((goal_[a] + goal_[b]) / 2);
+    }
+}
+
+}  // namespace femscalpel
