@@ -59,17 +59,14 @@ bool NodeMerger::link_is_sound(int p, int t) {
     for (const int w : common_) {
         const auto holds = [&](const auto& list) {
             return std::ranges::any_of(list.around(p), [&](int s) {
-                return std::ranges::find(list[s], t) != list[s].end() &&
-                       std::ranges::find(list[s], w) != list[s].end();
+                return std::ranges::find(list[s], t) != list[s].end() && std::ranges::find(list[s], w) != list[s].end();
             });
         };
         if (!holds(band_.tetras) && !holds(band_.triangles)) return false;
     }
     // The same on surfaces and creases, whose own links are smaller.
     for (const int w : common_) {
-        const auto on_surface = [&](int a, int b) {
-            return in_one(band_.skin, a, b) || in_one(band_.cut_faces, a, b);
-        };
+        const auto on_surface = [&](int a, int b) { return in_one(band_.skin, a, b) || in_one(band_.cut_faces, a, b); };
         if (on_surface(p, w) && on_surface(t, w) && on_surface(p, t) && band_.skin.find({p, t, w}) < 0 &&
             band_.cut_faces.find({p, t, w}) < 0)
             return false;

@@ -66,11 +66,20 @@ public:
 private:
     bool on_wall(int v) const { return is_on_wall(band_, v); }
 
+    /// Whether moving a node along what it keeps to could change that: bent lines and curved surfaces of which only
+    /// points are known. Those that end at the wall change with it.
+    bool is_bent(int v) const {
+        const NodeConstraint& c = d_.constraints[v];
+        if (d_.constraints.is_straight(c)) return false;
+        if (c.freedom == NodeFreedom::curve) return !wall_.curves.contains(c.shape);
+        return !wall_.surfaces.contains(c.shape);
+    }
+
     /// Nodes of the wall are where they belong; once on their tool they may slide on it, but for those between two
     /// patches.
     bool slides(int v) const {
-        return !on_wall(v) || (arrived_ && d_.contact[v] && !d_.constraints.is_held(v) &&
-                               wall_tags(band_, v).size() == 1);
+        if (!on_wall(v)) return !is_bent(v);
+        return arrived_ && d_.contact[v] && !d_.constraints.is_held(v) && wall_tags(band_, v).size() == 1;
     }
 
     std::vector<int> wall_nodes() const {
@@ -120,8 +129,9 @@ private:
 
     [[noreturn]] void refuse() const {
         std::ostringstream message;
-        message << "the wall cannot be moved so far: elements beside it would be turned inside out, as there is no room "
-                   "for it, or what is beside it is kept where it is (groups, feature lines). Move it less";
+        message
+            << "the wall cannot be moved so far: elements beside it would be turned inside out, as there is no room "
+               "for it, or what is beside it is kept where it is (groups, feature lines). Move it less";
         throw ToolError(message.str(), motion_.parameter);
     }
 

@@ -29,9 +29,8 @@ bool means_it_alone(const Mesh& mesh, const BandMesh& band, int node, std::vecto
     band.neighbours(node, neighbours);
     return std::ranges::any_of(groups, [&](GroupIndex g) {
         if (mesh.groups[g].hidden) return mesh.groups[g].name.starts_with(mark_prefix);
-        return std::ranges::any_of(neighbours, [&](int w) {
-            return !mesh.families.contains(mesh.node_families[band.nodes[w].global], g);
-        });
+        return std::ranges::any_of(
+            neighbours, [&](int w) { return !mesh.families.contains(mesh.node_families[band.nodes[w].global], g); });
     });
 }
 
@@ -47,8 +46,8 @@ void Remesher::find_removable(const Mesh& mesh) {
     std::vector<int> neighbours;
     SparseCheck check(64);
     for (int v = 0; v < band_.size(); ++v, check())
-        removable_.push_back(band_.nodes[v].movable() && !d_.constraints.is_held(v) &&
-                             !d_.constraints.is_related(v) && !means_it_alone(mesh, band_, v, neighbours));
+        removable_.push_back(band_.nodes[v].movable() && !d_.constraints.is_held(v) && !d_.constraints.is_related(v) &&
+                             !means_it_alone(mesh, band_, v, neighbours));
 }
 
 std::vector<int> Remesher::movable() const {

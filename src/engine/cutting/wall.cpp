@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "deformation/fitted_tool.h"
+
 namespace femscalpel {
 namespace {
 
@@ -41,6 +43,11 @@ public:
         if (covered_.faces)
             for (const Wall::Patch& p : out_.patches) facets.insert(facets.end(), p.parts.begin(), p.parts.end());
         f_.d.constraints.release(band_, facets, segments);
+        const KeptGeometry& g = f_.d.constraints.geometry();
+        for (const int v : nodes_) {
+            for (const int k : g.facets_around[v]) out_.surfaces.insert(g.facets[k].shape);
+            for (const int k : g.segments_around[v]) out_.curves.insert(g.segments[k].shape);
+        }
         return std::move(out_);
     }
 
@@ -89,6 +96,36 @@ private:
 }  // namespace
 
 Wall release_wall(Workpiece& f, const Covered& covered) { return Releaser(f, covered).run(); }
+
+void go_on_beside(Workpiece& f, const Wall& wall) {
+    const KeptGeometry& g = f.d.constraints.geometry();
+    const double tolerance = std::max(1e-8 * g.size, g.rounding);
+    for (const int shape : wall.surfaces) {
+        if (g.surfaces[shape].flat) continue;
+        std::vector<int> parts;
+        for (int k = 0; k < static_cast<int>(g.facets.size()); ++k)
+            if (g.facets[k].shape == shape && g.facets[k].cad < 0) parts.push_back(k);
+        const SurfaceSample sample = sample_of(g, parts);
+        if (auto tool = fitted_tool(sample.points, sample.normals, tolerance, {}))
+            f.d.constraints.set_exact(shape, std::move(tool));
+        else
+            f.d.constraints.let_surface_go_on(shape);
+    }
+    for (const int shape : wall.curves)
+        if (!g.curves[shape].straight) f.d.constraints.let_curve_go_on(shape);
+}
+
+SurfaceSample sample_of(const KeptGeometry& g, const std::vector<int>& facets) {
+    SurfaceSample out;
+    for (const int part : facets) {
+        const KeptGeometry::Facet& facet = g.facets[part];
+        out.points.insert(out.points.end(), facet.corner.begin(), facet.corner.end());
+        if (facet.curved) out.points.insert(out.points.end(), facet.mid.begin(), facet.mid.end());
+        out.normals.push_back(
+            (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).normalized());
+    }
+    return out;
+}
 
 std::vector<int> wall_tags(const BandMesh& band, int node) {
     std::set<int> out;

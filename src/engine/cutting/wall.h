@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <functional>
-#include <span>
+#include <set>
 #include <vector>
 
 #include "cutting/workpiece.h"
@@ -17,15 +16,28 @@ struct Wall {
         int shape;               ///< surface (of shells: curve) of the kept geometry that it was
         std::vector<int> parts;  ///< slots in BandMesh::skin (creases) of the input
     };
-    bool faces = true;           ///< of faces, which are in BandMesh::cut_faces now; else of edges, in cut_edges
-    std::vector<Patch> patches;  ///< by the tag of these
-    std::vector<int> nodes;      ///< ascending
+    bool faces = true;               ///< of faces, which are in BandMesh::cut_faces now; else of edges, in cut_edges
+    std::vector<Patch> patches;      ///< by the tag of these
+    std::vector<int> nodes;          ///< ascending
+    std::set<int> surfaces, curves;  ///< of the kept geometry that end at the wall
 };
 
 /// Finds in the band what a group covers, and takes it out of what is kept there (NodeConstraints::release()): its
-/// parts go to BandMesh::cut_faces (cut_edges). `parts` by nodes of the mesh, as in Covered. Nothing may have moved yet.
-/// Throws ToolError when a part is none of the band.
+/// parts go to BandMesh::cut_faces (cut_edges). `parts` by nodes of the mesh, as in Covered. Nothing may have moved
+/// yet. Throws ToolError when a part is none of the band.
 Wall release_wall(Workpiece& f, const Covered& covered);
+
+/// Points of a surface, and its normals between them.
+struct SurfaceSample {
+    std::vector<Vec3> points, normals;
+};
+
+/// Those of facets of the kept geometry.
+SurfaceSample sample_of(const KeptGeometry& g, const std::vector<int>& facets);
+
+/// Surfaces that end at the wall go on beyond it from now on: those that are a cylinder or a sphere, to rounding, as
+/// such, others in their tangent planes; likewise bent lines.
+void go_on_beside(Workpiece& f, const Wall& wall);
 
 /// Tags of the wall's parts around a node, ascending.
 std::vector<int> wall_tags(const BandMesh& band, int node);

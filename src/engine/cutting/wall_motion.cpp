@@ -4,7 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
+#include <tuple>
 
 #include "cancel.h"
 
@@ -15,23 +17,11 @@ namespace {
 /// both differ by as much.
 constexpr double beside_curved = 0.1;
 
-/// Points and normals of a patch.
-struct Sample {
-    std::vector<Vec3> points, normals;
-};
-
-Sample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch& patch) {
+SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch& patch) {
     const KeptGeometry& g = f.d.constraints.geometry();
-    Sample out;
+    if (wall.faces) return sample_of(g, patch.parts);
+    SurfaceSample out;
     for (const int part : patch.parts) {
-        if (wall.faces) {
-            const KeptGeometry::Facet& facet = g.facets[part];
-            out.points.insert(out.points.end(), facet.corner.begin(), facet.corner.end());
-            if (facet.curved) out.points.insert(out.points.end(), facet.mid.begin(), facet.mid.end());
-            out.normals.push_back(
-                (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).normalized());
-            continue;
-        }
         const KeptGeometry::Segment& s = g.segments[part];
         out.points.insert(out.points.end(), s.end.begin(), s.end.end());
         if (s.curved) out.points.push_back(s.mid);
@@ -39,16 +29,12 @@ Sample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch& patch)
             if (std::ranges::find(f.d.band.triangles[t], s.node[1]) != f.d.band.triangles[t].end())
                 out.normals.push_back((s.end[1] - s.end[0]).cross(f.d.shell_normals[t]).normalized());
     }
-    std::ranges::sort(out.points, [](const Vec3& a, const Vec3& b) {
-        return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);
-    });
-    out.points.erase(std::unique(out.points.begin(), out.points.end()), out.points.end());
     return out;
 }
 
 /// For the border of a plane shell: lines and circles in it are planes and cylinders across it, which points of one
 /// plane do not tell. So they are doubled, above it.
-void double_across(Sample& sample, const Vec3& normal, double height) {
+void double_across(SurfaceSample& sample, const Vec3& normal, double height) {
     const std::size_t count = sample.points.size();
     for (std::size_t k = 0; k < count; ++k) sample.points.push_back(sample.points[k] + height * normal);
 }
@@ -71,7 +57,7 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
     const double tolerance = std::max(1e-8 * g.size, g.rounding);
     std::vector<Vec3> normals;
     for (std::size_t k = 0; k < wall.patches.size(); ++k) {
-        Sample sample = sample_of(f, wall, wall.patches[k]);
+        SurfaceSample sample = sample_of(f, wall, wall.patches[k]);
         normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
         if (!wall.faces) {
             const int t = f.d.band.triangles.around(g.segments[wall.patches[k].parts[0]].node[0])[0];
@@ -84,17 +70,88 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
 }
 
 WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh)
-    : f_(f), motion_(motion), goal_(static_cast<std::size_t>(f.d.band.size()), Vec3::Zero()) {
+    : f_(f),
+      motion_(motion),
+      goal_(static_cast<std::size_t>(f.d.band.size()), Vec3::Zero()),
+      plain_(goal_),
+      mesh_(mesh) {
     for (const int v : wall.nodes) {
-        check_cancelled();
         const Vec3& at = f.d.band.nodes[v].at;
         Vec3 move = motion.onto ? Vec3(Vec3::Zero()) : Vec3(motion.carried(at) - at);
         // What runs along the wall itself does not change it.
         move -= motion.along * motion.along.dot(move);
-        const std::optional<Vec3> x = place(v, at + move);
-        if (!x) refuse(v, mesh);
-        goal_[v] = *x;
+        Vec3 x = at + move;
+        if (!f.d.constraints.project(NodeConstraint{}, tools(v), x)) x = at + move;
+        plain_[v] = goal_[v] = x;
     }
+    // Those that can be but in one place first, then those that slide along what is beside the wall.
+    for (const int known : {0, 1, 2}) {
+        std::vector<int> nodes;
+        for (const int v : wall.nodes)
+            if (freedom(v) == known) nodes.push_back(v);
+        for (const int v : nodes) {
+            check_cancelled();
+            const std::optional<Vec3> x = place(v, goal_[v]);
+            if (!x) refuse(v);
+            goal_[v] = *x;
+        }
+        if (known < 2) spread(wall.nodes, known);
+    }
+}
+
+/// How many directions the wall's node can still slide in, once it is there.
+int WallGoals::freedom(int node) const {
+    const NodeFreedom of = f_.d.constraints[node].freedom;
+    if (of == NodeFreedom::fixed || of == NodeFreedom::curve) return 0;
+    const std::size_t tags = wall_tags(f_.d.band, node).size();
+    return of == NodeFreedom::surface ? (tags > 1 ? 0 : 1) : tags > 1 ? 1 : 2;
+}
+
+/// Nodes of more freedom go aside as those around them do, by which each wants to be the mean of its neighbours on the
+/// wall.
+void WallGoals::spread(const std::vector<int>& nodes, int known_freedom) {
+    constexpr int most_sweeps = 400;
+    const BandMesh& band = f_.d.band;
+    struct Unknown {
+        int node;
+        std::vector<std::pair<int, double>> bars;
+    };
+    std::vector<Unknown> unknown;
+    std::vector<Vec3> aside(goal_.size(), Vec3::Zero());
+    double largest = 0;
+    for (const int v : nodes) {
+        aside[v] = goal_[v] - plain_[v];
+        if (freedom(v) <= known_freedom) {
+            largest = std::max(largest, aside[v].norm());
+            continue;
+        }
+        std::map<int, double> bars;
+        const auto look = [&](const auto& list) {
+            for (const int s : list.around(v))
+                for (const int w : list[s])
+                    if (w != v) bars[w] = 1 / (band.nodes[w].at - band.nodes[v].at).norm();
+        };
+        look(band.cut_faces);
+        look(band.cut_edges);
+        unknown.push_back({v, {bars.begin(), bars.end()}});
+    }
+    if (largest <= 1e-9 * f_.d.constraints.geometry().size) return;
+    double change = largest;
+    for (int sweep = 0; sweep < most_sweeps && change > 1e-3 * largest; ++sweep) {
+        check_cancelled();
+        change = 0;
+        for (const Unknown& u : unknown) {
+            Vec3 sum = Vec3::Zero();
+            double weight = 0;
+            for (const auto& [w, bar] : u.bars) {
+                sum += bar * aside[w];
+                weight += bar;
+            }
+            change = std::max(change, (sum / weight - aside[u.node]).norm());
+            aside[u.node] = sum / weight;
+        }
+    }
+    for (const Unknown& u : unknown) goal_[u.node] = plain_[u.node] + aside[u.node];
 }
 
 Contact WallGoals::tools(int node) const {
@@ -131,8 +188,8 @@ std::optional<Vec3> WallGoals::place(int node, const Vec3& guess) const {
     return x;
 }
 
-void WallGoals::refuse(int node, const Mesh& mesh) const {
-    const Index number = mesh.node_ids[f_.d.band.nodes[node].global];
+void WallGoals::refuse(int node) const {
+    const Index number = mesh_.node_ids[f_.d.band.nodes[node].global];
     std::ostringstream message;
     message << "node " << number << " of the wall cannot get there: ";
     if (f_.d.constraints[node].freedom == NodeFreedom::fixed)

@@ -13,12 +13,12 @@ namespace femscalpel {
 
 /// Where a wall is to go.
 struct WallMotion {
-    const char* parameter = "";             ///< of the operator, for messages
-    const Tool* onto = nullptr;             ///< there, or else:
-    Similarity carried = {};                ///< every point so
-    std::vector<const Tool*> tools = {};    ///< by patch: the surface that it will lie on; null if its own shape is
-                                            ///< carried instead
-    Vec3 along = Vec3::Zero();              ///< unit vector, if the wall runs along it everywhere
+    const char* parameter = "";           ///< of the operator, for messages
+    const Tool* onto = nullptr;           ///< there, or else:
+    Similarity carried = {};              ///< every point so
+    std::vector<const Tool*> tools = {};  ///< by patch: the surface that it will lie on; null if its own shape is
+                                          ///< carried instead
+    Vec3 along = Vec3::Zero();            ///< unit vector, if the wall runs along it everywhere
     std::vector<std::unique_ptr<Tool>> own = {};  ///< those of `tools` that were made for it
 };
 
@@ -27,7 +27,7 @@ struct WallMotion {
 void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion);
 
 /// Where the nodes of a wall end: each on the surfaces of its patches (or carried, where they have none), and on what
-/// else it keeps to.
+/// else it keeps to. Where that leads a node elsewhere than the motion alone, others around it go along.
 class WallGoals {
 public:
     /// Throws ToolError naming the parameter and a node that cannot get there.
@@ -43,11 +43,15 @@ public:
 
 private:
     std::optional<Vec3> place(int node, const Vec3& guess) const;
-    [[noreturn]] void refuse(int node, const Mesh& mesh) const;
+    int freedom(int node) const;
+    void spread(const std::vector<int>& nodes, int known_freedom);
+    [[noreturn]] void refuse(int node) const;
 
     const Workpiece& f_;
     const WallMotion& motion_;
-    std::vector<Vec3> goal_;  // by band node; nothing for those that are not on the wall
+    std::vector<Vec3> goal_;   // by band node; nothing for those that are not on the wall
+    std::vector<Vec3> plain_;  // likewise: where the motion alone would lead
+    const Mesh& mesh_;
 };
 
 }  // namespace femscalpel

@@ -5,6 +5,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "tools/cylinder.h"
 #include "tools/plane.h"
@@ -108,9 +110,13 @@ std::unique_ptr<Tool> fitted_cylinder(std::span<const Vec3> points, const Vec3& 
 
 }  // namespace
 
-std::unique_ptr<Tool> fitted_tool(std::span<const Vec3> points, std::span<const Vec3> normals, double tolerance,
+std::unique_ptr<Tool> fitted_tool(std::span<const Vec3> given, std::span<const Vec3> normals, double tolerance,
                                   const Similarity& moved) {
-    if (points.empty() || normals.empty()) return nullptr;
+    if (given.empty() || normals.empty()) return nullptr;
+    std::vector<Vec3> points(given.begin(), given.end());
+    std::ranges::sort(
+        points, [](const Vec3& a, const Vec3& b) { return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const Vec3& n : normals) spread += n * n.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "deformation/kept_parts.h"
 #include "mesh/band_mesh.h"
 #include "tools/cad_shape.h"
+#include "tools/tool.h"
 
 namespace femscalpel {
 
@@ -58,6 +60,9 @@ struct KeptGeometry {
         int kind = 0;                ///< groups with their boundary here: a kind of BandBoundaries
         Vec3 normal = Vec3::Zero();  ///< of the plane, if flat
         Vec3 origin = Vec3::Zero();  ///< on the plane, if flat
+        /// What it is exactly, if that is known: then it goes on without end, as planes do.
+        std::shared_ptr<const Tool> exact = {};
+        bool goes_on = false;  ///< beyond its border it goes on in its tangent planes there
         bool is_skin() const { return !internal && !shell; }
     };
     /// A piece of a curve: an edge.
@@ -80,6 +85,7 @@ struct KeptGeometry {
         int kind = 0;         ///< groups with a linking edge here: a kind of BandBoundaries
         Vec3 origin = Vec3::Zero();
         Vec3 direction = Vec3::Zero();
+        bool goes_on = false;  ///< beyond its ends it goes on along its tangents there
     };
     /// What a node keeps to because of where it is.
     struct Place {

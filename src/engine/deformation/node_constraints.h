@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_set>
@@ -51,6 +52,15 @@ public:
     /// Takes faces and edges (slots of BandMesh::skin and BandMesh::creases, where nothing has moved or been split yet)
     /// out of what is kept: they are to be moved. Their nodes keep to what else there is.
     void release(BandMesh& band, std::span<const int> facets, std::span<const int> segments);
+
+    /// Makes a curved surface of the kept geometry what it is exactly.
+    void set_exact(int surface, std::shared_ptr<const Tool> exact) {
+        geometry_.surfaces[surface].exact = std::move(exact);
+    }
+
+    /// Makes a curved surface, a bent line go on beyond its border, its ends.
+    void let_surface_go_on(int surface) { geometry_.surfaces[surface].goes_on = true; }
+    void let_curve_go_on(int curve) { geometry_.curves[curve].goes_on = true; }
 
     /// Whether something other than the geometry held a node of the input: a group it is isolated in, the solver's
     /// input, an element that ends there.

@@ -8,8 +8,8 @@
 
 namespace femscalpel {
 
-/// The faces of a solid, or else the edges of a shell, that a group covers, by their corner nodes, ascending, each once;
-/// of an edge the third is -1.
+/// The faces of a solid, or else the edges of a shell, that a group covers, by their corner nodes, ascending, each
+/// once; of an edge the third is -1.
 struct Covered {
     bool faces = false;  ///< the mesh is one of volume elements
     std::vector<std::array<Index, 3>> parts;

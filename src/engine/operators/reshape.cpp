@@ -70,7 +70,8 @@ double edges_moved(const Mesh& mesh, const Covered& covered, const WallMotion& m
         const int corners = covered.faces ? 3 : 2;
         for (int k = 0; k < corners; ++k) {
             const Vec3& x = mesh.points[part[k]];
-            farthest = std::max(farthest, motion.onto ? std::abs(motion.onto->distance(x)) : (motion.carried(x) - x).norm());
+            farthest =
+                std::max(farthest, motion.onto ? std::abs(motion.onto->distance(x)) : (motion.carried(x) - x).norm());
             length += (x - mesh.points[part[(k + 1) % corners]]).norm();
             ++edges;
         }
@@ -167,9 +168,10 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     if (input.companion) watch.lap("mark deck");
     const Mesh& mesh = edit.mesh();
     edit.start_copy();
-    Workpiece f = workpiece(
-        edit, options, levels_around(mesh, covered, edges_moved(mesh, covered, motion), edit.adjacency()));
+    Workpiece f =
+        workpiece(edit, options, levels_around(mesh, covered, edges_moved(mesh, covered, motion), edit.adjacency()));
     const Wall wall = release_wall(f, covered);
+    go_on_beside(f, wall);
     find_tools(f, wall, motion);
     watch.lap("constraints");
     const MovedWall moved = move_wall(f, wall, motion, mesh);
