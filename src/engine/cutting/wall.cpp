@@ -30,14 +30,11 @@ public:
         out_.faces = covered.faces;
     }
 
-    Wall run() {
-        std::map<Index, int> local;
-        for (int v = 0; v < band_.size(); ++v) local.emplace(band_.nodes[v].global, v);
-        for (const auto& part : covered_.parts) {
-            std::array<int, 3> nodes{-1, -1, -1};
-            for (int k = 0; k < (covered_.faces ? 3 : 2); ++k) nodes[k] = local.at(part[k]);
-            covered_.faces ? add_face(nodes) : add_edge({nodes[0], nodes[1]});
-        }
+    Wall run(const std::vector<std::array<Index, 3>>& following) {
+        for (int v = 0; v < band_.size(); ++v) local_.emplace(band_.nodes[v].global, v);
+        for (const auto& part : covered_.parts) add(part);
+        follows_ = true;
+        for (const auto& part : following) add(part);
         out_.nodes.assign(nodes_.begin(), nodes_.end());
         std::vector<int> facets, segments(edges_.begin(), edges_.end());
         if (covered_.faces)
@@ -56,9 +53,15 @@ private:
         throw ToolError(std::string("the group covers ") + what + ", which cannot be moved", "group");
     }
 
+    void add(const std::array<Index, 3>& part) {
+        std::array<int, 3> nodes{-1, -1, -1};
+        for (int k = 0; k < (covered_.faces ? 3 : 2); ++k) nodes[k] = local_.at(part[k]);
+        covered_.faces ? add_face(nodes) : add_edge({nodes[0], nodes[1]});
+    }
+
     int tag_of(int shape, int slot) {
-        const auto [it, fresh] = tags_.try_emplace(shape, static_cast<int>(out_.patches.size()));
-        if (fresh) out_.patches.push_back({shape, {}});
+        const auto [it, fresh] = tags_.try_emplace({shape, follows_}, static_cast<int>(out_.patches.size()));
+        if (fresh) out_.patches.push_back({shape, {}, follows_});
         out_.patches[it->second].parts.push_back(slot);
         return it->second;
     }
@@ -88,14 +91,18 @@ private:
     Workpiece& f_;
     BandMesh& band_;
     const Covered& covered_;
-    std::map<int, int> tags_;  // by shape
+    bool follows_ = false;
+    std::map<Index, int> local_;
+    std::map<std::pair<int, bool>, int> tags_;  // by shape and whether it follows
     std::set<int> nodes_, edges_;
     Wall out_;
 };
 
 }  // namespace
 
-Wall release_wall(Workpiece& f, const Covered& covered) { return Releaser(f, covered).run(); }
+Wall release_wall(Workpiece& f, const Covered& covered, const std::vector<std::array<Index, 3>>& following) {
+    return Releaser(f, covered).run(following);
+}
 
 void go_on_beside(Workpiece& f, const Wall& wall) {
     const KeptGeometry& g = f.d.constraints.geometry();
@@ -125,6 +132,11 @@ SurfaceSample sample_of(const KeptGeometry& g, const std::vector<int>& facets) {
             (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).normalized());
     }
     return out;
+}
+
+void double_across(SurfaceSample& sample, const Vec3& normal, double height) {
+    const std::size_t count = sample.points.size();
+    for (std::size_t k = 0; k < count; ++k) sample.points.push_back(sample.points[k] + height * normal);
 }
 
 std::vector<int> wall_tags(const BandMesh& band, int node) {

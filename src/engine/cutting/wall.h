@@ -15,6 +15,7 @@ struct Wall {
     struct Patch {
         int shape;               ///< surface (of shells: curve) of the kept geometry that it was
         std::vector<int> parts;  ///< slots in BandMesh::skin (creases) of the input
+        bool follows = false;    ///< tangent to others, which it goes with
     };
     bool faces = true;               ///< of faces, which are in BandMesh::cut_faces now; else of edges, in cut_edges
     std::vector<Patch> patches;      ///< by the tag of these
@@ -23,9 +24,9 @@ struct Wall {
 };
 
 /// Finds in the band what a group covers, and takes it out of what is kept there (NodeConstraints::release()): its
-/// parts go to BandMesh::cut_faces (cut_edges). `parts` by nodes of the mesh, as in Covered. Nothing may have moved
-/// yet. Throws ToolError when a part is none of the band.
-Wall release_wall(Workpiece& f, const Covered& covered);
+/// parts go to BandMesh::cut_faces (cut_edges). Parts that are `following`, by nodes of the mesh as in Covered, are
+/// patches of their own. Nothing may have moved yet. Throws ToolError when a part is none of the band's, or no skin.
+Wall release_wall(Workpiece& f, const Covered& covered, const std::vector<std::array<Index, 3>>& following = {});
 
 /// Points of a surface, and its normals between them.
 struct SurfaceSample {
@@ -34,6 +35,10 @@ struct SurfaceSample {
 
 /// Those of facets of the kept geometry.
 SurfaceSample sample_of(const KeptGeometry& g, const std::vector<int>& facets);
+
+/// For the border of a plane shell: lines and circles in it are planes and cylinders across it, which points of one
+/// plane do not tell. So they are doubled, above it.
+void double_across(SurfaceSample& sample, const Vec3& normal, double height);
 
 /// Surfaces that end at the wall go on beyond it from now on: those that are a cylinder or a sphere, to rounding, as
 /// such, others in their tangent planes; likewise bent lines.

@@ -4,11 +4,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <tuple>
 
 #include "cancel.h"
+#include "mesh/closest_point.h"
 
 namespace femscalpel {
 namespace {
@@ -32,13 +35,6 @@ SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch&
     return out;
 }
 
-/// For the border of a plane shell: lines and circles in it are planes and cylinders across it, which points of one
-/// plane do not tell. So they are doubled, above it.
-void double_across(SurfaceSample& sample, const Vec3& normal, double height) {
-    const std::size_t count = sample.points.size();
-    for (std::size_t k = 0; k < count; ++k) sample.points.push_back(sample.points[k] + height * normal);
-}
-
 /// The direction that a wall with these normals runs along, if it is but one; zero else.
 Vec3 direction_along(const std::vector<Vec3>& normals, bool several) {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -51,12 +47,18 @@ Vec3 direction_along(const std::vector<Vec3>& normals, bool several) {
 }  // namespace
 
 void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
-    motion.tools.assign(wall.patches.size(), motion.onto);
+    motion.follows.clear();
+    motion.tools.clear();
+    for (const Wall::Patch& p : wall.patches) {
+        motion.follows.push_back(p.follows);
+        motion.tools.push_back(p.follows ? nullptr : motion.onto);
+    }
     if (motion.onto) return;
     const KeptGeometry& g = f.d.constraints.geometry();
     const double tolerance = std::max(1e-8 * g.size, g.rounding);
     std::vector<Vec3> normals;
     for (std::size_t k = 0; k < wall.patches.size(); ++k) {
+        if (wall.patches[k].follows) continue;
         SurfaceSample sample = sample_of(f, wall, wall.patches[k]);
         normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
         if (!wall.faces) {
@@ -75,7 +77,9 @@ WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& mot
       goal_(static_cast<std::size_t>(f.d.band.size()), Vec3::Zero()),
       plain_(goal_),
       mesh_(mesh) {
-    for (const int v : wall.nodes) {
+    std::vector<int> leading;
+    std::ranges::copy_if(wall.nodes, std::back_inserter(leading), [&](int v) { return !follows(v); });
+    for (const int v : leading) {
         const Vec3& at = f.d.band.nodes[v].at;
         Vec3 move = motion.onto ? Vec3(Vec3::Zero()) : Vec3(motion.carried(at) - at);
         // What runs along the wall itself does not change it.
@@ -87,7 +91,7 @@ WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& mot
     // Those that can be but in one place first, then those that slide along what is beside the wall.
     for (const int known : {0, 1, 2}) {
         std::vector<int> nodes;
-        for (const int v : wall.nodes)
+        for (const int v : leading)
             if (freedom(v) == known) nodes.push_back(v);
         for (const int v : nodes) {
             check_cancelled();
@@ -95,7 +99,56 @@ WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& mot
             if (!x) refuse(v);
             goal_[v] = *x;
         }
-        if (known < 2) spread(wall.nodes, known);
+        if (known < 2) spread(leading, known);
+    }
+    place_following(wall);
+}
+
+/// Whether a node is on no other patches than such that follow.
+bool WallGoals::follows(int node) const {
+    const std::vector<int> tags = wall_tags(f_.d.band, node);
+    return !tags.empty() && std::ranges::all_of(tags, [&](int tag) { return motion_.follows[tag]; });
+}
+
+/// Nodes of patches that follow go as the nearest point where these meet the others does; along what is beside them.
+void WallGoals::place_following(const Wall& wall) {
+    const BandMesh& band = f_.d.band;
+    std::vector<std::array<int, 2>> seam;
+    const auto look = [&](const auto& list) {
+        for (int s = 0; s < list.size(); ++s) {
+            if (!motion_.follows[list.tag(s)]) continue;
+            std::vector<int> ends;
+            for (const int v : list[s])
+                if (!follows(v)) ends.push_back(v);
+            if (ends.size() == 1) seam.push_back({ends[0], ends[0]});
+            if (ends.size() > 1) seam.push_back({ends[0], ends[1]});
+        }
+    };
+    look(band.cut_faces);
+    look(band.cut_edges);
+    for (const int v : wall.nodes) {
+        if (!follows(v)) continue;
+        check_cancelled();
+        const Vec3& at = band.nodes[v].at;
+        double nearest = std::numeric_limits<double>::infinity();
+        Vec3 move = Vec3::Zero();
+        for (const auto& [a, b] : seam) {
+            const Vec3 &pa = band.nodes[a].at, &pb = band.nodes[b].at;
+            const Vec3 on = closest_on_segment(pa, pb, at);
+            if ((on - at).squaredNorm() >= nearest) continue;
+            nearest = (on - at).squaredNorm();
+            const double t = a == b ? 0 : (on - pa).norm() / (pb - pa).norm();
+            const Vec3 ma = goal_[a] - pa, mb = goal_[b] - pb, between = (1 - t) * ma + t * mb;
+            // Around a round wall it is as long between the ends as it is there.
+            move = between.normalized() * ((1 - t) * ma.norm() + t * mb.norm());
+        }
+        Vec3 x = at + move;
+        if (!f_.d.constraints.project(f_.d.constraints[v], {}, x)) refuse(v);
+        if (f_.d.constraints[v].freedom == NodeFreedom::fixed) {
+            if (move.norm() > 1e-9 * f_.d.constraints.geometry().size) refuse(v);
+            x = at;
+        }
+        goal_[v] = x;
     }
 }
 

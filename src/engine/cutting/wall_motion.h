@@ -18,6 +18,7 @@ struct WallMotion {
     Similarity carried = {};              ///< every point so
     std::vector<const Tool*> tools = {};  ///< by patch: the surface that it will lie on; null if its own shape is
                                           ///< carried instead
+    std::vector<char> follows = {};       ///< by patch: Wall::Patch::follows
     Vec3 along = Vec3::Zero();            ///< unit vector, if the wall runs along it everywhere
     std::vector<std::unique_ptr<Tool>> own = {};  ///< those of `tools` that were made for it
 };
@@ -44,6 +45,8 @@ public:
 private:
     std::optional<Vec3> place(int node, const Vec3& guess) const;
     int freedom(int node) const;
+    bool follows(int node) const;
+    void place_following(const Wall& wall);
     void spread(const std::vector<int>& nodes, int known_freedom);
     [[noreturn]] void refuse(int node) const;
 

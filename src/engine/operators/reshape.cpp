@@ -11,6 +11,7 @@
 #include "cutting/locate.h"
 #include "cutting/move_wall.h"
 #include "cutting/opening.h"
+#include "cutting/tangent.h"
 #include "groups/opened_areas.h"
 #include "groups/preserve.h"
 #include "mesh/rounding.h"
@@ -105,6 +106,32 @@ Workpiece workpiece(const Edit& edit, const ReshapeOptions& options, const std::
     return f;
 }
 
+/// The band around the wall. What goes with the wall is added to `covered` and `following`.
+Workpiece band_of(const Edit& edit, const ReshapeOptions& options, Covered& covered,
+                  std::vector<std::array<Index, 3>>& following, const WallMotion& motion) {
+    const Mesh& mesh = edit.mesh();
+    const double edges = edges_moved(mesh, covered, motion);
+    const std::size_t asked_for = covered.parts.size();
+    for (;;) {
+        Covered all = covered;
+        all.parts.insert(all.parts.end(), following.begin(), following.end());
+        Workpiece f = workpiece(edit, options, levels_around(mesh, all, edges, edit.adjacency()));
+        const Beside beside = parts_beside(f, covered, following, options.feature_angle);
+        if (beside.same.empty() && beside.following.empty()) {
+            const auto warn = [&](std::size_t count, const char* what) {
+                if (count > 0)
+                    f.warnings.push_back(std::to_string(count) + (covered.faces ? " face(s)" : " edge(s)") +
+                                         " beside the group moved with it: " + what);
+            };
+            warn(covered.parts.size() - asked_for, "they lie on the same surface");
+            warn(following.size(), "they are tangent to it");
+            return f;
+        }
+        covered.parts.insert(covered.parts.end(), beside.same.begin(), beside.same.end());
+        following.insert(following.end(), beside.following.begin(), beside.following.end());
+    }
+}
+
 /// Adds the mid-side nodes of the wall's edges to the group of its nodes.
 void add_middles(const Workpiece& f, Rebuilt& rebuilt, GroupIndex group) {
     Mesh& mesh = rebuilt.mesh;
@@ -161,16 +188,16 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     naming.front = options.name + "_WALL";
     check_name(input, options.name, naming);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
-    const Covered covered = covered_by(input, find(input, group));
+    Covered covered = covered_by(input, find(input, group));
     WallMotion motion = motion_of(options);
     watch.lap("locate");
     Edit edit(input, known);
     if (input.companion) watch.lap("mark deck");
     const Mesh& mesh = edit.mesh();
     edit.start_copy();
-    Workpiece f =
-        workpiece(edit, options, levels_around(mesh, covered, edges_moved(mesh, covered, motion), edit.adjacency()));
-    const Wall wall = release_wall(f, covered);
+    std::vector<std::array<Index, 3>> following;
+    Workpiece f = band_of(edit, options, covered, following, motion);
+    const Wall wall = release_wall(f, covered, following);
     go_on_beside(f, wall);
     find_tools(f, wall, motion);
     watch.lap("constraints");
