@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -13,6 +15,7 @@
 #include "operators/fillet.h"
 #include "operators/merge.h"
 #include "operators/refine.h"
+#include "operators/reshape.h"
 #include "operators/scalpel.h"
 
 namespace py = pybind11;
@@ -254,6 +257,29 @@ void bind_refine(py::module_& module) {
         py::arg("relax"), py::arg("max_elements"), py::arg("feature_angle"), py::arg("strict"), py::arg("skin"));
 }
 
+void bind_reshape(py::module_& module) {
+    using Three = std::array<double, 3>;
+    using Scaling = std::pair<double, Three>;
+    bind_operator<const std::string&, const Tool*, std::optional<Three>, std::optional<Scaling>, const std::string&,
+                  double, std::optional<std::vector<std::string>>, bool>(
+        module, "reshape",
+        [](const Mesh& mesh, const Prepared& known, const std::string& group, const Tool* onto,
+           const std::optional<Three>& by, const std::optional<Scaling>& scale, const std::string& name,
+           double feature_angle, const std::optional<std::vector<std::string>>& preserve, bool strict) {
+            ReshapeOptions o;
+            o.name = name;
+            o.onto = onto;
+            if (by) o.by = Vec3(by->data());
+            if (scale) o.scale = {scale->first, Vec3(scale->second.data())};
+            o.feature_angle = feature_angle;
+            o.preserve = preserve;
+            o.strict = strict;
+            return reshape(mesh, group, o, known);
+        },
+        py::arg("group"), py::arg("onto"), py::arg("by"), py::arg("scale"), py::arg("name"), py::arg("feature_angle"),
+        py::arg("preserve"), py::arg("strict"));
+}
+
 void bind_session(py::module_& module) {
     py::class_<Scalpel>(module, "Scalpel")
         // The session gets its own copy, so that groups added to the Python mesh later do not reach it.
@@ -272,6 +298,7 @@ void bind_operators(py::module_& module) {
     bind_functions(module);
     bind_merge(module);
     bind_refine(module);
+    bind_reshape(module);
 }
 
 }  // namespace femscalpel::bindings

@@ -7,6 +7,7 @@
 #include "cancel.h"
 #include "cutting/held_inside.h"
 #include "cutting/mend_curved.h"
+#include "cutting/merging.h"
 #include "deformation/curved_shape.h"
 #include "deformation/deformation.h"
 #include "deformation/relaxation.h"
@@ -24,7 +25,7 @@ constexpr double improvement_goal = 0.45;
 
 class Improver {
 public:
-    explicit Improver(Workpiece& f) : f_(f), d_(f.d), band_(f.d.band) {}
+    explicit Improver(Workpiece& f) : f_(f), d_(f.d), band_(f.d.band), merger_(f) {}
 
     /// Merges new nodes of bad elements away; true if any was.
     bool merge_nodes(double goal) {
@@ -34,7 +35,7 @@ public:
         for (const auto& [quality, nodes] : bad_elements(goal))
             for (const int p : nodes) {
                 if (p < 0 || in_vain[p] || !band_.is_new(p) || band_.nodes[p].global >= 0) continue;
-                const int target = try_merge(p);
+                const int target = merger_.merge(p);
                 in_vain[p] = 1;
                 if (target < 0) continue;
                 any = true;
@@ -66,7 +67,7 @@ public:
                     }
                 }
             // An earlier split of this round may have taken the edge.
-            if (a < 0 || !(joined(band_.tetras, a, b) || joined(band_.triangles, a, b))) continue;
+            if (a < 0 || !(in_one(band_.tetras, a, b) || in_one(band_.triangles, a, b))) continue;
             const Contact tools = d_.edge_contact(a, b);
             const auto [at, fits, worst] = d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools);
             const bool bent = !d_.constraints.is_straight(d_.constraints.on_edge(band_, a, b));
@@ -118,127 +119,10 @@ private:
         return bad;
     }
 
-    template <std::size_t N>
-    static bool joined(const SimplexList<N>& list, int a, int b) {
-        return std::ranges::any_of(list.around(a),
-                                   [&](int s) { return std::ranges::find(list[s], b) != list[s].end(); });
-    }
-
-    /// Whether moving p onto t keeps everything p stands for.
-    bool may_merge(int p, int t) {
-        // Where tools cross, nodes stay; on one tool the edge p-t must run in it.
-        if (d_.contact[p].count() > 1 || !d_.contact[t].includes(d_.contact[p])) return false;
-        if (!band_.cut_faces.around(p).empty() && !joined(band_.cut_faces, p, t)) return false;
-        if (!band_.cut_edges.around(p).empty() && !joined(band_.cut_edges, p, t)) return false;
-        const NodeConstraint& c = d_.constraints[p];
-        if (d_.constraints.is_related(p) && !band_.skin.around(p).empty()) return false;
-        // On a surface or crease the edge p-t itself must run in it.
-        if (!band_.creases.around(p).empty()) {
-            if (c.freedom != NodeFreedom::curve || !joined(band_.creases, p, t)) return false;
-        } else if (!band_.skin.around(p).empty() && !joined(band_.skin, p, t)) {
-            return false;
-        }
-        if (!band_.lines.around(p).empty() && !joined(band_.lines, p, t)) return false;
-        if (f_.patched && closes(p, t)) return false;
-        return !d_.membership.merge_links(band_, p, t);
-    }
-
-    /// Whether, with p moved onto t, all nodes of a face or edge of a bounded crack would be on its front: it could not
-    /// open.
-    bool closes(int p, int t) const {
-        const auto on_front = [&](int v) { return d_.contact[v].count() > 1; };
-        if (!on_front(t)) return false;
-        const auto any_closed = [&](const auto& list) {
-            return std::ranges::any_of(list.around(p), [&](int s) {
-                const auto& nodes = list[s];
-                return std::ranges::find(nodes, t) == nodes.end() &&
-                       std::ranges::all_of(nodes, [&](int v) { return v == p || on_front(v); });
-            });
-        };
-        // So would the crack's mouth, were its only node between two of the front to go.
-        for (const int s : band_.cut_faces.around(p))
-            for (const int w : band_.cut_faces[s])
-                if (w != p && w != t && on_front(w) && band_.is_cut_border(p, w) &&
-                    d_.constraints.is_skin_edge(band_, p, w))
-                    return true;
-        return any_closed(band_.cut_faces) || any_closed(band_.cut_edges);
-    }
-
-    /// Link condition: every node next to both p and t forms a triangle (tetrahedron face) with them.
-    bool link_is_sound(int p, int t) {
-        band_.neighbours(p, near_p_);
-        band_.neighbours(t, near_t_);
-        common_.clear();
-        std::ranges::set_intersection(near_p_, near_t_, std::back_inserter(common_));
-        for (const int w : common_) {
-            const auto holds = [&](const auto& list) {
-                return std::ranges::any_of(list.around(p), [&](int s) {
-                    return std::ranges::find(list[s], t) != list[s].end() &&
-                           std::ranges::find(list[s], w) != list[s].end();
-                });
-            };
-            if (!holds(band_.tetras) && !holds(band_.triangles)) return false;
-        }
-        // The same on surfaces and creases, whose own links are smaller.
-        for (const int w : common_) {
-            const auto on_surface = [&](int a, int b) {
-                return joined(band_.skin, a, b) || joined(band_.cut_faces, a, b);
-            };
-            if (on_surface(p, w) && on_surface(t, w) && on_surface(p, t) && band_.skin.find({p, t, w}) < 0 &&
-                band_.cut_faces.find({p, t, w}) < 0)
-                return false;
-            if (joined(band_.creases, p, w) && joined(band_.creases, t, w)) return false;
-            if (joined(band_.cut_edges, p, w) && joined(band_.cut_edges, t, w)) return false;
-        }
-        return true;
-    }
-
-    double quality_merged(int p, int t) const {
-        const Vec3& at = band_.nodes[t].at;
-        double worst = 1;
-        const auto point = [&](int v) -> const Vec3& { return v == p ? at : band_.nodes[v].at; };
-        for (const int s : band_.tetras.around(p)) {
-            const auto& v = band_.tetras[s];
-            if (std::ranges::find(v, t) == v.end())
-                worst = std::min(worst, mean_ratio(point(v[0]), point(v[1]), point(v[2]), point(v[3])));
-        }
-        for (const int s : band_.triangles.around(p)) {
-            const auto& v = band_.triangles[s];
-            if (std::ranges::find(v, t) != v.end() || !d_.constraints.is_shell(band_.triangles.origin(s))) continue;
-            const double turned = (point(v[1]) - point(v[0]))
-                                      .cross(point(v[2]) - point(v[0]))
-                                      .dot(d_.shell_normals[band_.triangles.origin(s)]);
-            worst = std::min(worst, std::copysign(mean_ratio(point(v[0]), point(v[1]), point(v[2])), turned));
-        }
-        return worst;
-    }
-
-    /// Merges p into the neighbour that makes the elements around it best; that neighbour, or -1 if none makes them
-    /// better.
-    int try_merge(int p) {
-        check_cancelled();
-        if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return -1;
-        band_.neighbours(p, candidates_);
-        double best = quality_around(d_, p, band_.nodes[p].at) + 1e-3;
-        int target = -1;
-        for (const int t : candidates_) {
-            if (!may_merge(p, t)) continue;
-            const double q = quality_merged(p, t);
-            if (q > best && link_is_sound(p, t) && curved_merged(d_, p, t) >= curved_limit) {
-                best = q;
-                target = t;
-            }
-        }
-        if (target < 0) return -1;
-        band_.merge_node(p, target);
-        d_.contact[p] = {};
-        return target;
-    }
-
     Workpiece& f_;
     Deformable& d_;
     BandMesh& band_;
-    std::vector<int> near_p_, near_t_, common_, candidates_;
+    NodeMerger merger_;
     std::vector<int> touched_;  // nodes born, and nodes others were merged into
 };
 

@@ -112,6 +112,60 @@ Foot walk(const std::vector<Piece>& pieces, const std::vector<std::vector<int>>&
     return best;
 }
 
+/// Whether a surface has no other facet at the edge of nodes a and b of this one.
+bool is_border(const KeptGeometry& g, int facet, int a, int b) {
+    return std::ranges::none_of(g.facets_around[a], [&](int k) {
+        return k != facet && g.facets[k].shape == g.facets[facet].shape &&
+               std::ranges::find(g.facets[k].node, b) != g.facets[k].node.end();
+    });
+}
+
+/// Whether a surface ends at a node.
+bool ends_at(const KeptGeometry& g, int shape, int node) {
+    return std::ranges::any_of(g.facets_around[node], [&](int k) {
+        if (g.facets[k].shape != shape) return false;
+        return std::ranges::any_of(g.facets[k].node, [&](int w) { return w != node && is_border(g, k, node, w); });
+    });
+}
+
+/// Where the point nearest to `x` is on the border of its surface, goes on from there to the one in its tangent plane.
+void go_on_from_border(Foot& foot, const KeptGeometry& g, const Vec3& x) {
+    constexpr double on_side = 1e-9;
+    const Facet& f = g.facets[foot.piece];
+    if (foot.inside > on_side) return;
+    Vec3 bary;
+    closest_on_triangle(f.corner[0], f.corner[1], f.corner[2], foot.at, bary);
+    const double slack = on_side + (f.curved ? f.sag / f.height : 0);
+    const auto ends_here = [&](int k) {
+        const int a = f.node[(k + 1) % 3], b = f.node[(k + 2) % 3];
+        // In a corner the border may be that of another facet.
+        if (bary[(k + 1) % 3] <= slack) return ends_at(g, f.shape, b);
+        if (bary[(k + 2) % 3] <= slack) return ends_at(g, f.shape, a);
+        return is_border(g, foot.piece, a, b);
+    };
+    for (int k = 0; k < 3; ++k) {
+        if (bary[k] > slack || !ends_here(k)) continue;
+        const double off = foot.normal.dot(x - foot.at);
+        foot.at = x - off * foot.normal;
+        foot.distance2 = off * off;
+        return;
+    }
+}
+
+/// The same of the end of a line, along its tangent.
+void go_on_from_end(Foot& foot, const KeptGeometry& g, const Vec3& x) {
+    const Segment& s = g.segments[foot.piece];
+    for (int k = 0; k < 2; ++k) {
+        if (foot.at != s.end[k]) continue;
+        if (std::ranges::count_if(g.segments_around[s.node[k]], [&](int o) { return g.segments[o].shape == s.shape; }) >
+            1)
+            continue;
+        foot.at += foot.normal.dot(x - foot.at) * foot.normal;
+        foot.distance2 = (foot.at - x).squaredNorm();
+        return;
+    }
+}
+
 void put_on_shape(Foot& foot, const CadShape::Foot& on, const Vec3& x) {
     foot.at = on.at;
     foot.normal = on.direction;
@@ -178,6 +232,10 @@ Foot surface_foot(const KeptGeometry& g, const NodeConstraint& c, const Vec3& x)
         const double d = s.normal.dot(x - s.origin);
         return {.at = x - d * s.normal, .normal = s.normal, .distance2 = d * d, .piece = c.hint};
     }
+    if (s.exact) {
+        const Vec3 at = s.exact->project(x);
+        return {.at = at, .normal = s.exact->normal(at), .distance2 = (at - x).squaredNorm(), .piece = c.hint};
+    }
     const auto foot_of = [&](const KeptGeometry::Facet& f, double limit2) { return foot_on(f, x, limit2); };
     // On it, or nearer than any smooth neighbour can be.
     const auto is_nearest = [&](const Foot& foot) {
@@ -185,6 +243,7 @@ Foot surface_foot(const KeptGeometry& g, const NodeConstraint& c, const Vec3& x)
         return off <= 1e-14 * g.size || 2 * off < foot.inside * g.facets[foot.piece].height;
     };
     Foot best = walk(g.facets, g.facets_around, c.hint, x, 64, foot_of, is_nearest);
+    if (s.goes_on) go_on_from_border(best, g, x);
     const int cad = g.facets[best.piece].cad;
     if (cad >= 0) put_on_shape(best, g.shape->on_face(cad, x), x);
     return best;
@@ -200,6 +259,7 @@ Foot curve_foot(const KeptGeometry& g, const NodeConstraint& c, const Vec3& x) {
     const auto is_nearest = [](const Foot&) { return false; };
     Foot best = walk(g.segments, g.segments_around, c.hint, x, 256, foot_of, is_nearest);
     const KeptGeometry::Segment& segment = g.segments[best.piece];
+    if (curve.goes_on) go_on_from_end(best, g, x);
     if (segment.cad >= 0)
         put_on_shape(best, g.shape->on_edge(segment.cad, x), x);
     else if (segment.cad_face >= 0)

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "deformation/kept_parts.h"
 #include "mesh/band_mesh.h"
 #include "tools/cad_shape.h"
+#include "tools/tool.h"
 
 namespace femscalpel {
 
@@ -58,6 +60,9 @@ struct KeptGeometry {
         int kind = 0;                ///< groups with their boundary here: a kind of BandBoundaries
         Vec3 normal = Vec3::Zero();  ///< of the plane, if flat
         Vec3 origin = Vec3::Zero();  ///< on the plane, if flat
+        /// What it is exactly, if that is known: then it goes on without end, as planes do.
+        std::shared_ptr<const Tool> exact = {};
+        bool goes_on = false;  ///< beyond its border it goes on in its tangent planes there
         bool is_skin() const { return !internal && !shell; }
     };
     /// A piece of a curve: an edge.
@@ -80,6 +85,7 @@ struct KeptGeometry {
         int kind = 0;         ///< groups with a linking edge here: a kind of BandBoundaries
         Vec3 origin = Vec3::Zero();
         Vec3 direction = Vec3::Zero();
+        bool goes_on = false;  ///< beyond its ends it goes on along its tangents there
     };
     /// What a node keeps to because of where it is.
     struct Place {
@@ -125,6 +131,18 @@ struct KeptGeometry {
     /// What a node of the input keeps to: nothing, one surface, one curve, or (a corner, an end, a front of a crack
     /// that bends, a point where surfaces only touch) its place.
     Place place_of(int node) const;
+
+    /// Takes a facet or segment out of what is around its nodes: it counts no more for their places.
+    void forget_facet(int facet) {
+        for (const int v : facets[facet].node) std::erase(facets_around[v], facet);
+    }
+    void forget_segment(int segment) {
+        for (const int v : segments[segment].node) std::erase(segments_around[v], segment);
+    }
+
+    /// Whether two surfaces lie in one plane, or two curves on one line.
+    bool are_one_plane(int surface, int other) const;
+    bool are_one_line(int curve, int other) const;
 
     /// Puts the facets and segments into the band's `skin` and `creases` (tag: surface or curve), to be split along
     /// with the elements. Those must be empty.

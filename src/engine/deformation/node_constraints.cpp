@@ -217,6 +217,7 @@ void NodeConstraints::find_isolated(const BandMesh& band, const BandBoundaries& 
 void NodeConstraints::find_freedom(const BandMesh& band, const ConstraintOptions& options) {
     SparseCheck check(64);
     leash_.assign(nodes_.size(), std::numeric_limits<double>::infinity());
+    held_.assign(nodes_.size(), 0);
     if (!options.related.empty())
         for (const BandNode& n : band.nodes) related_.push_back(std::ranges::binary_search(options.related, n.global));
     for (int v = 0; v < band.size(); ++v) {
@@ -224,7 +225,10 @@ void NodeConstraints::find_freedom(const BandMesh& band, const ConstraintOptions
         if (!band.nodes[v].movable() || !band.vertices.around(v).empty() ||
             std::ranges::binary_search(options.pinned, band.nodes[v].global))
             fix_node(v);
-        if (nodes_[v].freedom == NodeFreedom::fixed) continue;
+        if (nodes_[v].freedom == NodeFreedom::fixed) {
+            held_[v] = band.nodes[v].movable();
+            continue;
+        }
         const KeptGeometry::Place place = geometry_.place_of(v);
         nodes_[v] = place.constraint;
         leash_[v] = place.leash;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_set>
@@ -50,6 +51,23 @@ public:
     /// To be called after add_node() for a node that was such a mid-side node, and for nodes that are held beside a
     /// tool.
     void fix_node(int node) { nodes_[node].freedom = NodeFreedom::fixed; }
+
+    /// Takes faces and edges (slots of BandMesh::skin and BandMesh::creases, where nothing has moved or been split yet)
+    /// out of what is kept: they are to be moved. Their nodes keep to what else there is.
+    void release(BandMesh& band, std::span<const int> facets, std::span<const int> segments);
+
+    /// Makes a curved surface of the kept geometry what it is exactly.
+    void set_exact(int surface, std::shared_ptr<const Tool> exact) {
+        geometry_.surfaces[surface].exact = std::move(exact);
+    }
+
+    /// Makes a curved surface, a bent line go on beyond its border, its ends.
+    void let_surface_go_on(int surface) { geometry_.surfaces[surface].goes_on = true; }
+    void let_curve_go_on(int curve) { geometry_.curves[curve].goes_on = true; }
+
+    /// Whether something other than the geometry held a node of the input: a group it is isolated in, the solver's
+    /// input, an element that ends there.
+    bool is_held(int node) const { return node < static_cast<int>(held_.size()) && held_[node] != 0; }
 
     /// The constraint a node in the middle of the edge a-b has (of an existing edge of the band).
     NodeConstraint on_edge(const BandMesh& band, int a, int b) const;
@@ -132,6 +150,7 @@ private:
     void find_isolated(const BandMesh& band, const BandBoundaries& boundaries, const ConstraintOptions& options);
     void find_freedom(const BandMesh& band, const ConstraintOptions& options);
     void find_exterior();
+    NodeConstraint place_beside(int node) const;
     bool is_border(const BandMesh& band, int crease) const { return geometry_.curves[band.creases.tag(crease)].border; }
     const KeptGeometry::Surface& surface(const BandMesh& band, int skin) const {
         return geometry_.surfaces[band.skin.tag(skin)];
@@ -143,6 +162,7 @@ private:
     KeptGeometry geometry_;
     std::vector<NodeConstraint> nodes_;
     std::vector<double> leash_;
+    std::vector<char> held_;     // by input node: is_held()
     std::vector<char> related_;  // nodes related by equations, and those born between them; empty if none
     std::vector<char> exterior_;
     std::vector<char> shell_;

@@ -198,30 +198,6 @@ std::vector<char> changed_groups(const Mesh& before, const Rebuilt& rebuilt) {
     return changed;
 }
 
-/// Moved nodes, boundary drift and losses of each group. Nodes from the number `first_new` on are not the input's and
-/// do not count.
-void describe_motion(const Workpiece& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes,
-                     Report& report) {
-    count_moved_nodes(before, first_new, rebuilt, report);
-    const std::vector<Motion> motion = motion_of_groups(f, before, first_new, rebuilt);
-    const std::vector<char> changed = changed_groups(before, rebuilt);
-    std::size_t record = 0;
-    for (std::size_t g = 0; g < rebuilt.mesh.groups.size(); ++g) {
-        if (rebuilt.mesh.groups[g].hidden) continue;
-        GroupRecord& r = report.groups[record++];
-        if (g >= before.groups.size()) continue;
-        r.nodes_moved = motion[g].moved;
-        r.boundary_drift = motion[g].drift;
-        const bool smaller =
-            r.measure_after < r.measure_before || (r.measure_before == 0 && r.count_after < r.count_before);
-        if (removes && (motion[g].nodes_gone > 0 ||
-                        (r.kind != GroupKind::node && smaller && (r.status == "changed" || r.measure_before == 0))))
-            r.status = r.count_after == 0 ? "became empty" : "reduced";
-        if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after)
-            r.status = "untouched";
-    }
-}
-
 /// Splitting and merging can leave a node that moved, or an end of a split edge, outside the neighbourhood of the final
 /// interface; it still belongs to the transition.
 void add_moved_nodes(Workpiece& f) {
@@ -244,6 +220,28 @@ std::vector<Index> numbers(const std::vector<int>& nodes, const std::vector<Inde
 }
 
 }  // namespace
+
+void describe_motion(const Workpiece& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes,
+                     Report& report) {
+    count_moved_nodes(before, first_new, rebuilt, report);
+    const std::vector<Motion> motion = motion_of_groups(f, before, first_new, rebuilt);
+    const std::vector<char> changed = changed_groups(before, rebuilt);
+    std::size_t record = 0;
+    for (std::size_t g = 0; g < rebuilt.mesh.groups.size(); ++g) {
+        if (rebuilt.mesh.groups[g].hidden) continue;
+        GroupRecord& r = report.groups[record++];
+        if (g >= before.groups.size()) continue;
+        r.nodes_moved = motion[g].moved;
+        r.boundary_drift = motion[g].drift;
+        const bool smaller =
+            r.measure_after < r.measure_before || (r.measure_before == 0 && r.count_after < r.count_before);
+        if (removes && (motion[g].nodes_gone > 0 ||
+                        (r.kind != GroupKind::node && smaller && (r.status == "changed" || r.measure_before == 0))))
+            r.status = r.count_after == 0 ? "became empty" : "reduced";
+        if (r.status == "kept" && motion[g].moved == 0 && !changed[g] && r.count_before == r.count_after)
+            r.status = "untouched";
+    }
+}
 
 Account::Account(const char* kind, const OperatorOptions& options, const Edit& edit, const Refined* refined,
                  const std::vector<bool>& drifting)

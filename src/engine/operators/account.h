@@ -13,6 +13,11 @@
 
 namespace femscalpel {
 
+/// Moved nodes, boundary drift and losses of each group. Nodes from the number `first_new` on are not the input's and
+/// do not count.
+void describe_motion(const Workpiece& f, const Mesh& before, Index first_new, const Rebuilt& rebuilt, bool removes,
+                     Report& report);
+
 /// Fills the report of an operation that cut along blades, and finds what to warn of: call open(), judge() and close(),
 /// in this order.
 class Account {

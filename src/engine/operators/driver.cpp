@@ -45,30 +45,6 @@ int bandwidth(const Location& location, const Mesh& mesh) {
     return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
 }
 
-/// Throws ToolError when the operator could not call its groups so.
-void check_name(const Mesh& mesh, const std::string& name, const Naming& naming) {
-    if (name.empty()) throw ToolError("name is empty; the new groups need one", "name");
-    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
-        std::string::npos)
-        throw ToolError(
-            "name '" + name +
-                "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups",
-            "name");
-    std::set<std::string> groups;
-    for (const auto& list : naming.groups) groups.insert(list.begin(), list.end());
-    if (!naming.front.empty()) groups.insert(naming.front);
-    for (const std::string& group : groups) {
-        if (group.size() > longest_name)
-            throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " +
-                                std::to_string(group.size()) + " characters, at most " + std::to_string(longest_name) +
-                                " are allowed",
-                            "name");
-        if (mesh.find_group(group))
-            throw ToolError(
-                "name '" + name + "' is taken: the mesh already has a group '" + group + "'; choose another", "name");
-    }
-}
-
 void check_options(const OperatorOptions& options) {
     if (options.transition && (*options.transition < 1 || *options.transition > 20))
         throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20",
@@ -181,6 +157,29 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
 }
 
 }  // namespace
+
+void check_name(const Mesh& mesh, const std::string& name, const Naming& naming) {
+    if (name.empty()) throw ToolError("name is empty; the new groups need one", "name");
+    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
+        std::string::npos)
+        throw ToolError(
+            "name '" + name +
+                "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups",
+            "name");
+    std::set<std::string> groups;
+    for (const auto& list : naming.groups) groups.insert(list.begin(), list.end());
+    if (!naming.front.empty()) groups.insert(naming.front);
+    for (const std::string& group : groups) {
+        if (group.size() > longest_name)
+            throw ToolError("name '" + name + "' is too long: group '" + group + "' would have " +
+                                std::to_string(group.size()) + " characters, at most " + std::to_string(longest_name) +
+                                " are allowed",
+                            "name");
+        if (mesh.find_group(group))
+            throw ToolError(
+                "name '" + name + "' is taken: the mesh already has a group '" + group + "'; choose another", "name");
+    }
+}
 
 Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cutting/locate.h"
@@ -66,6 +67,9 @@ public:
     /// With the band put back: where its nodes are in the result.
     virtual void finished(const Rebuilt& rebuilt) { (void)rebuilt; }
 };
+
+/// Throws ToolError that names `name` when an operator could not call its groups so.
+void check_name(const Mesh& mesh, const std::string& name, const Naming& naming);
 
 /// Runs a recipe on a mesh (resources/docs/architecture.md): refines the mesh first where it is coarser than the tools,
 /// finds the band and what its nodes have to keep to, has the recipe cut and open it, puts the band back, carries the

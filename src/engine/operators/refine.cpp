@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <sstream>
 
 #include "cancel.h"
@@ -20,6 +19,7 @@
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "mesh/stopwatch.h"
+#include "operators/changed_quality.h"
 #include "operators/edit.h"
 
 namespace femscalpel {
@@ -72,28 +72,6 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& fiel
             "or split these elements into tetrahedra first");
     }
     return level;
-}
-
-/// Elements of the band that were split, and their parts.
-void describe_quality(const Mesh& mesh, const Workpiece& f, const Rebuilt& rebuilt, Report& report) {
-    std::set<Index> attached;  // triangles on tetrahedra: their shape is that of the tetrahedra
-    for (std::size_t t = 0; t < f.d.band.triangle_cells.size(); ++t)
-        if (const CellRef& c = f.d.band.triangle_cells[t]; !f.d.constraints.is_shell(static_cast<int>(t)))
-            attached.insert(mesh.block(c.type).ids[c.cell]);
-    for (const Changes::Part& part : rebuilt.changes.parts)
-        if (attached.contains(part.parent)) attached.insert(part.element);
-    const auto collect = [&](const Mesh& m, const std::vector<CellRef>& cells) {
-        std::vector<ElementQuality> out;
-        SparseCheck check;
-        for (const CellRef& c : cells) {
-            check();
-            if (const Index id = m.block(c.type).ids[c.cell]; traits(c.type).dimension > 1 && !attached.contains(id))
-                out.push_back({id, mean_ratio(m, c.type, c.cell)});
-        }
-        return out;
-    };
-    report.quality_before = summarise(collect(mesh, rebuilt.before));
-    report.quality_after = summarise(collect(rebuilt.mesh, rebuilt.after));
 }
 
 /// A band around long edges, bisected.
@@ -176,7 +154,7 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
     report.warnings = warnings_of(bisected, mesh, edited);
     report.nodes_added = report.nodes_split = rebuilt.nodes_split;
     report.elements_added = rebuilt.elements_added;
-    describe_quality(mesh, bisected.workpiece(), rebuilt, report);
+    describe_changed(mesh, bisected.workpiece(), rebuilt, report);
     if (report.quality_before.minimum > 0 && report.quality_after.minimum <= 0)
         throw QualityError("elements would be inverted by refinement; choose a larger size, or another place");
     report.groups = compare_groups(mesh, edited.before, rebuilt.mesh, edited.after);

@@ -20,7 +20,7 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import Format, formats, read, write
-from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine
+from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine, reshape
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import ElementQuality, GroupRecord, HeldNodes, PoorPlace, Quality, QualitySummary, Refinement, Report
 from .skin import Shape
@@ -73,6 +73,7 @@ __all__ = [
     "merge",
     "read",
     "refine",
+    "reshape",
     "scaled_jacobian",
     "smallest_angle",
     "to_meshio",

@@ -326,6 +326,31 @@ def refine(
     skin: CadShape | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
 
+@overload
+def reshape(
+    mesh: Mesh,
+    group: str,
+    onto: Tool,
+    by: Sequence[float] | None,
+    scale: tuple[float, Sequence[float]] | None,
+    name: str,
+    feature_angle: float,
+    preserve: Sequence[str] | None,
+    strict: bool,
+) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def reshape(
+    session: Scalpel,
+    group: str,
+    onto: Tool,
+    by: Sequence[float] | None,
+    scale: tuple[float, Sequence[float]] | None,
+    name: str,
+    feature_angle: float,
+    preserve: Sequence[str] | None,
+    strict: bool,
+) -> tuple[Mesh, dict[str, Any]]: ...
+
 def virtual_boundaries(
     mesh: Mesh,
     groups: Sequence[tuple[str, str]],

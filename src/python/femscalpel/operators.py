@@ -2,13 +2,13 @@
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
 from dataclasses import dataclass
-from typing import Optional, Sequence, Union
+from typing import Iterable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
-from .options import ShapeOption, on_session, takes_options
+from .options import ShapeOption, check_feature_angle, check_preserve, on_session, takes_options
 from .report import Report
 from .skin import check_skin
 from .tools import Plane, Tool, check_tool
@@ -473,6 +473,106 @@ def _near(near) -> tuple:
     return [], points
 
 
+def reshape(
+    mesh: Mesh,
+    group: str,
+    onto: Optional[Tool] = None,
+    by: Optional[Sequence[float]] = None,
+    scale: Optional[Tuple[float, Sequence[float]]] = None,
+    name: str = "SHAPE",
+    feature_angle: float = 30.0,
+    preserve: Optional[Iterable[str]] = None,
+    strict: bool = False,
+) -> Result:
+    """Moves a wall: a face to another plane, a hole to another radius or place.
+
+    The wall is what a group covers. The elements around it follow, as far as needed; where they get long, short or poor
+    they are divided and merged. All else keeps its number, its coordinates bit for bit and its groups. `mesh` itself is
+    not changed.
+
+    Nodes of the wall, mid-side nodes too, come to lie on `onto`; with `by` and `scale` on the plane, cylinder or sphere
+    that the wall lies on, moved likewise, each of its smooth parts for itself. Walls of other shapes are carried as
+    they are. What of the motion runs along the wall itself does not count: a hole in a plate that is scaled stays
+    as long as the plate is thick.
+
+    Surfaces beside the wall, feature lines and borders of groups that end at it stay what they are: the wall's rim
+    slides on them, and planes and straight lines go on beyond where they ended. So a face that is moved along its
+    normal takes its side walls along in their own planes, and becomes smaller or larger if these are not parallel. A
+    wall that is carried as it is cannot do that: surfaces beside it have to run along the motion, or it is an error.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Triangles (shells) and tetrahedra, linear or quadratic, near the wall; anything elsewhere.
+    group : str
+        What is moved. In a solid: a group of triangles or facets on tetrahedra (also between two groups inside the
+        material), or of nodes, which stands for the faces of the skin all of whose corners are members. In a mesh of
+        shells: of segments or facets on their border, or of its nodes.
+    onto : Tool, optional
+        The surface to move it onto: each node goes the shortest way that what it keeps to leaves.
+    by : three numbers, optional
+        The vector to move it by.
+    scale : (factor, centre), optional
+        Distances from the point `centre` are multiplied by `factor`. Just one of `onto`, `by` and `scale` is given.
+    name : str
+        Prefix of the new group ``name_WALL``: the nodes of the wall.
+    feature_angle : float
+        Degrees; a skin edge sharper than this is a feature line that keeps its shape.
+    preserve, strict
+        As for :func:`crack`.
+
+    Returns
+    -------
+    Result
+        The report's node sets are WALL and BAND: nodes of the wall, and others that moved or were born (corners). Its
+        quality is that of the elements that were changed.
+
+    Raises
+    ------
+    ToolError
+        The group is none of the mesh or covers nothing, none or more than one of `onto`, `by` and `scale` is given, or
+        the wall cannot get there: it would meet another, turn elements inside out, or leave what is beside it. The
+        error's `parameter` is the one at fault.
+    UnsupportedElementError, QualityError, Error, TypeError, ValueError
+        As for :func:`crack`.
+
+    Examples
+    --------
+    >>> wider = reshape(mesh, "HOLE_WALL", onto=Cylinder((6, 5, 0), (0, 0, 1), 2.5))
+    >>> longer = reshape(mesh, "END", by=(0.5, 0, 0))
+    """
+    if onto is not None:
+        check_tool(onto, "onto")
+    if by is not None:
+        by = _arguments.vector(by, "by")
+    return _run(
+        _engine.reshape,
+        mesh,
+        _arguments.text(group, "group"),
+        onto,
+        by,
+        _scale(scale),
+        _arguments.text(name, "name"),
+        check_feature_angle(feature_angle),
+        check_preserve(preserve),
+        _arguments.flag(strict, "strict"),
+    )
+
+
+def _scale(scale) -> Optional[tuple]:
+    """(factor, centre) of reshape()'s parameter."""
+    if scale is None:
+        return None
+    try:
+        factor, centre = scale
+    except (TypeError, ValueError):
+        raise _arguments.about(
+            "scale",
+            TypeError(f"scale must be a factor and a point, (1.2, (0, 0, 0)), not {_arguments.describe(scale)}"),
+        ) from None
+    return _arguments.real(factor, "scale"), _arguments.vector(centre, "scale")
+
+
 class Scalpel:
     """Repeated operations on one mesh.
 
@@ -495,3 +595,5 @@ class Scalpel:
     drill = on_session(drill)
     cut = on_session(cut)
     fillet = on_session(fillet)
+    merge = on_session(merge)
+    reshape = on_session(reshape)

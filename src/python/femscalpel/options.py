@@ -36,7 +36,8 @@ def _transition(value):
     return None if value is None else _arguments.whole(value, "transition", 1)
 
 
-def _feature_angle(value):
+def check_feature_angle(value):
+    """Degrees, or ValueError."""
     value = _arguments.real(value, "feature_angle")
     if not 0 < value < 180:
         raise _arguments.about(
@@ -45,7 +46,8 @@ def _feature_angle(value):
     return value
 
 
-def _preserve(value):
+def check_preserve(value):
+    """A list of names or None, or TypeError."""
     if value is None:
         return None
     if isinstance(value, str) or not isinstance(value, Iterable):
@@ -118,7 +120,7 @@ OPTIONS = (
         "float",
         "Degrees; a skin edge sharper than this is a feature line that keeps its shape.",
         float,
-        _feature_angle,
+        check_feature_angle,
     ),
     Option(
         "strict",
@@ -137,7 +139,7 @@ OPTIONS = (
         "more freedom for the elements' shape. All are kept when not given; ``preserve=()`` keeps none. The skin and "
         "its feature lines are kept always, and so is what a deck's cards name by number.",
         Optional[Iterable[str]],
-        _preserve,
+        check_preserve,
     ),
     Option(
         "band_only",

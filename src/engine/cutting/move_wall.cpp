@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/move_wall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cancel.h"
+#include "cutting/mend_curved.h"
+#include "cutting/remesh.h"
+#include "cutting/untangler.h"
+#include "deformation/bar_network.h"
+#include "deformation/relaxation.h"
+
+namespace femscalpel {
+namespace {
+
+/// A step moves nodes by this part of the edges around them, at first; one that is smaller than that part of the first
+/// is not tried.
+constexpr double stride = 0.4, smallest_step = 1.0 / 64;
+/// Elements that come out of a step worse than this, or than half of what they were, spoil it.
+constexpr double spoilt = 0.08;
+/// Elements worse than this are worked on.
+constexpr double goal_of_steps = 0.35, goal_of_end = 0.45;
+
+class Mover {
+public:
+    Mover(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh)
+        : f_(f),
+          d_(f.d),
+          band_(f.d.band),
+          wall_(wall),
+          motion_(motion),
+          mesh_(mesh),
+          goals_(f, wall, motion, mesh),
+          remesher_(f, mesh, [this](int v) { return slides(v); }) {}
+
+    MovedWall run() {
+        MovedWall out;
+        const double bound = std::min(spoilt, remesher_.worst() / 2);
+        double left = 1, step = first_step();
+        const double smallest = smallest_step * step;
+        while (left > 0) {
+            step = std::min(step, left);
+            const std::vector<BandNode> before = band_.nodes;
+            advance(step >= left ? 1 : step / left);
+            if (!(remesher_.worst() >= bound)) {
+                band_.nodes = before;
+                step /= 2;
+                if (step < smallest) refuse();
+                continue;
+            }
+            ++out.steps;
+            left = step >= left ? 0 : left - step;
+            if (left == 0) break;
+            remesher_.run(goal_of_steps);
+            goals_.add_nodes();
+            step *= 1.5;
+            step = std::min(step, first_step() * left);
+        }
+        finish();
+        out.taken_out = remesher_.taken_out();
+        return out;
+    }
+
+private:
+    bool on_wall(int v) const { return is_on_wall(band_, v); }
+
+    /// Whether moving a node along what it keeps to could change that: bent lines and curved surfaces of which only
+    /// points are known. Those that end at the wall change with it.
+    bool is_bent(int v) const {
+        const NodeConstraint& c = d_.constraints[v];
+        if (d_.constraints.is_straight(c)) return false;
+        if (c.freedom == NodeFreedom::curve) return !wall_.curves.contains(c.shape);
+        return !wall_.surfaces.contains(c.shape);
+    }
+
+    /// Nodes of the wall are where they belong; once on their tool they may slide on it, but for those between two
+    /// patches.
+    bool slides(int v) const {
+        if (!on_wall(v)) return !is_bent(v);
+        return arrived_ && d_.contact[v] && !d_.constraints.is_held(v) && wall_tags(band_, v).size() == 1;
+    }
+
+    std::vector<int> wall_nodes() const {
+        std::vector<int> out;
+        for (int v = 0; v < band_.size(); ++v)
+            if (band_.in_use(v) && on_wall(v)) out.push_back(v);
+        return out;
+    }
+
+    /// The part of what is left that moves no node farther than its stride.
+    double first_step() const {
+        double most = 1;
+        for (const int v : wall_nodes())
+            most = std::max(most, (goals_[v] - band_.nodes[v].at).norm() / (stride * band_.mean_edge_length(v)));
+        return 1 / most;
+    }
+
+    void advance(double part) {
+        const std::vector<int> wall = wall_nodes(), others = remesher_.movable();
+        std::vector<Vec3> moves;
+        for (const int v : wall) {
+            Vec3 x = part == 1 ? goals_[v] : Vec3(band_.nodes[v].at + part * (goals_[v] - band_.nodes[v].at));
+            if (part < 1 && !d_.constraints.is_straight(d_.constraints[v])) d_.constraints.project(v, {}, x);
+            moves.push_back(x - band_.nodes[v].at);
+        }
+        const std::vector<Vec3> spread = bar_network_displacements(d_, wall, moves, others);
+        for (std::size_t k = 0; k < wall.size(); ++k) band_.nodes[wall[k]].at += moves[k];
+        if (part == 1)
+            for (const int v : wall) band_.nodes[v].at = goals_[v];
+        for (std::size_t k = 0; k < others.size(); ++k) {
+            const int v = others[k];
+            if (spread[k].isZero(0)) continue;
+            Vec3 x = band_.nodes[v].at + spread[k];
+            if (d_.constraints.project(v, d_.contact[v], x) && !d_.is_barred(v, x)) band_.nodes[v].at = x;
+        }
+        if (remesher_.worst() < spoilt) untangle(d_, others, 2 * spoilt);
+        relax(d_, others);
+    }
+
+    void finish() {
+        for (const int v : wall_nodes()) d_.contact[v] = goals_.tools(v);
+        arrived_ = true;
+        relax(d_, remesher_.movable());
+        remesher_.run(goal_of_end);
+        mend_curved(f_, false);
+    }
+
+    [[noreturn]] void refuse() const {
+        std::ostringstream message;
+        message
+            << "the wall cannot be moved so far: elements beside it would be turned inside out, as there is no room "
+               "for it, or what is beside it is kept where it is (groups, feature lines). Move it less";
+        throw ToolError(message.str(), motion_.parameter);
+    }
+
+    Workpiece& f_;
+    Deformable& d_;
+    BandMesh& band_;
+    const Wall& wall_;
+    const WallMotion& motion_;
+    const Mesh& mesh_;
+    WallGoals goals_;
+    Remesher remesher_;
+    bool arrived_ = false;
+};
+
+}  // namespace
+
+MovedWall move_wall(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh) {
+    return Mover(f, wall, motion, mesh).run();
+}
+
+}  // namespace femscalpel

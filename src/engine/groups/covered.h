@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// The faces of a solid, or else the edges of a shell, that a group covers, by their corner nodes, ascending, each
+/// once; of an edge the third is -1.
+struct Covered {
+    bool faces = false;  ///< the mesh is one of volume elements
+    std::vector<std::array<Index, 3>> parts;
+};
+
+/// What a group covers of the skin of a solid (of the border of shells): an element group its faces (edges), which may
+/// also be inside, a facet group its facets, a node group the faces of the skin (edges of the border) all of whose
+/// corners are members.
+///
+/// Throws ToolError that names `group` when that is nothing, or the group is one of volumes, or of shells in a mesh of
+/// shells; UnsupportedElementError when it covers quadrangles.
+Covered covered_by(const Mesh& mesh, GroupIndex group);
+
+}  // namespace femscalpel

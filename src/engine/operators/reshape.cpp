@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/reshape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <unordered_map>
+
+#include "cancel.h"
+#include "cutting/checks.h"
+#include "cutting/locate.h"
+#include "cutting/move_wall.h"
+#include "cutting/opening.h"
+#include "cutting/tangent.h"
+#include "groups/opened_areas.h"
+#include "groups/preserve.h"
+#include "mesh/rounding.h"
+#include "operators/account.h"
+#include "operators/changed_quality.h"
+#include "operators/driver.h"
+#include "operators/edit.h"
+#include "operators/warnings.h"
+
+namespace femscalpel {
+namespace {
+
+/// The band reaches as many rings of elements around the wall as it moves edges, times this, and some more.
+constexpr double rings_per_edge = 1.5;
+constexpr int least_rings = 4, most_rings = 60;
+
+void check(const ReshapeOptions& o) {
+    const int given = (o.onto != nullptr) + o.by.has_value() + o.scale.has_value();
+    if (given != 1) {
+        const char* at_fault = given == 0 ? "onto" : o.scale ? "scale" : "by";
+        throw ToolError(std::string(given == 0 ? "none" : "more than one") +
+                            " of onto, by and scale is given; reshape takes exactly one of them",
+                        at_fault);
+    }
+    if (o.by && !o.by->allFinite()) throw ToolError("by must be three finite lengths", "by");
+    if (o.by && o.by->isZero(0)) throw ToolError("by is zero: nothing would move", "by");
+    if (o.scale && !(std::isfinite(o.scale->factor) && o.scale->factor > 0 && o.scale->centre.allFinite())) {
+        std::ostringstream message;
+        message << "scale has the factor " << o.scale->factor << "; it must be positive, about a finite point";
+        throw ToolError(message.str(), "scale");
+    }
+    if (!(o.feature_angle > 0 && o.feature_angle < 180))
+        throw ToolError("feature_angle must lie between 0 and 180 degrees", "feature_angle");
+}
+
+GroupIndex find(const Mesh& mesh, const std::string& name) {
+    for (const GroupKind kind : {GroupKind::element, GroupKind::facet, GroupKind::node})
+        if (const auto group = mesh.find_group(name, kind)) return *group;
+    throw ToolError("the mesh has no group '" + name + "'", "group");
+}
+
+/// The motion the options ask for, without tools.
+WallMotion motion_of(const ReshapeOptions& o) {
+    WallMotion out;
+    out.parameter = o.onto ? "onto" : o.by ? "by" : "scale";
+    out.onto = o.onto;
+    if (o.by) out.carried.shift = *o.by;
+    if (o.scale) out.carried = {o.scale->factor, (1 - o.scale->factor) * o.scale->centre};
+    return out;
+}
+
+/// How far the motion takes the wall, in its mean edge length.
+double edges_moved(const Mesh& mesh, const Covered& covered, const WallMotion& motion) {
+    double farthest = 0, length = 0;
+    Index edges = 0;
+    for (const auto& part : covered.parts) {
+        const int corners = covered.faces ? 3 : 2;
+        for (int k = 0; k < corners; ++k) {
+            const Vec3& x = mesh.points[part[k]];
+            farthest =
+                std::max(farthest, motion.onto ? std::abs(motion.onto->distance(x)) : (motion.carried(x) - x).norm());
+            length += (x - mesh.points[part[(k + 1) % corners]]).norm();
+            ++edges;
+        }
+    }
+    return farthest * static_cast<double>(edges) / length;
+}
+
+std::vector<std::int8_t> levels_around(const Mesh& mesh, const Covered& covered, double edges,
+                                       const Adjacency* adjacency) {
+    std::vector<std::int8_t> level(mesh.points.size(), -1);
+    for (const auto& part : covered.parts)
+        for (const Index n : part)
+            if (n >= 0) level[n] = 0;
+    const double rings = least_rings + std::ceil(rings_per_edge * std::min(edges, 1e3));
+    spread_levels(mesh, level, std::min(most_rings, static_cast<int>(rings)), adjacency);
+    return level;
+}
+
+Workpiece workpiece(const Edit& edit, const ReshapeOptions& options, const std::vector<std::int8_t>& level) {
+    const Mesh& mesh = edit.mesh();
+    ConstraintOptions constraints = edit.constraints();
+    constraints.feature_angle = options.feature_angle;
+    constraints.drifting_groups = drifting_groups(mesh, options.preserve);
+    constraints.rounding = 2 * coordinate_rounding(mesh.points);
+    Workpiece f{.d = Deformable(extract_band(mesh, level, edit.adjacency()), mesh, constraints), .tool = options.onto};
+    f.tolerance = 1e-10 * f.d.constraints.geometry().size;
+    f.d.tolerance = f.tolerance;
+    f.bandwidth = *std::ranges::max_element(level);
+    f.distance.assign(static_cast<std::size_t>(f.d.band.size()), 0);
+    check_input_shape(f, mesh);
+    return f;
+}
+
+/// The band around the wall. What goes with the wall is added to `covered` and `following`.
+Workpiece band_of(const Edit& edit, const ReshapeOptions& options, Covered& covered,
+                  std::vector<std::array<Index, 3>>& following, const WallMotion& motion) {
+    const Mesh& mesh = edit.mesh();
+    const double edges = edges_moved(mesh, covered, motion);
+    const std::size_t asked_for = covered.parts.size();
+    for (;;) {
+        Covered all = covered;
+        all.parts.insert(all.parts.end(), following.begin(), following.end());
+        Workpiece f = workpiece(edit, options, levels_around(mesh, all, edges, edit.adjacency()));
+        const Beside beside = parts_beside(f, covered, following, options.feature_angle);
+        if (beside.same.empty() && beside.following.empty()) {
+            const auto warn = [&](std::size_t count, const char* what) {
+                if (count > 0)
+                    f.warnings.push_back(std::to_string(count) + (covered.faces ? " face(s)" : " edge(s)") +
+                                         " beside the group moved with it: " + what);
+            };
+            warn(covered.parts.size() - asked_for, "they lie on the same surface");
+            warn(following.size(), "they are tangent to it");
+            return f;
+        }
+        covered.parts.insert(covered.parts.end(), beside.same.begin(), beside.same.end());
+        following.insert(following.end(), beside.following.begin(), beside.following.end());
+    }
+}
+
+/// Adds the mid-side nodes of the wall's edges to the group of its nodes.
+void add_middles(const Workpiece& f, Rebuilt& rebuilt, GroupIndex group) {
+    Mesh& mesh = rebuilt.mesh;
+    std::unordered_map<Index, int> band_node;
+    for (int v = 0; v < f.d.band.size(); ++v)
+        if (rebuilt.node[v] >= 0 && is_on_wall(f.d.band, v)) band_node.emplace(rebuilt.node[v], v);
+    for (const CellRef& c : rebuilt.after) {
+        const CellTraits& t = traits(c.type);
+        if (!t.quadratic) continue;
+        const auto n = mesh.block(c.type).nodes(c.cell);
+        for (std::size_t e = 0; e < t.edges.size(); ++e) {
+            const auto a = band_node.find(n[t.edges[e][0]]), b = band_node.find(n[t.edges[e][1]]);
+            if (a == band_node.end() || b == band_node.end() || !f.d.band.is_cut_edge(a->second, b->second)) continue;
+            FamilyIndex& family = mesh.node_families[n[t.corners + static_cast<int>(e)]];
+            family = mesh.families.with(family, group);
+        }
+    }
+}
+
+Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, Edited& edited) {
+    const Mesh& before = edit.mesh();
+    const Rebuilt& rebuilt = edited.rebuilt;
+    Report report;
+    report.operation = "reshape";
+    report.name = options.name;
+    report.method = "deform";
+    report.transition = f.bandwidth;
+    report.nodes_added = report.nodes_split = rebuilt.nodes_split;
+    report.nodes_removed = rebuilt.nodes_removed;
+    report.elements_added = rebuilt.elements_added;
+    report.elements_removed = rebuilt.elements_removed;
+    for (int v = 0; v < f.d.band.size(); ++v)
+        if (const Index n = rebuilt.node[v]; n >= 0 && f.d.band.in_use(v)) {
+            const bool wall = is_on_wall(f.d.band, v);
+            if (wall || f.d.band.nodes[v].at != f.d.band.nodes[v].start)
+                report.node_sets[wall ? "WALL" : "BAND"].push_back(rebuilt.mesh.node_ids[n]);
+        }
+    describe_changed(before, f, rebuilt, report);
+    report.groups = compare_groups(before, edited.before, rebuilt.mesh, edited.after);
+    describe_motion(f, before, edit.numbering().node, rebuilt, false, report);
+    warn_of_emptied_groups(before, edit.meaningless(), report);
+    report.warnings.insert(report.warnings.end(), f.warnings.begin(), f.warnings.end());
+    report.warnings.insert(report.warnings.end(), edited.deck_warnings.begin(), edited.deck_warnings.end());
+    return report;
+}
+
+}  // namespace
+
+Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Prepared& known) {
+    Laps seconds;
+    Stopwatch watch(seconds);
+    check(options);
+    Naming naming;
+    naming.front = options.name + "_WALL";
+    check_name(input, options.name, naming);
+    (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    Covered covered = covered_by(input, find(input, group));
+    WallMotion motion = motion_of(options);
+    watch.lap("locate");
+    Edit edit(input, known);
+    if (input.companion) watch.lap("mark deck");
+    const Mesh& mesh = edit.mesh();
+    edit.start_copy();
+    std::vector<std::array<Index, 3>> following;
+    Workpiece f = band_of(edit, options, covered, following, motion);
+    const Wall wall = release_wall(f, covered, following);
+    go_on_beside(f, wall);
+    find_tools(f, wall, motion);
+    watch.lap("constraints");
+    const MovedWall moved = move_wall(f, wall, motion, mesh);
+    check_shape(f, mesh);
+    check_contacts(f);
+    watch.lap("move");
+    for (std::string& warning : warnings_of_opened_areas(f.d.band, mesh)) f.warnings.push_back(std::move(warning));
+    Opening opening = no_opening(f.d.band);
+    opening.removes = true;
+    for (int v = 0; v < f.d.band.size(); ++v)
+        if (f.d.band.in_use(v) && is_on_wall(f.d.band, v)) opening.front_nodes.push_back(v);
+    Edited edited = edit.finish(f, opening, naming, options.strict, watch);
+    add_middles(f, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
+    recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
+    Result result{{}, report_of(edit, options, f, edited)};
+    (void)moved;
+    result.mesh = std::move(edited.rebuilt.mesh);
+    remove_marks(result.mesh);
+    watch.lap("report");
+    result.report.seconds = seconds.list();
+    return result;
+}
+
+}  // namespace femscalpel
