@@ -221,17 +221,19 @@ void bind_functions(py::module_& module) {
 }
 
 void bind_merge(py::module_& module) {
-    bind_operator<const Mesh&, const OperatorOptions&, std::optional<double>, const std::string&, bool>(
+    bind_operator<const Mesh&, const OperatorOptions&, bool, std::optional<double>, const std::string&, bool>(
         module, "merge",
         [](const Mesh& mesh, const Prepared& known, const Mesh& addition, const OperatorOptions& options,
-           std::optional<double> tolerance, const std::string& prefix, bool join_groups) {
+           bool keep_addition, std::optional<double> tolerance, const std::string& prefix, bool join_groups) {
             auto o = with<MergeOptions>(options);
+            o.keep_addition = keep_addition;
             o.tolerance = tolerance;
             o.prefix = prefix;
             o.join_groups = join_groups;
             return merge(mesh, addition, o, known);
         },
-        py::arg("addition"), py::arg("options"), py::arg("tolerance"), py::arg("prefix"), py::arg("join_groups"));
+        py::arg("addition"), py::arg("options"), py::arg("keep_addition"), py::arg("tolerance"), py::arg("prefix"),
+        py::arg("join_groups"));
 }
 
 void bind_refine(py::module_& module) {

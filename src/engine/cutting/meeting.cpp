@@ -138,9 +138,8 @@ private:
         const auto [a, b] = other.border()[border.piece];
         const auto& points = meshes_[1 - edge.mesh].points;
         const bool along = std::abs((points[b] - points[a]).normalized().dot(edge.way.normalized())) > parallel;
-        const Vec3 off = x - foot.at;
-        const double beside = (off - other.normal(foot.piece) * other.normal(foot.piece).dot(off)).norm();
-        if (!along) return beside > 0.1 * most ? std::nullopt : std::optional(foot);
+        const bool beside = (foot.at - border.at).norm() <= 1e-9 * other.size(foot.piece);
+        if (!along) return beside && foot.distance > 0.1 * most ? std::nullopt : std::optional(foot);
         return SurfaceTree::Foot{border.at, border.distance, other.face_at_border(border.piece)};
     }
 
@@ -162,7 +161,7 @@ private:
                 }
                 int to = from;
                 while (to < samples && at((to + 1) / static_cast<double>(samples))) ++to;
-                add_touch(edge, own.normal(own.face_at_border(e)), edge_of_touch(at, from, -1),
+                add_touch(edge, own.border_normal(e), edge_of_touch(at, from, -1),
                           edge_of_touch(at, to, +1));
                 from = to + 1;
             }
@@ -240,7 +239,7 @@ private:
         return pairs.found;
     }
 
-    Triangle corners(std::size_t m, const SurfaceFace& f) const {
+    TriangleCorners corners(std::size_t m, const SurfaceFace& f) const {
         const auto& points = meshes_[m].points;
         return {points[f.nodes[0]], points[f.nodes[1]], points[f.nodes[2]]};
     }

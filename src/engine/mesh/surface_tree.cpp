@@ -12,6 +12,8 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
+/// Cosine of the angle by which a solid's skin turns at its border.
+const double crease = std::cos(30 * M_PI / 180);
 /// The largest angle between faces of a smooth surface.
 constexpr double smooth = 40 * M_PI / 180;
 
@@ -48,6 +50,7 @@ SurfaceTree::SurfaceTree(const Mesh& mesh, std::span<const SurfaceFace> faces) :
     std::map<std::pair<Index, Index>, std::vector<int>> edges;  // their faces
     for (std::size_t f = 0; f < faces.size(); ++f) {
         Box& box = boxes.emplace_back();
+        for (const Index n : faces[f].nodes) around_[n].push_back(static_cast<int>(f));
         pieces.push_back(static_cast<int>(f));
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = faces[f].nodes[k], b = faces[f].nodes[(k + 1) % 3];
@@ -61,14 +64,24 @@ SurfaceTree::SurfaceTree(const Mesh& mesh, std::span<const SurfaceFace> faces) :
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = faces[f].nodes[k], b = faces[f].nodes[(k + 1) % 3];
-            if (edges[std::minmax(a, b)].size() != 1) continue;
+            const std::vector<int>& here = edges[std::minmax(a, b)];
+            if (here.front() != static_cast<int>(f) || !is_border(here)) continue;
             pieces.push_back(static_cast<int>(border_.size()));
             border_.push_back({a, b});
             border_faces_.push_back(static_cast<int>(f));
+            Vec3 sum = Vec3::Zero();
+            for (const int g : here) sum += normal(g);
+            border_normals_.push_back(sum.norm() > 0.1 ? sum.normalized() : normal(here.front()));
             boxes.emplace_back(mesh.points[a].cwiseMin(mesh.points[b]), mesh.points[a].cwiseMax(mesh.points[b]));
         }
     border_tree_.init(pieces.begin(), pieces.end(), boxes.begin(), boxes.end());
     find_sags(edges);
+}
+
+/// Whether an edge with these faces belongs to the border.
+bool SurfaceTree::is_border(const std::vector<int>& faces) const {
+    if (faces.size() != 2) return faces.size() == 1;
+    return !faces_[faces[0]].shell && !faces_[faces[1]].shell && normal(faces[0]).dot(normal(faces[1])) < crease;
 }
 
 void SurfaceTree::find_sags(const std::map<std::pair<Index, Index>, std::vector<int>>& edges) {
@@ -90,6 +103,25 @@ SurfaceTree::Foot SurfaceTree::closest(const Vec3& x) const {
         Vec3 bary;
         return closest_on_triangle(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]], x, bary);
     });
+}
+
+double SurfaceTree::signed_distance(const Vec3& x) const {
+    const Foot foot = closest(x);
+    if (foot.piece < 0) return foot.distance;
+    // At an edge or a corner the face that is seen most from the front has the say.
+    double side = 0;
+    const double near = foot.distance * (1 + 1e-9) + 1e-12 * size(foot.piece);
+    const auto look = [&](int f) {
+        const auto& n = faces_[f].nodes;
+        Vec3 bary;
+        const Vec3 off =
+            x - closest_on_triangle(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]], x, bary);
+        if (off.norm() > near) return;
+        if (const double d = normal(f).dot(off); std::abs(d) > std::abs(side)) side = d;
+    };
+    for (const Index n : faces_[foot.piece].nodes)
+        for (const int f : around_.at(n)) look(f);
+    return std::copysign(foot.distance, side);
 }
 
 SurfaceTree::Foot SurfaceTree::closest_on_border(const Vec3& x) const {

@@ -11,7 +11,7 @@ namespace {
 constexpr double nearly_parallel = 0.03;
 
 /// Where a triangle crosses a plane, of which its vertices are so far; nothing if in less than a segment, or all of it.
-std::optional<Span> cross_plane(const Triangle& t, std::array<double, 3> off, double tolerance) {
+std::optional<Span> cross_plane(const TriangleCorners& t, std::array<double, 3> off, double tolerance) {
     std::array<Vec3, 6> found;
     std::size_t count = 0;
     for (double& d : off)
@@ -29,7 +29,7 @@ std::optional<Span> cross_plane(const Triangle& t, std::array<double, 3> off, do
 
 }  // namespace
 
-std::optional<Span> cross_triangles(const Triangle& a, const Triangle& b, double tolerance) {
+std::optional<Span> cross_triangles(const TriangleCorners& a, const TriangleCorners& b, double tolerance) {
     const Vec3 na = (a[1] - a[0]).cross(a[2] - a[0]).normalized(), nb = (b[1] - b[0]).cross(b[2] - b[0]).normalized();
     const Vec3 along = na.cross(nb);
     if (along.norm() < nearly_parallel) return {};

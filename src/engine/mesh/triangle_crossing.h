@@ -10,11 +10,11 @@ namespace femscalpel {
 
 /// The ends of a segment, or the corners of a triangle.
 using Span = std::array<Vec3, 2>;
-using Triangle = std::array<Vec3, 3>;
+using TriangleCorners = std::array<Vec3, 3>;
 
 /// The segment in which two triangles cross; nothing where they meet in less, or nearly lie in one plane. Vertices no
 /// farther than the tolerance from the other's plane lie in it, and such a vertex is an end of the segment as it is
 /// (Möller, "A fast triangle-triangle intersection test", J. Graphics Tools 2, 1997).
-std::optional<Span> cross_triangles(const Triangle& a, const Triangle& b, double tolerance);
+std::optional<Span> cross_triangles(const TriangleCorners& a, const TriangleCorners& b, double tolerance);
 
 }  // namespace femscalpel

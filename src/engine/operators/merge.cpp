@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "cancel.h"
+#include "cutting/covered_faces.h"
 #include "cutting/meeting.h"
+#include "cutting/refill.h"
 #include "mesh/order.h"
 #include "mesh/surface.h"
 #include "operators/refine_first.h"
@@ -318,10 +320,10 @@ private:
 void check(const Mesh& mesh, const Mesh& addition) {
     if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
-    if (mesh.dimension() < 2 || addition.dimension() != 2)
+    if (mesh.dimension() < 2 || addition.dimension() < 2 || addition.dimension() > mesh.dimension())
         throw ToolError("an addition of dimension " + std::to_string(addition.dimension()) +
                             " cannot be joined to a mesh of dimension " + std::to_string(mesh.dimension()) +
-                            ": shells are joined to shells and to solids",
+                            ": shells are joined to shells and to solids, solids to solids",
                         "other");
 }
 
@@ -368,6 +370,79 @@ Report report_of(const Mesh& input, Joint& joint, const Mesh& result, Index shar
     return out;
 }
 
+/// The two as one mesh, and the nodes of it that both had.
+struct United {
+    Mesh mesh;
+    std::vector<Index> seam;
+};
+
+UniteNames names_of(const MergeOptions& options) {
+    return {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups};
+}
+
+/// Adds the group of the addition's elements.
+std::string add_group_added(Mesh& mesh, const MergeOptions& options) {
+    std::string name = options.name + "_ADDED";
+    mesh.add_group(name, GroupKind::element);
+    return name;
+}
+
+United unite_shells(Joint& joint, const MergeOptions& options) {
+    United out{std::move(joint.mesh(0)), {}};
+    std::vector<Index> shared(joint.mesh(1).points.size(), -1);
+    for (const Line& line : joint.lines())
+        for (const Line::Stop& stop : line.stops) {
+            shared[stop.node[1]] = stop.node[0];
+            out.seam.push_back(stop.node[0]);
+        }
+    unite(out.mesh, joint.mesh(1), shared, add_group_added(out.mesh, options), names_of(options));
+    return out;
+}
+
+/// One of the two is fitted to the other's skin where they meet.
+United unite_solids(Joint& joint, double tolerance, const MergeOptions& options) {
+    const std::size_t base = options.keep_addition ? 1 : 0, fitted = 1 - base;
+    std::array<std::vector<std::array<Index, 2>>, 2> outline;
+    std::vector<Index> partner(joint.mesh(fitted).points.size(), -1);
+    for (const Line& line : joint.lines())
+        for (std::size_t k = 0; k < line.stops.size(); ++k) {
+            const Line::Stop& stop = line.stops[k];
+            partner[stop.node[fitted]] = stop.node[base];
+            if (k + 1 == line.stops.size() && !line.closed) continue;
+            const Line::Stop& next = line.stops[(k + 1) % line.stops.size()];
+            for (const std::size_t m : {0U, 1U}) outline[m].push_back({stop.node[m], next.node[m]});
+        }
+    const double close = std::max(tolerance, 1e-9 * box_around(joint.mesh(base)).diagonal().norm());
+    const auto covered = [&](std::size_t m) {
+        return covered_faces(joint.mesh(m), joint.mesh(1 - m), outline[m], close);
+    };
+    const std::vector<SurfaceFace> cover = covered(base);
+    Refilled refilled = refill(joint.mesh(fitted), joint.mesh(base), partner, covered(fitted), cover);
+    United out;
+    if (fitted == 1) {
+        out.mesh = std::move(joint.mesh(0));
+        unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
+        for (const SurfaceFace& f : cover) out.seam.insert(out.seam.end(), f.nodes.begin(), f.nodes.end());
+        return out;
+    }
+    std::vector<Index> shared(joint.mesh(1).points.size(), -1);
+    for (Index n = 0; n < refilled.mesh.node_count(); ++n)
+        if (refilled.partner[n] >= 0) shared[refilled.partner[n]] = n;
+    out.mesh = std::move(refilled.mesh);
+    unite(out.mesh, joint.mesh(1), shared, add_group_added(out.mesh, options), names_of(options));
+    for (const SurfaceFace& f : cover)
+        for (const Index n : f.nodes) out.seam.push_back(shared[n]);
+    return out;
+}
+
+void name_seam(Mesh& mesh, std::vector<Index>& seam, const std::string& name) {
+    std::ranges::sort(seam);
+    const auto [rest, end] = std::ranges::unique(seam);
+    seam.erase(rest, end);
+    const GroupIndex group = mesh.add_group(name, GroupKind::node);
+    for (const Index n : seam) mesh.node_families[n] = mesh.families.with(mesh.node_families[n], group);
+}
+
 }  // namespace
 
 Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
@@ -389,24 +464,12 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     check_cancelled();
     for (const std::size_t m : {0U, 1U}) refined.join(m, joint.report(m));
 
+    const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
+    United united = solids ? unite_solids(joint, meeting.tolerance, options) : unite_shells(joint, options);
     Result out;
-    out.mesh = std::move(joint.mesh(0));
-    std::vector<Index> shared(joint.mesh(1).points.size(), -1), seam;
-    for (const Line& line : joint.lines())
-        for (const Line::Stop& stop : line.stops) {
-            shared[stop.node[1]] = stop.node[0];
-            seam.push_back(stop.node[0]);
-        }
-    std::ranges::sort(seam);
-    const auto [rest, end] = std::ranges::unique(seam);
-    seam.erase(rest, end);
-    const GroupIndex seam_group = out.mesh.add_group(options.name + "_SEAM", GroupKind::node);
-    out.mesh.add_group(options.name + "_ADDED", GroupKind::element);
-    for (const Index n : seam)
-        out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], seam_group);
-    unite(out.mesh, joint.mesh(1), shared, options.name + "_ADDED",
-          {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups});
-    out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
+    out.mesh = std::move(united.mesh);
+    name_seam(out.mesh, united.seam, options.name + "_SEAM");
+    out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(united.seam.size()));
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
 }

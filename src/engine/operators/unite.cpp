@@ -2,6 +2,7 @@
 #include "operators/unite.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -34,7 +35,7 @@ public:
     Uniter(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const UniteNames& names)
         : mesh_(mesh), addition_(addition), place_(shared), names_(names), number_(next_numbers(mesh)) {}
 
-    void run(GroupIndex added) {
+    void run(std::optional<GroupIndex> added) {
         find_groups();
         share_middles();
         for (Index n = 0; n < addition_.node_count(); ++n) {
@@ -93,7 +94,7 @@ private:
         }
     }
 
-    void add_elements(GroupIndex added) {
+    void add_elements(std::optional<GroupIndex> added) {
         std::array<Index, cell_type_count> first{};
         for (const CellBlock& b : addition_.blocks()) {
             first[static_cast<int>(b.type)] = mesh_.block(b.type).size();
@@ -101,7 +102,8 @@ private:
             for (Index c = 0; c < b.size(); ++c) {
                 nodes.clear();
                 for (const Index n : b.nodes(c)) nodes.push_back(place_[n]);
-                mesh_.add_cell(b.type, nodes, number_.cell++, mesh_.families.with(family(0, b.families[c]), added));
+                const FamilyIndex own = family(0, b.families[c]);
+                mesh_.add_cell(b.type, nodes, number_.cell++, added ? mesh_.families.with(own, *added) : own);
             }
         }
         for (const Facet& f : addition_.facets)
@@ -120,9 +122,7 @@ private:
 
 void unite(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const std::string& added,
            const UniteNames& names) {
-    const auto group = mesh.find_group(added, GroupKind::element);
-    if (!group) throw ToolError("there is no element group '" + added + "'");
-    Uniter(mesh, addition, shared, names).run(*group);
+    Uniter(mesh, addition, shared, names).run(mesh.find_group(added, GroupKind::element));
 }
 
 }  // namespace femscalpel

@@ -20,7 +20,7 @@ struct UniteNames {
 /// `names`. Hidden groups and what a file said besides the addition are left out. All elements of the addition join the
 /// element group `added`, which must exist.
 ///
-/// Throws ToolError when a group of the addition has no name left.
+/// Throws ToolError when a group of the addition has no name left. Without `added` there is no such group.
 void unite(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const std::string& added,
            const UniteNames& names);
 

@@ -308,6 +308,7 @@ def merge(
     mesh: Mesh,
     other: Mesh,
     name: str = "ADD",
+    keep: str = "mesh",
     tolerance: Optional[float] = None,
     prefix: str = "",
     join_groups: bool = True,
@@ -332,6 +333,8 @@ def merge(
     name : str
         Prefix of the new groups: ``name_SEAM``, the nodes that the two share, and ``name_ADDED``, the addition's
         elements.
+    keep : {"mesh", "addition"}
+        Which of two solids that overlap stays as it is; the overlap is cut off the other.
     tolerance : float, optional
         What is nearer than this to the other's surface touches it, and is moved there. A fiftieth of the shorter mean
         edge length when not given.
@@ -362,6 +365,10 @@ def merge(
     >>> result.mesh.groups["RIB_SEAM"].ids
     """
     addition = check_mesh(other, "other")
+    if keep not in ("mesh", "addition"):
+        raise _arguments.about(
+            "keep", ValueError(f"keep must be 'mesh' or 'addition', not {_arguments.describe(keep)}")
+        )
     options = _engine.Options()
     options.name = _arguments.text(name, "name")
     options.feature_angle = _arguments.real(feature_angle, "feature_angle")
@@ -373,6 +380,7 @@ def merge(
         mesh,
         addition,
         options,
+        keep == "addition",
         tolerance,
         _arguments.text(prefix, "prefix"),
         _arguments.flag(join_groups, "join_groups"),
