@@ -23,6 +23,8 @@ constexpr double snap_reach = 0.45;
 constexpr double snap_slide = 1.0;
 /// The same for stops, in the shortest edge of the line there.
 constexpr double stop_reach = 0.45;
+/// An edge that a line dips this deep through, in its own length, gets a node in between.
+constexpr double dip = 0.15;
 /// Nearer to a node of the line than this, in edges, a stop is that node, even if it cannot be moved.
 constexpr double same_stop = 0.2;
 /// A surface that stands this steep in a ribbon (sine of the angle between its normal and the direction in which the
@@ -91,14 +93,28 @@ public:
           exact_(exact),
           planes_(planes) {}
 
-    std::vector<int> run() {
+    /// To be called before run() of any line: nodes that are known stay where they have to be.
+    void take_known_nodes() {
         at_stop_.assign(line_.stops.size(), -1);
-        take_known_nodes();
+        std::map<Index, std::size_t> wanted_nodes;
+        for (std::size_t s = 0; s < line_.known.size(); ++s)
+            if (line_.known[s] >= 0) wanted_nodes[line_.known[s]] = s;
+        if (wanted_nodes.empty()) return;
+        for (int v = 0; v < band_.original_nodes(); ++v) {
+            const auto found = wanted_nodes.find(band_.nodes[v].global);
+            if (found == wanted_nodes.end()) continue;
+            if (exact_) band_.nodes[v].at = wanted(found->second);
+            hold(v, found->second);
+        }
+    }
+
+    std::vector<int> run() {
         if (!ribbon_.closed()) {
             seat_end(0);
             seat_end(line_.stops.size() - 1);
         }
         measure();
+        split_dipping_edges();
         snap_nodes();
         split_edges();
         place_stops();
@@ -114,19 +130,6 @@ public:
     std::vector<int> chain() const { return line_nodes(f_, line_, at_stop_); }
 
 private:
-    void take_known_nodes() {
-        std::map<Index, std::size_t> wanted_nodes;
-        for (std::size_t s = 0; s < line_.known.size(); ++s)
-            if (line_.known[s] >= 0) wanted_nodes[line_.known[s]] = s;
-        if (wanted_nodes.empty()) return;
-        for (int v = 0; v < band_.original_nodes(); ++v) {
-            const auto found = wanted_nodes.find(band_.nodes[v].global);
-            if (found == wanted_nodes.end()) continue;
-            if (exact_) band_.nodes[v].at = wanted(found->second);
-            hold(v, found->second);
-        }
-    }
-
     bool is_surface(int skin) const { return is_surface_face(d_, skin); }
 
     const Vec3& at(int v) const { return band_.nodes[v].at; }
@@ -293,7 +296,12 @@ private:
             low = std::min(low, value_[v]);
             high = std::max(high, value_[v]);
         }
-        if (low > 0 || high < 0) return false;
+        return low <= 0 && high >= 0 && lies_there(s);
+    }
+
+    /// Whether a face lies where the line is, as the surface it runs on does.
+    bool lies_there(int s) const {
+        const auto& n = band_.skin[s];
         const Vec3 middle = (at(n[0]) + at(n[1]) + at(n[2])) / 3,
                    normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
         const double size = std::sqrt(normal.norm());
@@ -320,7 +328,11 @@ private:
         for (const int v : at_stop_)
             if (v >= 0)
                 for (const int s : band_.skin.around(v)) visit(s);
-        if (ribbon_.closed()) visit(face_at(ribbon_.at(0)).first);
+        // The line may but dip into a face, whose nodes are all on one side.
+        for (int k = 0; k < 8 && ribbon_.closed(); ++k)
+            if (const int near = face_at(ribbon_.at(k * ribbon_.length() / 8)).first; near >= 0)
+                for (const int v : band_.skin[near])
+                    for (const int s : band_.skin.around(v)) visit(s);
         while (!next.empty()) {
             const int s = next.front();
             next.pop_front();
@@ -330,6 +342,25 @@ private:
         }
         std::ranges::sort(out);
         return out;
+    }
+
+    /// Halves edges that a bent line dips through between two ends on the same side.
+    void split_dipping_edges() {
+        if (!std::isfinite(ribbon_.feature_size())) return;
+        std::set<std::pair<int, int>> dipping;
+        for (int s = 0; s < band_.skin.size(); ++s)
+            for (int k = 0; k < 3 && is_surface(s) && lies_there(s); ++k) {
+                const auto [a, b] = std::minmax(band_.skin[s][k], band_.skin[s][(k + 1) % 3]);
+                const double edge = length(a, b);
+                if (value_[a] * value_[b] <= 0 || std::min(std::abs(value_[a]), std::abs(value_[b])) > edge) continue;
+                if (ribbon_.distance(d_.along_edge(a, b, 0.5)) * (value_[a] > 0 ? -1 : 1) > dip * edge)
+                    dipping.insert({a, b});
+            }
+        for (const auto& [a, b] : dipping) {
+            const Contact tools = d_.edge_contact(a, b);
+            f_.split_edge(a, b, d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools).at, tools);
+            extend_values();
+        }
     }
 
     /// The edges of the region that cross the line, longest first.
@@ -431,7 +462,9 @@ private:
             const double room = spacing(s, line, k);
             if (off > stop_reach * room) continue;
             const bool there = off <= std::max(f_.tolerance, 1e-9 * ribbon_.length());
-            if (!there && !move_along(v, s) && off > same_stop * room) continue;
+            // Where the line bends, its nodes are its shape.
+            const double same = (std::isfinite(ribbon_.feature_size()) ? 0.25 : 1) * same_stop;
+            if (!there && !move_along(v, s) && off > same * room) continue;
             if (exact_) band_.nodes[v].at = wanted(s);
             taken.insert(v);
             hold(v, s);
@@ -505,8 +538,10 @@ private:
 
 void Imprint::run(Workpiece& f) {
     f.at_stop.clear();
+    std::vector<Imprinter> imprinters;
     for (std::size_t k = 0; k < lines_.size(); ++k)
-        f.at_stop.push_back(Imprinter(f, lines_[k], static_cast<int>(k), exact_, planes_).run());
+        imprinters.emplace_back(f, lines_[k], static_cast<int>(k), exact_, planes_).take_known_nodes();
+    for (Imprinter& i : imprinters) f.at_stop.push_back(i.run());
 }
 
 std::vector<ImprintedLine> Imprint::result(const Workpiece& f) const {

@@ -25,6 +25,8 @@ constexpr double touching = 0.1;
 constexpr double crossing_tolerance = 1e-3;
 /// Sine of the angle from which on a border that comes near does not lie there.
 constexpr double steep = 0.3;
+/// Where borders cross, the one may seem to go on along the other for so many times as much as it may be off.
+constexpr double overshoot = 2.5;
 /// Cosine of the angle from which on a border does not run along another.
 constexpr double parallel = 0.8;
 /// Places along a border edge at which it is looked whether it touches.
@@ -78,6 +80,13 @@ public:
     Meeting run() {
         if (faces_[0].empty() || faces_[1].empty()) return {};
         find_fineness();
+        if (are_solids()) {
+            // What bounds a volume has no loose ends; with these, something only nearly touches.
+            find_crossings();
+            if (std::vector<MeetingLine> outline = lines(); !outline.empty() && is_closed(outline))
+                return {std::move(outline), 0};
+            crossings_.clear();
+        }
         find_touches(0);
         find_touches(1);
         put_touching_nodes_there();
@@ -105,6 +114,21 @@ private:
             }
         }
         return std::sqrt(longest);
+    }
+
+    bool are_solids() const {
+        return std::ranges::all_of(faces_, [](const std::vector<SurfaceFace>& faces) {
+            return std::ranges::none_of(faces, &SurfaceFace::shell);
+        });
+    }
+
+    /// Whether every end of a line is one of another, too.
+    static bool is_closed(const std::vector<MeetingLine>& lines) {
+        std::map<std::array<double, 3>, int> ends;
+        for (const MeetingLine& line : lines)
+            if (!line.closed)
+                for (const Vec3& x : {line.points.front().at, line.points.back().at}) ++ends[{x[0], x[1], x[2]}];
+        return std::ranges::all_of(ends, [](const auto& end) { return end.second % 2 == 0; });
     }
 
     void find_fineness() {
@@ -161,8 +185,7 @@ private:
                 }
                 int to = from;
                 while (to < samples && at((to + 1) / static_cast<double>(samples))) ++to;
-                add_touch(edge, own.border_normal(e), edge_of_touch(at, from, -1),
-                          edge_of_touch(at, to, +1));
+                add_touch(edge, own.border_normal(e), edge_of_touch(at, from, -1), edge_of_touch(at, to, +1));
                 from = to + 1;
             }
         }
@@ -198,11 +221,9 @@ private:
             std::swap(out.sides.size[0], out.sides.size[1]);
         }
         for (const auto& [t, k] : {std::pair(start, 0U), std::pair(end, 1U)}) {
-            if (t != 0 && t != 1) continue;
-            const Index n = edge.nodes[k];
             // The first mesh stays as it is.
-            if (m == 0) out.span[k] = meshes_[0].points[n];
-            placed_[m].insert_or_assign(n, out.span[k]);
+            if (m == 0) out.span[k] = edge.at(t);
+            if (t == 0 || t == 1) placed_[m].insert_or_assign(edge.nodes[k], out.span[k]);
         }
         touches_.push_back(out);
     }
@@ -267,7 +288,14 @@ private:
         for (const Crossing& c : crossings_)
             out.add(c.span, {{trees_[0]->normal(c.face[0]), trees_[1]->normal(c.face[1])},
                              {trees_[0]->size(c.face[0]), trees_[1]->size(c.face[1])}});
-        for (const Touch& t : touches_) out.add(t.span, t.sides, t.reach);
+        double reach = 0;
+        for (const Touch& t : touches_)
+            for (const Vec3& x : t.span) out.add_point(x);
+        for (const Touch& t : touches_) {
+            out.add(t.span, t.sides, t.reach);
+            reach = std::max(reach, t.reach);
+        }
+        out.prune(overshoot * reach);
         return out.pieces();
     }
 

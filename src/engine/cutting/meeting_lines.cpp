@@ -10,6 +10,8 @@ namespace {
 
 /// A line that turns more than this (cosine), or whose surfaces do, has a corner there.
 const double corner = std::cos(30 * M_PI / 180);
+/// A line of this part of the edges' length is but a point.
+constexpr double far_shorter = 0.1;
 /// So many tolerances are near.
 constexpr double nearby = 5;
 
@@ -20,6 +22,31 @@ double length(const MeetingLine& line) {
     double sum = 0;
     for (std::size_t k = 1; k < line.points.size(); ++k) sum += (line.points[k].at - line.points[k - 1].at).norm();
     return sum;
+}
+
+/// Lines far shorter than the edges of the surfaces become one point.
+void contract(std::vector<MeetingLine>& lines) {
+    for (std::size_t k = 0; k < lines.size();) {
+        const MeetingLine& line = lines[k];
+        const MeetingLine::Point &p = line.points.front(), &q = line.points.back();
+        const double size = std::min({p.size[0], p.size[1], q.size[0], q.size[1]});
+        if (line.closed || length(line) > far_shorter * size) {
+            ++k;
+            continue;
+        }
+        // The first mesh stays as it is.
+        const bool first = p.node[0] >= 0 || (q.node[0] < 0 && p.node[1] >= 0);
+        const MeetingLine::Point kept = first ? p : q, gone = first ? q : p;
+        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(k));
+        for (MeetingLine& other : lines)
+            for (MeetingLine::Point* end : {&other.points.front(), &other.points.back()}) {
+                if (end->at != gone.at && end->at != kept.at) continue;
+                end->at = kept.at;
+                for (const std::size_t m : {0U, 1U}) end->node[m] = std::max(kept.node[m], gone.node[m]);
+            }
+        std::erase_if(lines, [](const MeetingLine& l) { return !l.closed && length(l) == 0; });
+        k = 0;
+    }
 }
 
 void turn_alike(MeetingLine& line) {
@@ -102,7 +129,8 @@ std::vector<int> MeetingLines::points_on(int p, int q, double reach) const {
     const double length2 = way.squaredNorm();
     for (int v = 0; v < static_cast<int>(points_.size()) && reach > 0 && length2 > 0; ++v) {
         const double t = (points_[v].at - a).dot(way) / length2;
-        if (v != p && v != q && t > 0 && t < 1 && (points_[v].at - a - t * way).norm() <= reach) found.push_back({t, v});
+        if (v != p && v != q && t > 0 && t < 1 && (points_[v].at - a - t * way).norm() <= reach)
+            found.push_back({t, v});
     }
     std::ranges::sort(found);
     std::vector<int> out;
@@ -189,6 +217,29 @@ MeetingLine MeetingLines::walk(int from, int to) {
     return line;
 }
 
+void MeetingLines::prune(double length) {
+    std::vector<int> loose;
+    for (const auto& [p, others] : next_)
+        if (others.size() == 1) loose.push_back(p);
+    for (const int start : loose) {
+        std::vector<int> way{start};
+        double sum = 0;
+        while (sum <= length && next_[way.back()].size() == (way.size() == 1 ? 1U : 2U)) {
+            const std::set<int>& others = next_[way.back()];
+            const int next =
+                way.size() > 1 && *others.begin() == way[way.size() - 2] ? *others.rbegin() : *others.begin();
+            sum += (points_[next].at - points_[way.back()].at).norm();
+            way.push_back(next);
+        }
+        if (sum > length || next_[way.back()].size() < 3) continue;
+        for (std::size_t k = 1; k < way.size(); ++k) {
+            next_[way[k - 1]].erase(way[k]);
+            next_[way[k]].erase(way[k - 1]);
+        }
+    }
+    std::erase_if(next_, [](const auto& entry) { return entry.second.empty(); });
+}
+
 std::vector<MeetingLine> MeetingLines::pieces() {
     bridge();
     thin();
@@ -203,6 +254,7 @@ std::vector<MeetingLine> MeetingLines::pieces() {
     for (const auto& [p, others] : next_)
         if (!others.empty()) out.push_back(walk(p, *others.begin()));
     std::erase_if(out, [&](const MeetingLine& line) { return length(line) < 4 * tolerance_; });
+    contract(out);
     return out;
 }
 

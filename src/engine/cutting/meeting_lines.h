@@ -30,9 +30,10 @@ class MeetingLines {
 public:
     explicit MeetingLines(double tolerance) : tolerance_(tolerance) {}
 
-    /// Makes a point where a node of a mesh is that lies in the meeting. To be called before add(), so that what is near
-    /// is that point; for the first mesh first, whose nodes stay where they are.
+    /// Makes a point where a node of a mesh is that lies in the meeting. To be called before add(), so that what is
+    /// near is that point; for the first mesh first, whose nodes stay where they are.
     void add_node(const Vec3& at, std::size_t mesh, Index node);
+    void add_point(const Vec3& at) { point(at); }
 
     /// What is known of the surfaces along a segment.
     struct Sides {
@@ -41,6 +42,9 @@ public:
     };
     /// Adds a segment. With `reach` it goes through all points that are as near to it, which must be there by now.
     void add(const Span& span, const Sides& sides, double reach = 0);
+
+    /// Takes out loose ends shorter than this, where others go on.
+    void prune(double length);
 
     /// The lines, in smooth pieces.
     std::vector<MeetingLine> pieces();

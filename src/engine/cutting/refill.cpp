@@ -156,8 +156,8 @@ private:
         return std::ranges::binary_search(taken_[static_cast<int>(cell.type)], cell.cell);
     }
 
-    /// The cavity's faces: of the taken tetrahedra those that are not between two of them, nor covered; and, turned round,
-    /// the part of the other's skin.
+    /// The cavity's faces: of the taken tetrahedra those that are not between two of them, nor covered; and, turned
+    /// round, the part of the other's skin.
     void find_cavity() {
         std::map<Key, std::pair<Key, int>> faces;  // as they are, and how many tetrahedra have them
         for (int type = 0; type < cell_type_count; ++type)
@@ -230,8 +230,8 @@ private:
         return out_.mesh.add_node(mesh_.points[n], mesh_.node_ids[n], mesh_.node_families[n]);
     }
 
-    /// What is not taken out: all elements but the taken, and those on them that have no other to be on. The nodes of the
-    /// mesh by node of the result.
+    /// What is not taken out: all elements but the taken, and those on them that have no other to be on. The nodes of
+    /// the mesh by node of the result.
     std::vector<Index> keep_the_rest() {
         std::vector<char> left(static_cast<std::size_t>(mesh_.node_count()), 0);
         CellLists cells;
@@ -273,8 +273,8 @@ private:
         for (int type = 0; type < cell_type_count; ++type)
             for (const Index c : taken_[type]) {
                 const auto n = mesh_.blocks()[type].nodes(c);
-                centres.emplace_back((mesh_.points[n[0]] + mesh_.points[n[1]] + mesh_.points[n[2]] + mesh_.points[n[3]]) /
-                                     4);
+                centres.emplace_back(
+                    (mesh_.points[n[0]] + mesh_.points[n[1]] + mesh_.points[n[2]] + mesh_.points[n[3]]) / 4);
                 families.push_back(mesh_.blocks()[type].families[c]);
                 second_order = second_order || traits(mesh_.blocks()[type].type).quadratic;
             }
@@ -324,7 +324,8 @@ private:
                 const auto n = mesh_.blocks()[type].nodes(c);
                 for (std::size_t k = 0; k < t.edges.size(); ++k) {
                     const auto a = old_places_.find(n[t.edges[k][0]]), b = old_places_.find(n[t.edges[k][1]]);
-                    if (a == old_places_.end() || b == old_places_.end() || !is_left_edge(n[t.edges[k][0]], n[t.edges[k][1]]))
+                    if (a == old_places_.end() || b == old_places_.end() ||
+                        !is_left_edge(n[t.edges[k][0]], n[t.edges[k][1]]))
                         continue;
                     const auto key = edge_key(static_cast<int>(a->second), static_cast<int>(b->second));
                     if (!middles_.contains(key)) middles_[key] = add_old_node(n[t.corners + k]);
@@ -404,8 +405,8 @@ private:
     std::vector<Vec3> points_;
     std::vector<Triangle> triangles_;
     std::map<Index, int> own_points_, other_points_;
-    std::vector<Index> at_;                          // node of the result, by point of the cavity
-    std::unordered_map<Index, Index> old_places_;    // nodes of the mesh at the cavity, in the result
+    std::vector<Index> at_;                        // node of the result, by point of the cavity
+    std::unordered_map<Index, Index> old_places_;  // nodes of the mesh at the cavity, in the result
     std::unordered_map<std::uint64_t, Index> middles_;
     std::map<Key, CellRef> filled_faces_;
     Numbering number_;

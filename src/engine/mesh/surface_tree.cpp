@@ -114,8 +114,7 @@ double SurfaceTree::signed_distance(const Vec3& x) const {
     const auto look = [&](int f) {
         const auto& n = faces_[f].nodes;
         Vec3 bary;
-        const Vec3 off =
-            x - closest_on_triangle(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]], x, bary);
+        const Vec3 off = x - closest_on_triangle(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]], x, bary);
         if (off.norm() > near) return;
         if (const double d = normal(f).dot(off); std::abs(d) > std::abs(side)) side = d;
     };

@@ -16,8 +16,8 @@ namespace femscalpel {
 /// Some faces of a mesh's surface, and its border, to ask what is near a point.
 class SurfaceTree {
 public:
-    /// The border is edges that only one of the faces has, and edges of a solid's skin at which it turns by more than 30
-    /// degrees. Both must outlive this.
+    /// The border is edges that only one of the faces has, and edges of a solid's skin at which it turns by more than
+    /// 30 degrees. Both must outlive this.
     SurfaceTree(const Mesh& mesh, std::span<const SurfaceFace> faces);
 
     /// A point of the surface, or of its border.
@@ -43,8 +43,8 @@ public:
     Vec3 normal(int face) const;
     /// Mean length of its edges.
     double size(int face) const;
-    /// How far a smooth surface through the nodes of a face may be off it, by the angles to its neighbours; edges of more
-    /// than 40 degrees are not taken for smooth.
+    /// How far a smooth surface through the nodes of a face may be off it, by the angles to its neighbours; edges of
+    /// more than 40 degrees are not taken for smooth.
     double sag(int face) const { return sags_[face]; }
 
 private:

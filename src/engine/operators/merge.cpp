@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "cutting/covered_faces.h"
 #include "cutting/meeting.h"
 #include "cutting/refill.h"
+#include "mesh/band_mesh.h"
 #include "mesh/order.h"
 #include "mesh/surface.h"
 #include "operators/refine_first.h"
@@ -197,9 +199,8 @@ public:
 
     void run(const Prepared& known) {
         imprint(0, known);
-        for (int round = 0; round < most_rounds; ++round) {
-            if (!imprint((round + 1) % 2, {})) return;
-        }
+        for (int round = 0; round < most_rounds; ++round)
+            if (!imprint((round + 1) % 2, {})) return put_together();
         throw QualityError(
             "the two meshes cannot be given the same nodes where they meet: their elements there differ too much in "
             "size. Refine the coarser one there first");
@@ -225,7 +226,8 @@ private:
         }
         if (first) ribbons_.emplace_back();
         const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
-        Seamed seamed = imprint_seam(input, std::move(wanted), !first, options_, known);
+        // The mesh's nodes stay on its surface, the addition's come to the mesh's.
+        Seamed seamed = imprint_seam(input, std::move(wanted), m == 1, options_, known);
         bool more = false;
         for (std::size_t k = 0; k < lines_.size(); ++k)
             more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
@@ -233,6 +235,14 @@ private:
         results_[m] = std::move(seamed.result);
         done_[m] = true;
         return more || !done_[1 - m];
+    }
+
+    /// The addition's nodes go to where the mesh's are.
+    void put_together() {
+        const Mesh before = results_[1].mesh;
+        for (const Line& line : lines_)
+            for (const Line::Stop& stop : line.stops) mesh(1).points[stop.node[1]] = mesh(0).points[stop.node[0]];
+        drag_middles(before, mesh(1));
     }
 
     /// The mesh with the nodes it has at stops there, and mid-side nodes half as far.
@@ -435,6 +445,26 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     return out;
 }
 
+/// Throws QualityError where more than two tetrahedra have a face at the seam: a mesh that only looks right.
+void check_seam(const Mesh& mesh, const std::vector<Index>& seam) {
+    const auto at_seam = [&](Index n) { return std::ranges::binary_search(seam, n); };
+    std::map<std::array<Index, 3>, int> faces;
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).linear != CellType::tetra) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            if (std::none_of(n.begin(), n.begin() + 4, at_seam)) continue;
+            for (const auto& f : outward_faces) {
+                std::array<Index, 3> key{n[f[0]], n[f[1]], n[f[2]]};
+                std::ranges::sort(key);
+                if (++faces[key] > 2)
+                    throw QualityError("the two solids cannot be joined at " + point_text(mesh.points[key[0]]) +
+                                       ": they would overlap there. Move the addition a little");
+            }
+        }
+    }
+}
+
 void name_seam(Mesh& mesh, std::vector<Index>& seam, const std::string& name) {
     std::ranges::sort(seam);
     const auto [rest, end] = std::ranges::unique(seam);
@@ -469,6 +499,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     Result out;
     out.mesh = std::move(united.mesh);
     name_seam(out.mesh, united.seam, options.name + "_SEAM");
+    if (solids) check_seam(out.mesh, united.seam);
     out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(united.seam.size()));
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;

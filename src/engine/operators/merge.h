@@ -12,7 +12,7 @@ namespace femscalpel {
 
 /// Options of merge() beside those of all operators, of which `name`, `feature_angle` and `strict` count.
 struct MergeOptions : OperatorOptions {
-    bool keep_addition = false;       ///< where solids overlap, the mesh is cut off, not the addition
+    bool keep_addition = false;  ///< where solids overlap, the mesh is cut off, not the addition
     std::optional<double>
         tolerance;       ///< what is nearer than this touches; a fiftieth of the shorter mean edge if absent
     std::string prefix;  ///< see UniteNames; the name and "_" if empty
