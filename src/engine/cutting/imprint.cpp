@@ -109,14 +109,16 @@ public:
     }
 
     std::vector<int> run() {
-        if (!ribbon_.closed()) {
-            seat_end(0);
-            seat_end(line_.stops.size() - 1);
-        }
+        seat_end(0);
+        if (!ribbon_.closed()) seat_end(line_.stops.size() - 1);
         measure();
-        split_dipping_edges();
-        snap_nodes();
-        split_edges();
+        // Where edges are long for a bend, each round shows more of it.
+        for (int round = 0; round < 4; ++round) {
+            const bool dipped = split_dipping_edges();
+            if (round > 0 && !dipped) break;
+            snap_nodes();
+            split_edges();
+        }
         place_stops();
         const std::vector<int> nodes = chain();
         for (std::size_t k = 0; k + (ribbon_.closed() ? 0 : 1) < nodes.size(); ++k) {
@@ -344,23 +346,32 @@ private:
         return out;
     }
 
-    /// Halves edges that a bent line dips through between two ends on the same side.
-    void split_dipping_edges() {
-        if (!std::isfinite(ribbon_.feature_size())) return;
+    /// Halves edges that a bent line dips through without crossing; true if there was one.
+    bool split_dipping_edges() {
+        if (!std::isfinite(ribbon_.feature_size())) return false;
         std::set<std::pair<int, int>> dipping;
         for (int s = 0; s < band_.skin.size(); ++s)
             for (int k = 0; k < 3 && is_surface(s) && lies_there(s); ++k) {
                 const auto [a, b] = std::minmax(band_.skin[s][k], band_.skin[s][(k + 1) % 3]);
-                const double edge = length(a, b);
-                if (value_[a] * value_[b] <= 0 || std::min(std::abs(value_[a]), std::abs(value_[b])) > edge) continue;
-                if (ribbon_.distance(d_.along_edge(a, b, 0.5)) * (value_[a] > 0 ? -1 : 1) > dip * edge)
-                    dipping.insert({a, b});
+                if (dips(a, b)) dipping.insert({a, b});
             }
         for (const auto& [a, b] : dipping) {
             const Contact tools = d_.edge_contact(a, b);
             f_.split_edge(a, b, d_.fitted_split(a, b, d_.along_edge(a, b, 0.5), tools).at, tools);
             extend_values();
         }
+        return !dipping.empty();
+    }
+
+    /// Whether the line goes through an edge though its ends are not on different sides.
+    bool dips(int a, int b) const {
+        const double edge = length(a, b);
+        if (value_[a] * value_[b] < 0 || std::min(std::abs(value_[a]), std::abs(value_[b])) > edge) return false;
+        if (!band_.nodes[a].movable() && !band_.nodes[b].movable()) return false;
+        const Vec3 middle = d_.along_edge(a, b, 0.5);
+        if (!within_ends(middle)) return false;
+        const double off = ribbon_.distance(middle), side = value_[a] != 0 ? value_[a] : value_[b];
+        return side == 0 ? std::abs(off) > dip * edge : off * (side > 0 ? -1 : 1) > dip * edge;
     }
 
     /// The edges of the region that cross the line, longest first.
@@ -499,6 +510,12 @@ private:
         return move(v, wanted(stop), 0.1, 0.05 * surface_edge(v));
     }
 
+    /// How far it is along the line from one length to another; round a closed line.
+    double onward(double from, double to) const {
+        const double way = to - from;
+        return ribbon_.closed() ? way - std::floor(way / ribbon_.length()) * ribbon_.length() : way;
+    }
+
     /// Splits the edge of the line that a stop is on.
     void split_at(std::size_t stop) {
         check_cancelled();
@@ -506,8 +523,7 @@ private:
         const double arc = line_.stops[stop];
         for (std::size_t k = 0; k + (ribbon_.closed() ? 0 : 1) < nodes.size(); ++k) {
             const int a = nodes[k], b = nodes[(k + 1) % nodes.size()];
-            const double from = arc_of(a), here = ribbon_.arc_between(from, arc),
-                         whole = ribbon_.arc_between(from, arc_of(b));
+            const double from = arc_of(a), here = onward(from, arc), whole = onward(from, arc_of(b));
             if (here < 0 || here > whole || whole <= 0) continue;
             const Contact tools = Contact(&ribbon_);
             const double t = here / whole;

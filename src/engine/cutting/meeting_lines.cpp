@@ -203,7 +203,7 @@ MeetingLine MeetingLines::walk(int from, int to) {
     for (;;) {
         next_[from].erase(to);
         next_[to].erase(from);
-        line.closed = to == start && !stops_.contains(to);
+        line.closed = to == start;
         if (!line.closed) line.points.push_back(points_[to]);
         const Normals& normals = normals_.at(std::minmax(from, to));
         for (MeetingLine::Point* p : {&line.points[line.points.size() - (line.closed ? 1 : 2)],

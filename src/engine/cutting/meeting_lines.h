@@ -21,7 +21,7 @@ struct MeetingLine {
         std::array<double, 2> size;  ///< mean edge length of the two surfaces' faces there
     };
     std::vector<Point> points;
-    bool closed = false;  ///< then the last point is joined to the first
+    bool closed = false;  ///< then the last point is joined to the first, which may be a corner
 };
 
 /// Puts the segments in which two surfaces meet together to lines. What is nearer to each other than twice the

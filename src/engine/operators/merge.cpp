@@ -24,6 +24,8 @@ namespace {
 
 /// A node of the one nearer to a node of the other than this, in the shortest edge of the line there, is the same.
 constexpr double same_node = 0.25;
+/// Cosine of the angle by which a line bends where it is to have a node.
+const double bend = std::cos(6 * M_PI / 180);
 /// How often the two may be divided where the other was.
 constexpr int most_rounds = 4;
 /// Edges of the one at the line may be so many times longer than those of the other.
@@ -47,17 +49,27 @@ struct Line {
     std::vector<Stop> stops;
 };
 
-/// Of the ends of a line.
+/// Whether a point is an end of a line, or where a closed one begins.
 bool is_end(const MeetingLine& line, std::size_t point) {
-    return !line.closed && (point == 0 || point + 1 == line.points.size());
+    return point == 0 || (!line.closed && point + 1 == line.points.size());
 }
 
-/// The places of a meeting where nodes are to be: its ends, and where one of the meshes has one; of places that are
-/// nearer to each other than edges there should be, one.
+/// Whether a line bends at a point.
+bool is_bend(const MeetingLine& line, std::size_t point) {
+    const std::size_t n = line.points.size();
+    if (is_end(line, point)) return false;
+    const Vec3 in = line.points[point].at - line.points[(point + n - 1) % n].at,
+               out = line.points[(point + 1) % n].at - line.points[point].at;
+    return in.normalized().dot(out.normalized()) < bend;
+}
+
+/// The places of a meeting where nodes are to be: its ends, where it bends, and where one of the meshes has one; of
+/// places that are nearer to each other than edges there should be, one.
 std::vector<Line::Stop> stops_of(const MeetingLine& line, const Mesh& mesh) {
     std::vector<std::size_t> points;
     for (std::size_t k = 0; k < line.points.size(); ++k)
-        if (is_end(line, k) || line.points[k].node[0] >= 0 || line.points[k].node[1] >= 0) points.push_back(k);
+        if (is_end(line, k) || is_bend(line, k) || line.points[k].node[0] >= 0 || line.points[k].node[1] >= 0)
+            points.push_back(k);
     // How far it is to the next node of the same mesh.
     const auto room = [&](std::size_t i, std::size_t mesh) {
         double out = std::numeric_limits<double>::infinity();
@@ -116,7 +128,6 @@ Line line_of(const MeetingLine& meeting, const Mesh& mesh) {
     out.closed = meeting.closed;
     for (const std::size_t m : {0U, 1U}) out.standing[m] = ribbon_of(meeting, m);
     out.stops = stops_of(meeting, mesh);
-    if (out.stops.empty()) out.stops.push_back({meeting.points.front().at, {-1, -1}});
     return out;
 }
 
@@ -277,9 +288,8 @@ private:
     static std::vector<double> lengths(const Ribbon& ribbon, const Line& line) {
         std::vector<double> out;
         for (const Line::Stop& stop : line.stops) out.push_back(ribbon.foot(stop.at).arc);
-        if (line.closed) return out;
         out.front() = 0;
-        out.back() = ribbon.length();
+        if (!line.closed) out.back() = ribbon.length();
         return out;
     }
 
