@@ -37,9 +37,7 @@ def plate(origin, first, second, counts, name, jitter=0.0, seed=0):
 
 def half_pipe(radius, length, counts, name):
     """Half a pipe along x, z >= 0, as faceted as `counts` (around, along) says."""
-    angle, x = np.meshgrid(
-        np.linspace(0, np.pi, counts[0] + 1), np.linspace(0, length, counts[1] + 1), indexing="ij"
-    )
+    angle, x = np.meshgrid(np.linspace(0, np.pi, counts[0] + 1), np.linspace(0, length, counts[1] + 1), indexing="ij")
     points = np.stack([x, radius * np.cos(angle), radius * np.sin(angle)], axis=-1)
     return shell(points.reshape(-1, 3), triangles_of(np.arange(x.size).reshape(x.shape)), name)
 

@@ -89,7 +89,9 @@ def test_shells_on_a_plate(floor, name):
     assert (floor.points == before[0]).all() and (rib.points == before[1]).all()
     assert len(mesh.groups["FLOOR"]) + len(mesh.groups["ADD_ADDED"]) == mesh.cell_count
     assert set(mesh.groups["RIB"].ids) == set(mesh.groups["ADD_ADDED"].ids)
-    check_untouched(floor, mesh, lambda x: np.linalg.norm(x - [5, 4.5, 0], axis=1) > 100 if name == "L" else x[:, 1] > 9.5)
+    check_untouched(
+        floor, mesh, lambda x: np.linalg.norm(x - [5, 4.5, 0], axis=1) > 100 if name == "L" else x[:, 1] > 9.5
+    )
 
 
 def test_a_node_group_gets_the_node_between_two_of_its_own(floor):
@@ -235,7 +237,8 @@ def test_solids(name, keep):
     if keep == "mesh":
         assert volumes[in_group("BASE")].sum() == pytest.approx(6 * 5 * 4, rel=1e-12)
     else:
-        assert volumes[in_group("BOSS_ADDED")].sum() == pytest.approx(own, rel=1e-9 if "block" in name else 2e-3)
+        # Nodes of a coarse round skin slide over its facets.
+        assert volumes[in_group("BOSS_ADDED")].sum() == pytest.approx(own, rel=1e-9 if "block" in name else 2.5e-2)
     assert list(mesh.groups["FIX"].ids) == list(base.groups["FIX"].ids)
     check_untouched(base, mesh, lambda x: x[:, 2] < 0.5)
 

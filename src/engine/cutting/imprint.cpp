@@ -113,7 +113,7 @@ public:
         if (!ribbon_.closed()) seat_end(line_.stops.size() - 1);
         measure();
         // Where edges are long for a bend, each round shows more of it.
-        for (int round = 0; round < 4; ++round) {
+        for (int round = 0; round < 6; ++round) {
             const bool dipped = split_dipping_edges();
             if (round > 0 && !dipped) break;
             snap_nodes();
@@ -530,6 +530,8 @@ private:
             const Vec3 on = exact_ ? wanted(stop) : d_.fitted_split(a, b, d_.along_edge(a, b, t), tools).at;
             const int v = f_.split_edge(a, b, on, tools);
             extend_values();
+            // The edge is but the chord of a bend.
+            if (!exact_) move(v, wanted(stop), 0.05, 0.05 * surface_edge(v));
             hold(v, stop);
             return;
         }

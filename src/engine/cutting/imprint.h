@@ -15,8 +15,8 @@ namespace femscalpel {
 struct ImprintLine {
     /// What stands on the surface along the line.
     const Ribbon* ribbon = nullptr;
-    /// Lengths along the line, ascending, at which there have to be nodes. They begin with 0, and of an open line end with
-    /// its length.
+    /// Lengths along the line, ascending, at which there have to be nodes. They begin with 0, and of an open line end
+    /// with its length.
     std::vector<double> stops;
     /// For each stop, where its node has to be.
     std::vector<Vec3> places;

@@ -30,6 +30,8 @@ const double bend = std::cos(6 * M_PI / 180);
 constexpr int most_rounds = 4;
 /// Edges of the one at the line may be so many times longer than those of the other.
 constexpr double coarser = 2.5;
+/// And no longer than this part of a closed line.
+constexpr double of_length = 0.12;
 
 std::string point_text(const Vec3& x) {
     std::ostringstream out;
@@ -152,7 +154,8 @@ public:
                 zones.push_back({[&ribbon](const Vec3& x) {
                                      return std::hypot(ribbon.distance(x), std::max(0.0, ribbon.beyond(x)));
                                  },
-                                 coarser * sum / static_cast<double>(line.points.size())});
+                                 std::min(coarser * sum / static_cast<double>(line.points.size()),
+                                          ribbon.closed() ? of_length * ribbon.length() : HUGE_VAL)});
             }
             refined_[m] = refine_first(*meshes_[m], zones, options_);
         }

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Two meshes as one: their lines, what is covered, refilled and united.
+#include "operators/merge.h"
+
+#include <gtest/gtest.h>
+
+#include "cutting/covered_faces.h"
+#include "cutting/refill.h"
+#include "mesh/quality.h"
+#include "operators/seam.h"
+#include "operators/unite.h"
+#include "simple_meshes.h"
+
+namespace femscalpel {
+namespace {
+
+Mesh moved(Mesh mesh, const Vec3& by) {
+    for (Vec3& x : mesh.points) x += by;
+    return mesh;
+}
+
+double volume(const Mesh& mesh) {
+    double sum = 0;
+    const CellBlock& b = mesh.block(CellType::tetra);
+    for (Index c = 0; c < b.size(); ++c) {
+        const auto n = b.nodes(c);
+        const double v =
+            signed_volume(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]);
+        EXPECT_GT(v, 0);
+        sum += v;
+    }
+    return sum;
+}
+
+TEST(Unite, NumbersFollowAndSharedNodesAreInGroupsOfBoth) {
+    Mesh mesh = checks::grid(1, 1, 1);
+    Mesh other = moved(checks::grid(1, 1, 1), {0, 0, 1});
+    const FamilyIndex mine = checks::family_of(mesh, "A", GroupKind::node),
+                      others = checks::family_of(other, "B", GroupKind::node);
+    std::vector<Index> shared(8, -1);
+    for (Index n = 0; n < 8; ++n)
+        if (other.points[n][2] == 1) {
+            shared[n] = checks::number_near(mesh, other.points[n]);
+            mesh.node_families[shared[n]] = mine;
+            other.node_families[n] = others;
+        }
+    mesh.add_group("NEW", GroupKind::element);
+    const Index last = mesh.largest_cell_id();
+    unite(mesh, other, shared, "NEW", {"X_", true});
+    mesh.validate();
+    EXPECT_EQ(mesh.node_count(), 12);
+    EXPECT_EQ(mesh.block(CellType::tetra).size(), 12);
+    EXPECT_NEAR(volume(mesh), 2, 1e-12);
+    EXPECT_EQ(checks::members(mesh, "A", GroupKind::node), checks::members(mesh, "B", GroupKind::node));
+    const std::vector<Index> added = checks::members(mesh, "NEW", GroupKind::element);
+    EXPECT_EQ(added.size(), 6u);
+    EXPECT_GT(*std::ranges::min_element(added), last);
+}
+
+TEST(Unite, GroupsOfOneNameJoinOrGetThePrefix) {
+    const auto with_group = [] {
+        Mesh mesh = checks::grid(1, 1, 1);
+        mesh.block(CellType::tetra).families[0] = checks::family_of(mesh, "SAME", GroupKind::element);
+        return mesh;
+    };
+    const std::vector<Index> none(8, -1);
+    Mesh joined = with_group(), apart = with_group();
+    unite(joined, moved(with_group(), {5, 0, 0}), none, "", {"X_", true});
+    EXPECT_EQ(checks::members(joined, "SAME", GroupKind::element).size(), 2u);
+    unite(apart, moved(with_group(), {5, 0, 0}), none, "", {"X_", false});
+    EXPECT_EQ(checks::members(apart, "SAME", GroupKind::element).size(), 1u);
+    EXPECT_EQ(checks::members(apart, "X_SAME", GroupKind::element).size(), 1u);
+    EXPECT_THROW(unite(apart, with_group(), none, "", {"", false}), ToolError);
+}
+
+/// A cube on a block, whose nodes are the block's.
+struct CubeOnBlock {
+    Mesh block = checks::grid(3, 3, 1), cube = moved(checks::grid(1, 1, 1), {1, 1, 1});
+    std::vector<std::array<Index, 2>> outline(const Mesh& mesh) const {
+        const Vec3 corner[] = {{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}};
+        std::vector<std::array<Index, 2>> out;
+        for (int k = 0; k < 4; ++k)
+            out.push_back({checks::number_near(mesh, corner[k]), checks::number_near(mesh, corner[(k + 1) % 4])});
+        return out;
+    }
+};
+
+TEST(CoveredFaces, AreThoseInsideTheOutline) {
+    const CubeOnBlock both;
+    const auto on_block = covered_faces(both.block, both.cube, both.outline(both.block), 1e-9);
+    EXPECT_EQ(on_block.size(), 2u);
+    for (const SurfaceFace& f : on_block)
+        for (const Index n : f.nodes) EXPECT_DOUBLE_EQ(both.block.points[n][2], 1);
+    EXPECT_EQ(covered_faces(both.cube, both.block, both.outline(both.cube), 1e-9).size(), 2u);
+    EXPECT_TRUE(covered_faces(both.block, moved(both.cube, {0, 0, 0.5}), both.outline(both.block), 1e-9).empty());
+}
+
+TEST(Refill, FitsASolidToTheSkinOfAnother) {
+    const CubeOnBlock both;
+    // A taller one, of which the top stays as it is.
+    Mesh tower = checks::grid(1, 1, 4);
+    for (Vec3& x : tower.points) x += Vec3(1, 1, 1);
+    std::vector<Index> partner(tower.points.size(), -1);
+    for (Index n = 0; n < tower.node_count(); ++n)
+        if (tower.points[n][2] == 1) partner[n] = checks::number_near(both.block, tower.points[n]);
+    const Refilled out =
+        refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9),
+               covered_faces(both.block, tower, both.outline(both.block), 1e-9));
+    out.mesh.validate();
+    EXPECT_GT(out.taken, 0);
+    EXPECT_LT(out.taken, 24);
+    EXPECT_GT(out.worst, 0.2);
+    EXPECT_NEAR(volume(out.mesh), 4, 1e-12);
+    EXPECT_EQ(std::ranges::count_if(out.partner, [](Index n) { return n >= 0; }), 4);
+    // The elements of the top keep their numbers.
+    const auto& ids = out.mesh.block(CellType::tetra).ids;
+    for (Index c = 18; c < 24; ++c)
+        EXPECT_NE(std::ranges::find(ids, tower.block(CellType::tetra).ids[c]), ids.end());
+}
+
+TEST(Seam, IsEdgesOfTheResult) {
+    const Mesh mesh = checks::grid(4, 4, 1);
+    const Ribbon ribbon({{0.6, 0.7, 1}, {3.3, 2.9, 1}}, {2, Vec3::UnitZ()}, false);
+    ImprintLine line{&ribbon, {0, ribbon.length()}, {{0.6, 0.7, 1}, {3.3, 2.9, 1}}, {-1, -1}};
+    OperatorOptions options;
+    options.name = "X";
+    const Seamed seamed = imprint_seam(mesh, {line}, false, options, {});
+    ASSERT_EQ(seamed.lines.size(), 1u);
+    ASSERT_EQ(seamed.lines[0].at_stop.size(), 2u);
+    for (const Index n : seamed.lines[0].nodes)
+        EXPECT_NEAR(ribbon.distance(seamed.result.mesh.points[n]), 0, 1e-9);
+    EXPECT_NEAR(volume(seamed.result.mesh), 16, 1e-12);
+    EXPECT_TRUE(seamed.result.mesh.groups.empty());
+}
+
+TEST(Merge, ATowerOnABlock) {
+    MergeOptions options;
+    options.name = "TOWER";
+    const Result out = merge(checks::grid(4, 4, 1), moved(checks::grid(1, 1, 2), {1.3, 1.4, 1}), options);
+    out.mesh.validate();
+    EXPECT_NEAR(volume(out.mesh), 18, 1e-12);
+    EXPECT_GE(checks::members(out.mesh, "TOWER_SEAM", GroupKind::node).size(), 4u);
+    EXPECT_GT(out.report.quality_after.minimum, 0.2);
+}
+
+TEST(Merge, WhatIsApartIsAnError) {
+    MergeOptions options;
+    options.name = "TOWER";
+    EXPECT_THROW(merge(checks::grid(2, 2, 1), moved(checks::grid(1, 1, 1), {9, 9, 9}), options), ToolError);
+}
+
+}  // namespace
+}  // namespace femscalpel
