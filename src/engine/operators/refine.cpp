@@ -14,6 +14,7 @@
 #include "cutting/mend_curved.h"
 #include "cutting/opening.h"
 #include "cutting/workpiece.h"
+#include "deck/carry_over.h"
 #include "deck/mark_deck.h"
 #include "deformation/curved_shape.h"
 #include "deformation/relaxation.h"
@@ -151,7 +152,7 @@ std::vector<Index> new_on_shortcuts(const Workpiece& f, const Rebuilt& rebuilt) 
     return out;
 }
 
-std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh, const Edited& edited) {
+std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh) {
     const Workpiece& f = bisected.workpiece();
     std::vector<std::string> out = f.warnings;
     std::ranges::move(warnings_of_opened_areas(f.d.band, mesh), std::back_inserter(out));
@@ -163,7 +164,6 @@ std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh,
     if (const int off = bisected.bisector().off_shape(); off > 0)
         out.push_back(std::to_string(off) +
                       " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
-    out.insert(out.end(), edited.deck_warnings.begin(), edited.deck_warnings.end());
     return out;
 }
 
@@ -173,7 +173,7 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
     Report report;
     report.operation = "refine";
     report.method = "bisection";
-    report.warnings = warnings_of(bisected, mesh, edited);
+    report.warnings = warnings_of(bisected, mesh);
     report.nodes_added = report.nodes_split = rebuilt.nodes_split;
     report.elements_added = rebuilt.elements_added;
     describe_quality(mesh, bisected.workpiece(), rebuilt, report);
@@ -190,9 +190,11 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
     Laps seconds;
     Stopwatch watch(seconds);
-    std::vector<Index> on_shortcuts;
-    if (std::optional<Result> result = refine_where_needed(input, distance, options, on_shortcuts))
+    Trace trace;
+    if (std::optional<Result> result = refine_where_needed(input, distance, options, trace)) {
+        std::ranges::move(warnings_of(trace.deck, options.strict), std::back_inserter(result->report.warnings));
         return std::move(*result);
+    }
     watch.lap("locate");
     Result untouched;
     const FamilyTotals totals = family_totals(input);
@@ -208,7 +210,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
 }
 
 std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,
-                                          const RefineOptions& options, std::vector<Index>& on_shortcuts) {
+                                          const RefineOptions& options, Trace& trace) {
     check(options);
     Laps seconds;
     Stopwatch watch(seconds);
@@ -229,10 +231,12 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     watch.lap("bisect");
     if (!f.folded_input.empty()) check_folded_input(f, newly_folded(f, folded_elements(f, 0)));
     f.mid_side = [&](int a, int b) { return bisected.bisector().mid_side(a, b); };
-    Edited edited = edit.finish(f, no_opening(f.d.band), {}, options.strict, watch);
-    on_shortcuts = new_on_shortcuts(f, edited.rebuilt);
+    Edited edited = edit.finish(f, no_opening(f.d.band), {}, watch);
+    trace.on_shortcuts = new_on_shortcuts(f, edited.rebuilt);
     Result result{{}, report_of(bisected, mesh, edited)};
     result.mesh = std::move(edited.rebuilt.mesh);
+    trace.changes = std::move(edited.rebuilt.changes);
+    trace.deck = std::move(edited.deck);
     remove_marks(result.mesh);
     watch.lap("report");
     result.report.seconds = seconds.list();
