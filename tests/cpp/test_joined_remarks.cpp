@@ -41,15 +41,16 @@ TEST_F(JoinedRemarksTest, NewNodesThatWentAgainAreNotTold) {
     EXPECT_THAT(problems(between),
                 ElementsAre("deck.inp:10: *EQUATION: 1 new node(s), the first is 6, are not related"));
     first.add_new_nodes("deck.inp:12: *EQUATION: ", {6, 5}, "are not related");
-    EXPECT_THAT(problems(input),
-                ElementsAre("deck.inp:12: *EQUATION: 1 new node(s), the first is 5, are not related"));
+    EXPECT_THAT(problems(input), ElementsAre("deck.inp:12: *EQUATION: 1 new node(s), the first is 5, are not related"));
 }
 
 TEST_F(JoinedRemarksTest, NodesAreThoseOfTheInputOrTheResult) {
     add_removed(the_node(1));
     add_removed(the_node(6));
-    EXPECT_THAT(problems(between), ElementsAre("deck.inp:11: *CLOAD names node 1 and 1 more, each of which was removed"));
-    EXPECT_THAT(problems(input), ElementsAre("deck.inp:11: *CLOAD names node 1, which was removed")) << "6 came and went";
+    EXPECT_THAT(problems(between),
+                ElementsAre("deck.inp:11: *CLOAD names node 1 and 1 more, each of which was removed"));
+    EXPECT_THAT(problems(input), ElementsAre("deck.inp:11: *CLOAD names node 1, which was removed"))
+        << "6 came and went";
 }
 
 TEST_F(JoinedRemarksTest, ElementsAreRemovedWhenNothingIsLeftOfThem) {
@@ -66,7 +67,8 @@ TEST_F(JoinedRemarksTest, SetsHaveTheNamesOfTheInput) {
     first.add_replaced("ENDS", "ENDS_LOAD1");
     add_removed(the_set("ends_load1"));
     add_removed(the_set("OTHER", "node set"));
-    EXPECT_THAT(problems(between), ElementsAre("deck.inp:11: *CLOAD names set 'ENDS' and 1 more, each of which was removed"));
+    EXPECT_THAT(problems(between),
+                ElementsAre("deck.inp:11: *CLOAD names set 'ENDS' and 1 more, each of which was removed"));
 }
 
 }  // namespace

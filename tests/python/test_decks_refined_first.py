@@ -48,11 +48,13 @@ def test_warnings_name_what_the_input_has(tmp_path):
     # The hole takes one node of the top, and of no element all of it.
     gone = set(mesh.node_ids.tolist()) - set(result.mesh.node_ids.tolist())
     (top,) = [n for n in gone if mesh.points[list(mesh.node_ids).index(n), 2] == 4]
-    assert len(told) == 1 and re.fullmatch(rf".*box.inp:\d+: \*TEMPERATURE names node {top}, which was removed", told[0])
+    assert len(told) == 1 and re.fullmatch(
+        rf".*box.inp:\d+: \*TEMPERATURE names node {top}, which was removed", told[0]
+    )
 
 
 def test_what_a_hole_takes_again_is_not_told(tmp_path):
-    """Two nodes with equations of different form, and a hole that takes the nodes that refinement makes between them."""
+    """Two nodes with equations of different form, and a hole that takes them and what refinement makes between them."""
     plain = grid_box()
     number = {tuple(p): n for p, n in zip(plain.points.tolist(), plain.node_ids.tolist())}
     a, b = number[3, 2, 4], number[3, 3, 4]

@@ -31,10 +31,10 @@ private:
     void translate_second(bool strip_places);
 
     Remarks first_, second_;
-    std::unordered_set<Index> nodes_, born_;       // of the result; made by the first change
-    std::unordered_map<Index, Index> parents_;     // of elements that the first change made
-    std::unordered_set<Index> left_;               // elements of the input that have parts in the result
-    std::unordered_set<Index> present_;            // elements of the mesh between that have parts in the result
+    std::unordered_set<Index> nodes_, born_;    // of the result; made by the first change
+    std::unordered_map<Index, Index> parents_;  // of elements that the first change made
+    std::unordered_set<Index> left_;            // elements of the input that have parts in the result
+    std::unordered_set<Index> present_;         // elements of the mesh between that have parts in the result
 };
 
 }  // namespace femscalpel
