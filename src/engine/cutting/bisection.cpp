@@ -156,8 +156,8 @@ bool Bisector::split(int a, int b) {
     if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_)
         return true;
     std::ostringstream message;
-    message << "size " << options_.size << " would make more than " << options_.max_elements
-            << " elements. Choose a larger size or gradation, or a larger max_elements";
+    message << "size " << options_.size << " would make more than " << options_.max_elements << " elements. "
+            << options_.finer_advice << options_.larger_advice;
     throw ToolError(message.str(), "size");
 }
 

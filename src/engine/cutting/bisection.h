@@ -23,6 +23,9 @@ struct BisectionOptions {
     bool relax = true;               ///< move new nodes for better shape, where that changes no surface or border
     Index max_elements = 5'000'000;  ///< ToolError instead of a larger mesh
     const CadShape* skin = nullptr;  ///< the shape the mesh was made from: new nodes of the skin are put on it
+    /// What messages advise against too fine a mesh, and, other than that, too large a one.
+    std::string finer_advice = "Choose a larger size or gradation";
+    std::string larger_advice = ", or a larger max_elements";
 };
 
 /// How long edges may be: size + gradation * max(0, d - reach), d the smallest distance of their ends and middle.

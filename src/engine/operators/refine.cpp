@@ -44,8 +44,8 @@ void check(const RefineOptions& o) {
 }
 
 /// Marks the corners of elements that have an edge to be bisected, level 0.
-std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& field,
-                                         const std::vector<double>& distance) {
+std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& field, const std::vector<double>& distance,
+                                         const std::string& advice) {
     std::vector<std::int8_t> level(mesh.points.size(), -1);
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
@@ -67,10 +67,10 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& fiel
         for (std::size_t k = 0; k < unsupported.size() && k < 5; ++k)
             numbers += (k ? ", " : "") + std::to_string(unsupported[k]);
         if (unsupported.size() > 5) numbers += ", ...";
-        throw UnsupportedElementError(
-            "the refinement reaches " + std::to_string(unsupported.size()) + " " + std::string(t.name) + " elements (" +
-            numbers + "); only triangles and tetrahedra can be bisected. Choose a larger size or gradation, " +
-            "or split these elements into tetrahedra first");
+        throw UnsupportedElementError("the refinement reaches " + std::to_string(unsupported.size()) + " " +
+                                      std::string(t.name) + " elements (" + numbers +
+                                      "); only triangles and tetrahedra can be bisected. " + advice +
+                                      ", or split these elements into tetrahedra first");
     }
     return level;
 }
@@ -218,7 +218,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     std::vector<double> distances(input.points.size());
     SparseCheck check(256);
     for (std::size_t n = 0; n < distances.size(); ++n, check()) distances[n] = field.distance(input.points[n]);
-    const std::vector<std::int8_t> core = find_long_edges(input, field, distances);
+    const std::vector<std::int8_t> core = find_long_edges(input, field, distances, options.finer_advice);
     watch.lap("locate");
     if (std::ranges::find(core, 0) == core.end()) return {};
     Edit edit(input, {});

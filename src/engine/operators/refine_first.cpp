@@ -95,6 +95,8 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
     o.feature_angle = options.feature_angle;
     o.skin = options.skin;
+    o.finer_advice = "Give `refine` a larger length, or False";
+    o.larger_advice.clear();
     if (!asked) {
         o.max_elements = most_elements;
         o.gradation = steepest_gradation;
