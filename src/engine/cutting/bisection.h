@@ -136,6 +136,7 @@ private:
     std::vector<double> distance_;  // by band node
     int off_shape_ = 0;
     const bool may_grow_;  // whether a larger band may be asked for; otherwise propagation ends at the rim
+    const double unit_;    // of squares of lengths in Edge
     const Index count_at_start_ = band_.tetras.size() + band_.triangles.size();
     const std::unordered_set<std::uint64_t> blocked_;
     std::unordered_set<std::uint64_t> left_;  // see left()
