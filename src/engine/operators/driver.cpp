@@ -182,6 +182,7 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
 
 Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();
+    check_extent(input);
     recipe.start(input);
     check_name(input, options.name, recipe.naming());
     check_options(options);

@@ -212,6 +212,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
 std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,
                                           const RefineOptions& options, Trace& trace) {
     check(options);
+    check_extent(input);
     Laps seconds;
     Stopwatch watch(seconds);
     const SizeField field(distance, options);
