@@ -29,7 +29,11 @@ PyObject* add_exception(py::module_& module, const char* name, const char* doc, 
 
 /// Raises a Python exception with what the error says, and the parameter it is about.
 void raise(PyObject* type, const Error& e) {
-    const auto error = py::reinterpret_steal<py::object>(PyObject_CallFunction(type, "s", e.what()));
+    const std::string_view what = e.what();  // may quote a file in any encoding
+    const auto text = py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(what.data(), static_cast<Py_ssize_t>(what.size()), "replace"));
+    if (!text) return;
+    const auto error = py::reinterpret_steal<py::object>(PyObject_CallFunctionObjArgs(type, text.ptr(), nullptr));
     if (!error) return;  // Python has raised another one
     if (*e.parameter() && PyObject_SetAttrString(error.ptr(), "_parameter", py::str(e.parameter()).ptr()) != 0) return;
     PyErr_SetObject(type, error.ptr());

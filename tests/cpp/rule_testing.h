@@ -82,7 +82,7 @@ protected:
         Carried out{"", {}, before};
         Changes changes;
         change(out.mesh, changes);
-        carry_deck(before, out.mesh, changes, false, out.warnings);
+        out.warnings = warnings_of(carry_deck(before, out.mesh, changes), false);
         remove_marks(out.mesh);
         out.mesh.validate();
         for (std::string& w : out.warnings)

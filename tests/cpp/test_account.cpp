@@ -35,7 +35,7 @@ struct AccountTest : testing::Test {
         const Naming naming{.groups = {{"TEST_N"}, {"TEST_P"}}, .front = ""};
         Laps laps;
         Stopwatch watch(laps);
-        const Edited edited = edit.finish(f, opening, naming, false, watch);
+        const Edited edited = edit.finish(f, opening, naming, watch);
         return account.close(f, {&blade, 1}, opening, naming, edited);
     }
     static const GroupRecord& record(const Report& report, const char* name) {

@@ -48,7 +48,7 @@ struct CadFile : testing::Test {
 TEST_F(CadFile, IsReadByItsSuffix) {
     EXPECT_EQ(faces_of(read_cad_file(with("box.brep", box()))), 6);
     EXPECT_EQ(faces_of(read_cad_file(with("box.BRP", box()))), 6) << "case does not count";
-    EXPECT_EQ(faces_of(shape_from_brep(box(), "face", "source")), 6);
+    EXPECT_EQ(faces_of(shape_from_brep(box(), "face")), 6);
 }
 
 TEST_F(CadFile, IsNamedInErrors) {
@@ -64,7 +64,7 @@ TEST_F(CadFile, IsNamedInErrors) {
     EXPECT_THAT(error(with("box.iges", box())), HasSubstr("the suffix is '.iges'"));
     EXPECT_THAT(error(with("bad.step", "nothing")), HasSubstr("bad.step' is not a STEP file"));
     EXPECT_THAT(error(with("bad.brep", "nothing")), HasSubstr("bad.brep'"));
-    EXPECT_THAT([] { shape_from_brep("nothing", "skin", "source"); },
+    EXPECT_THAT([] { shape_from_brep("nothing", "skin"); },
                 testing::ThrowsMessage<ToolError>(testing::StartsWith("skin: ")));
 }
 

@@ -67,6 +67,18 @@ TEST_F(CardEditsTest, KeepTheLineNumbersOfWhatStays) {
     EXPECT_THAT(places[0], testing::HasSubstr(":2: "));
     EXPECT_THAT(places[1], testing::HasSubstr(":4 (carried over)"));
     EXPECT_THAT(places[2], testing::HasSubstr(":5: "));
+    // What is made from what was made has the place of that.
+    reader = CardReader(card);
+    reader.next_data_line();
+    reader.next_data_line();
+    CardEdits more;
+    more.replace(reader, "9, 1, 20.");
+    more.apply(card);
+    reader = CardReader(card);
+    reader.next_data_line();
+    reader.next_data_line();
+    EXPECT_EQ(reader.field(), "9");
+    EXPECT_EQ(reader.where(), places[1]);
 }
 
 TEST(NumberText, FitsCalculixAndIsNoWholeNumber) {

@@ -108,5 +108,21 @@ TEST(CheckSkin, ComparesTheSkinWithTheGivenShape) {
                 testing::ThrowsMessage<ToolError>(HasSubstr("none of the 48 faces of the mesh's skin")));
 }
 
+TEST(CheckExtent, KnowsWhatDoublesCanTell) {
+    const auto changed = [](double scale, double shift) {
+        Mesh mesh = checks::grid(2, 2, 2);
+        for (Vec3& x : mesh.points) x = scale * x + Vec3(shift, 0, 0);
+        return mesh;
+    };
+    for (const auto& [scale, shift] : {std::pair(1.0, 0.0), {1.0, 1e7}, {1e-20, 0.0}, {1e20, 0.0}})
+        EXPECT_NO_THROW(check_extent(changed(scale, shift))) << scale << " " << shift;
+    const auto refused = [&](double scale, double shift, const char* why) {
+        EXPECT_THAT([&] { check_extent(changed(scale, shift)); }, testing::ThrowsMessage<QualityError>(HasSubstr(why)));
+    };
+    for (const double scale : {1e-200, 1e-100, 1e-40, 1e40, 1e160}) refused(scale, 0, "Give it in another unit");
+    for (const double shift : {1e8, -1e12}) refused(1, shift, "Move it to the origin first");
+    EXPECT_NO_THROW(check_extent(Mesh()));
+}
+
 }  // namespace
 }  // namespace femscalpel

@@ -37,15 +37,14 @@ TEST(Edit, PutsTheBandBackAndMakesTheGroups) {
     const Opening opening = open_lips(f);
     Laps laps;
     Stopwatch watch(laps);
-    const Edited edited =
-        edit.finish(f, opening, {.groups = {{"N", "BOTH"}, {"P", "BOTH"}}, .front = "FRONT"}, false, watch);
+    const Edited edited = edit.finish(f, opening, {.groups = {{"N", "BOTH"}, {"P", "BOTH"}}, .front = "FRONT"}, watch);
     const Mesh& after = edited.rebuilt.mesh;
     after.validate();
     EXPECT_EQ(edited.rebuilt.nodes_doubled, 4);
     EXPECT_EQ(checks::members(after, "N", GroupKind::element).size(), 2u);
     EXPECT_EQ(checks::members(after, "BOTH", GroupKind::element).size(), 4u);
     EXPECT_FALSE(after.find_group("FRONT")) << "all came apart";
-    EXPECT_THAT(edited.deck_warnings, IsEmpty());
+    EXPECT_TRUE(edited.deck.empty());
     EXPECT_EQ(laps.list().front().first, "rebuild");
     // The measures are those of the whole mesh, before and after.
     const FamilyTotals before = family_totals(mesh), now = family_totals(after);
@@ -69,7 +68,7 @@ TEST(Edit, NamesAFrontOfNodes) {
     opening.front_nodes = {checks::node_at(f.d.band, {0, 0, 0})};
     Laps laps;
     Stopwatch watch(laps);
-    const Edited edited = edit.finish(f, opening, {.groups = {{"N"}, {"P"}}, .front = "FRONT"}, false, watch);
+    const Edited edited = edit.finish(f, opening, {.groups = {{"N"}, {"P"}}, .front = "FRONT"}, watch);
     EXPECT_THAT(checks::members(edited.rebuilt.mesh, "FRONT", GroupKind::node), ElementsAre(10));
 }
 

@@ -22,9 +22,8 @@ TEST_F(FaceEquationsRule, SplitAndRemovedElementsAreTold) {
          {std::pair<Change, std::string>(halve_element_1, "1"), {remove_element_2, "2"}}) {
         const Carried after = carried(cards, change);
         EXPECT_EQ(after.cards, cards);
-        EXPECT_THAT(after.warnings,
-                    ElementsAre("deck.inp:12: *EQUATIONF names element " + element +
-                                " and 1 more, each of which was split or removed; the equation is kept as it is"));
+        EXPECT_THAT(after.warnings, ElementsAre("deck.inp:12: *EQUATIONF names element " + element +
+                                                ", which was split or removed; the equation is kept as it is"));
     }
 }
 

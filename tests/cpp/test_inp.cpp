@@ -414,6 +414,32 @@ TEST_F(Inp, ReadsAndWritesGzip) {
         EXPECT_THAT(read_error(packed.substr(0, size)), HasSubstr("bad.inp: the gzip'd file is truncated or damaged"));
 }
 
+TEST_F(Inp, ExtensionsOfPackedFilesHaveNoCase) {
+    const Mesh mesh = read(two_tets);
+    for (const char* name : {"deck.inp.GZ", "deck.inp.Gz", "deck.INP.gZ"}) {
+        write_inp(mesh, folder_ / name);
+        EXPECT_TRUE(text_of(folder_ / name).starts_with("\x1f\x8b")) << name;
+        EXPECT_EQ(read_inp(folder_ / name).name, "deck") << name;
+    }
+}
+
+TEST_F(Inp, RefusesNumbersThatCalculixCannotHold) {
+    Mesh mesh = read(two_tets);
+    mesh.node_ids.back() = 2147483647;
+    write_inp(mesh, folder_ / "large.inp");
+    EXPECT_EQ(read_inp(folder_ / "large.inp").node_ids, mesh.node_ids);
+    mesh.node_ids.back() = 2147483648;
+    EXPECT_THAT([&] { write_inp(mesh, folder_ / "larger.inp"); },
+                testing::ThrowsMessage<WriteError>(testing::EndsWith(
+                    "larger.inp: cannot be written: node number 2147483648 is larger than CalculiX can hold "
+                    "(2147483647)")));
+    mesh.node_ids.back() = 2147483647;
+    mesh.block(CellType::tetra).ids.back() = 3000000000;
+    EXPECT_THAT([&] { write_inp(mesh, folder_ / "larger.inp"); },
+                testing::ThrowsMessage<WriteError>(HasSubstr("element number 3000000000 is larger")));
+    EXPECT_FALSE(fs::exists(folder_ / "larger.inp"));
+}
+
 TEST_F(Inp, EveryErrorNamesFileAndLine) {
     const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";  // lines 1 to 5
     const std::string tet = nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n";        // lines 6 and 7

@@ -126,6 +126,13 @@ TEST_F(DeckSets, RefuseNamesThatAreNone) {
     Mesh mesh = checks::grid(1, 1, 1);
     mesh.add_group("A,B", GroupKind::node);
     EXPECT_THAT([&] { plan(mesh); }, testing::ThrowsMessage<WriteError>(HasSubstr("'A,B' cannot be a CalculiX set")));
+    for (const std::string name : {" A", "A ", "\tA", "A\t", "*A", "A\nB"}) {
+        mesh.groups[0].name = name;
+        EXPECT_THAT([&] { plan(mesh); }, testing::ThrowsMessage<WriteError>(HasSubstr("cannot be a CalculiX set")))
+            << "'" << name << "'";
+    }
+    mesh.groups[0].name = std::string("A\0B", 3);
+    EXPECT_THROW(plan(mesh), WriteError);
     mesh.groups[0].name = "AB";
     mesh.add_group("a b", GroupKind::node);
     EXPECT_THAT([&] { plan(mesh); }, testing::ThrowsMessage<WriteError>(HasSubstr("groups 'AB' and 'a b'")));

@@ -644,6 +644,11 @@ TEST_F(MedTest, UnwritableIsNamedAndLeavesTheOldFile) {
     mesh.groups[0].name = "blank ";
     expect_error<WriteError>([&] { write_med(mesh, path_); }, "ends in a blank");
     mesh.groups.clear();
+    mesh.unit = "micrometre (1e-6 m)";
+    expect_error<WriteError>([&] { write_med(mesh, path_); }, "the unit 'micrometre (1e-6 m)' has 19 bytes");
+    mesh.unit = "sixteen bytes ok";
+    write_med(mesh, path_);
+    EXPECT_EQ(read_med(path_).unit, mesh.unit);
     mesh.node_ids[0] = Index{1} << 40;
     if (sizeof(med_int) < sizeof(Index))
         expect_error<WriteError>([&] { write_med(mesh, path_); }, "1099511627776 is larger than");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "crack_checks.h"
 #include "cutting/removal.h"
@@ -225,6 +226,17 @@ TEST(Rebuild, NumbersFromAboveWhatTheDeckHas) {
     input->other_elements().push_back({5000, "USER", {}, 0});
     mesh.companion = input;
     EXPECT_EQ(next_numbers(mesh).cell, 5001);
+}
+
+TEST(Rebuild, NumbersMustNotOverflow) {
+    Mesh mesh = checks::grid(1, 1, 1);
+    mesh.node_ids.back() = std::numeric_limits<Index>::max();
+    EXPECT_THAT([&] { next_numbers(mesh); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr(
+                                                 "node number 9223372036854775807 leaves no numbers for new nodes")));
+    mesh = checks::grid(1, 1, 1);
+    mesh.block(CellType::tetra).ids.back() = std::numeric_limits<Index>::max();
+    EXPECT_THAT([&] { next_numbers(mesh); }, testing::ThrowsMessage<ToolError>(testing::HasSubstr(
+                                                 "element number 9223372036854775807 leaves no numbers for new ele")));
 }
 
 }  // namespace

@@ -497,6 +497,22 @@ TEST(Refine, BadOptions) {
         testing::ThrowsMessage<ToolError>(testing::HasSubstr("point 1")));
 }
 
+TEST(Refine, IsTheSameInEveryUnit) {
+    // Squares of lengths beyond single precision once had no order, and refining no end.
+    const auto refined = [](double unit) {
+        Mesh mesh = grid(3, 2, 2);
+        for (Vec3& x : mesh.points) x *= unit;
+        const Plane plane(Vec3(1.5, 0, 0) * unit, {1, 0.1, 0.2});
+        RefineOptions options;
+        options.size = 0.5 * unit;
+        options.max_elements = 20000;
+        return refine(mesh, distance_to(std::vector<const Tool*>{&plane}), options).mesh.cell_count();
+    };
+    const Index count = refined(1);
+    EXPECT_GT(count, 72);
+    for (const int exponent : {-90, -60, 60, 90}) EXPECT_EQ(refined(std::ldexp(1.0, exponent)), count) << exponent;
+}
+
 TEST(Refine, ThenCrackAlongAThinCylinder) {
     // In so thin a cylinder elements have all four corners on it; the crack must not have holes there.
     const Mesh mesh = read_inp(std::string(FEMSCALPEL_TEST_MESHES) + "/two_boxes.inp");

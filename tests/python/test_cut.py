@@ -68,7 +68,7 @@ PLANE = fs.Plane((3.1, 0, 0), (1, 0, 0))
     "kwargs, error, message",
     [
         ({}, ValueError, "give either width or other"),
-        ({"width": 1, "other": PLANE}, ValueError, "give either width or other"),
+        ({"width": 1, "other": PLANE}, ValueError, "other must not be given with width"),
         ({"width": 0}, fs.ToolError, "width is 0; it must be positive"),
         ({"width": -1}, fs.ToolError, "width is -1"),
         ({"width": "1"}, TypeError, "width must be a number"),

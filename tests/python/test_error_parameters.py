@@ -26,6 +26,13 @@ class Shape:
         return self.brep
 
 
+class NoRepr:
+    """What somebody else's class may do."""
+
+    def __repr__(self):
+        raise RuntimeError("no repr")
+
+
 def crack(**options):
     return lambda: fs.crack(box_with_groups(), **{"tool": PLANE, **options})
 
@@ -62,6 +69,11 @@ IN_THE_ENGINE = [
     (lambda: fs.Cone(O, Z, 0, 30), "radius"),
     (lambda: fs.Cone(O, Z, 1, 90), "half_angle"),
     (lambda: fs.Face(Shape("no shape")), "source"),
+    (lambda: fs.Face("nowhere.step"), "source"),
+    (lambda: fs.Face("x" * 5000 + ".step"), "source"),
+    (lambda: fs.Shape("nowhere.step"), "source"),
+    (lambda: fs.Shape("not\na shape"), "source"),
+    (crack(skin="nowhere.step"), "skin"),
     (lambda: fs.Disk(O, 0), "radius"),
     (lambda: fs.Ellipse(O, (0, 1), X), "half_axes"),
     (lambda: fs.Ellipse(O, (1, 0), X), "half_axes"),
@@ -75,7 +87,6 @@ IN_THE_ENGINE = [
     (crack(name=""), "name"),
     (crack(name="A B"), "name"),
     (crack(name="A" * 23), "name"),
-    (crack(transition=21), "transition"),
     (crack(preserve=["NOWHERE"]), "preserve"),
     (crack(skin="not\na shape"), "skin"),
     (crack(skin=SHAPES / "plane.brep"), "skin"),
@@ -93,6 +104,7 @@ IN_THE_ENGINE = [
     (drill(tools=PLANE, depth=1), "depth"),
     (drill(method="deform", depth=1), "method"),
     (cut(width=0), "width"),
+    (cut(tool=fs.Plane((3, 0, 0), X), width=1e-9), "width"),
     (cut(width=1, method="deform"), "method"),
     (refine(near=np.empty((0, 3))), "near"),
     (refine(near=[(0, 0, float("nan"))]), "near"),
@@ -121,6 +133,35 @@ IN_THE_PACKAGE = [
     (crack(name=3), "name"),
     (crack(method="saw"), "method"),
     (crack(transition=0), "transition"),
+    (crack(transition=21), "transition"),
+    (crack(transition=2**31), "transition"),
+    (crack(method=np.array(["snap"])), "method"),
+    (crack(method=np.array(["snap", "x"])), "method"),
+    (crack(preserve=np.array(2.0)), "preserve"),
+    (crack(feature_angle=10**400), "feature_angle"),
+    (crack(name="\ud800"), "name"),
+    (crack(name="A\0B"), "name"),
+    (crack(skin="a\0b.brep"), "skin"),
+    (crack(tool=NoRepr()), "tool"),
+    (cut(width=1, other=PLANE), "other"),
+    (refine(max_elements=2**63), "max_elements"),
+    (refine(near=[["1", "2", "3"]]), "near"),
+    (lambda: fs.Cylinder(O, Z, 10**400), "radius"),
+    (lambda: fs.Plane((10**400, 0, 0), Z), "origin"),
+    (lambda: fs.Plane("123", Z), "origin"),
+    (lambda: fs.Plane(O, b"abc"), "normal"),
+    (lambda: fs.Plane({3, 1, 2}, Z), "origin"),
+    (lambda: fs.Plane({0: 1, 1: 2, 2: 3}, Z), "origin"),
+    (lambda: fs.Plane(O, [True, False, False]), "normal"),
+    (lambda: fs.Plane(["1", "2", "3"], Z), "origin"),
+    (lambda: fs.Ellipse(O, {1, 2}, X), "half_axes"),
+    (lambda: fs.Shape(5), "source"),
+    (lambda: fs.Face("a\0b.step"), "source"),
+    (lambda: fs.read("a\0.inp"), "path"),
+    (lambda: fs.write(box_with_groups(), "\ud800.inp"), "path"),
+    (mesh(points=[["0", "0", "0"]] * 3), "points"),
+    (mesh(groups={"A\0B": ("node", [1])}), "groups"),
+    (mesh(groups={"A": (np.array(["node", "x"]), [1])}), "groups"),
     (crack(feature_angle=0), "feature_angle"),
     (crack(strict=1), "strict"),
     (crack(preserve="LEFT"), "preserve"),
@@ -186,6 +227,30 @@ def test_errors_of_the_package(call, parameter):
 @pytest.mark.parametrize("call", OTHERS)
 def test_errors_about_no_single_parameter(call):
     assert getattr(error_of(call, (fs.Error, TypeError, ValueError)), "parameter", None) is None
+
+
+def test_numbers_of_any_kind_are_taken():
+    from fractions import Fraction
+
+    plane = fs.Plane(np.array([1, 2, 3], np.float32), (Fraction(1, 2), np.int64(0), 0))
+    assert plane.origin == (1, 2, 3) and plane.normal == (1, 0, 0)
+    assert fs.Sphere(O, Fraction(1, 2)).radius == 0.5
+
+
+def test_what_the_messages_call_things():
+    assert "preserve[0] must be the name of a group, not 3 (int)" in str(error_of(crack(preserve=[3]), TypeError))
+    assert "low" not in str(error_of(lambda: fs.CylinderPart((1, 0)), fs.ToolError))
+    assert "NoRepr object" in str(error_of(crack(tool=NoRepr()), TypeError))
+    text = str(error_of(crack(refine=1e-9), fs.ToolError))
+    assert "`refine` a larger length" in text and "gradation" not in text and "max_elements" not in text
+    text = str(error_of(refine(size=1e-3, max_elements=1), fs.ToolError))
+    assert "Choose a larger size or gradation, or a larger max_elements" in text
+
+
+def test_a_message_may_quote_any_encoding(tmp_path):
+    path = tmp_path / "latin.inp"
+    path.write_bytes(b"*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=\xe9\n1, 1\n")
+    assert "latin.inp:3" in str(error_of(lambda: fs.read(path), fs.ReadError))
 
 
 def test_a_name_that_is_taken():

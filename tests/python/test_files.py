@@ -47,7 +47,7 @@ def test_formats_that_are_written_only(tmp_path, suffix):
     path = tmp_path / ("box" + suffix)
     fs.write(box_with_groups(), path)
     assert path.stat().st_size > 1000
-    with pytest.raises(fs.ReadError, match=f"the format is told by the extension, one of {listed('reads')}$"):
+    with pytest.raises(fs.ReadError, match=f"can only be written; those that can be read are {listed('reads')}$"):
         fs.read(path)
 
 

@@ -92,6 +92,35 @@ def test_plane_on_the_outside():
     assert "touches the mesh, on its outside: wherever it does, the elements are on one side of it only" in text
 
 
+def test_tools_smaller_than_the_elements_inside_do_not_touch_from_outside():
+    mesh = grid_box()
+    for call in (
+        lambda: fs.drill(mesh, fs.Cylinder((3, 2, 2), (0, 0, 1), 1e-12), refine=False),
+        lambda: fs.crack(mesh, fs.Sphere((3, 2, 2), 1e-9), refine=False),
+    ):
+        with pytest.raises(fs.ToolError) as error:
+            call()
+        assert "smaller than the elements there" in str(error.value) and "outside" not in str(error.value)
+    for x in (3, 2.5):
+        with pytest.raises(fs.ToolError, match="slot of width 1e-09 removes nothing: it is narrower than") as error:
+            fs.cut(mesh, fs.Plane((x, 0, 0), (1, 0, 0)), width=1e-9)
+        assert error.value.parameter == "width"
+    with pytest.raises(fs.ToolError, match="touches the mesh from outside"):
+        fs.cut(mesh, fs.Plane((0, 0, 0), (1, 0, 0)), width=1e-9)
+
+
+def test_a_hole_within_another_is_told():
+    def hole(x, y, radius):
+        return fs.Cylinder((x, y, 2), (0, 0, 1), radius)
+
+    mesh = grid_box()
+    small = fs.drill(mesh, [hole(3, 2, 0.6), hole(3, 2, 1.2)])
+    assert len(small.mesh.groups["HOLE_WALL1"]) == 0
+    assert [w for w in small.report.warnings if "nothing is left of the wall HOLE_WALL1 (cylinder)" in w]
+    two = fs.drill(mesh, [hole(1.5, 2, 0.6), hole(4, 2, 0.6)])
+    assert not [w for w in two.report.warnings if "nothing is left" in w]
+
+
 def test_plane_through_a_corner_touches():
     text = message(lambda: fs.crack(fs.Mesh(TETRA, {"tetra": [[0, 1, 2, 3]]}), fs.Plane((1, 0, 0), (1, 0, 0))))
     assert "only touches the mesh, along edges or in single nodes" in text and "thinner" not in text

@@ -28,6 +28,14 @@ std::unordered_set<std::uint64_t> blocked_edges(const Mesh& mesh, const BandMesh
     return blocked;
 }
 
+/// What squares of lengths in a band are multiplied by so that single precision holds them: a power of two, which
+/// leaves their digits as they are.
+double unit_of(const BandMesh& band) {
+    double size = 0;
+    for (const auto& node : band.nodes) size = std::max(size, (node.at - band.nodes[0].at).norm());
+    return size > 0 ? std::ldexp(1.0, -2 * std::ilogb(size)) : 1;
+}
+
 /// Parts of elements with a mean ratio below this are not made.
 constexpr double spoilt = 0.02;
 
@@ -42,6 +50,7 @@ Bisector::Bisector(Deformable& d, const Mesh& mesh, const SizeField& field, cons
       options_(options),
       distance_(std::move(distance)),
       may_grow_(may_grow),
+      unit_(unit_of(d.band)),
       blocked_(blocked_edges(mesh, d.band)),
       geometry_(d.band, d.mids, mesh) {}
 
@@ -73,7 +82,8 @@ Vec3 Bisector::mid_side(int a, int b) const {
 }
 
 Bisector::Edge Bisector::edge(int a, int b) const {
-    return {static_cast<float>((band_.nodes[a].at - band_.nodes[b].at).squaredNorm()), std::min(a, b), std::max(a, b)};
+    const double length = unit_ * (band_.nodes[a].at - band_.nodes[b].at).squaredNorm();
+    return {static_cast<float>(length), std::min(a, b), std::max(a, b)};
 }
 
 bool Bisector::exceeded(int a, int b) const {
@@ -156,8 +166,8 @@ bool Bisector::split(int a, int b) {
     if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_)
         return true;
     std::ostringstream message;
-    message << "size " << options_.size << " would make more than " << options_.max_elements
-            << " elements. Choose a larger size or gradation, or a larger max_elements";
+    message << "size " << options_.size << " would make more than " << options_.max_elements << " elements. "
+            << options_.finer_advice << options_.larger_advice;
     throw ToolError(message.str(), "size");
 }
 

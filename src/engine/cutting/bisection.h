@@ -23,6 +23,9 @@ struct BisectionOptions {
     bool relax = true;               ///< move new nodes for better shape, where that changes no surface or border
     Index max_elements = 5'000'000;  ///< ToolError instead of a larger mesh
     const CadShape* skin = nullptr;  ///< the shape the mesh was made from: new nodes of the skin are put on it
+    /// What messages advise against too fine a mesh, and, other than that, too large a one.
+    std::string finer_advice = "Choose a larger size or gradation";
+    std::string larger_advice = ", or a larger max_elements";
 };
 
 /// How long edges may be: size + gradation * max(0, d - reach), d the smallest distance of their ends and middle.
@@ -133,6 +136,7 @@ private:
     std::vector<double> distance_;  // by band node
     int off_shape_ = 0;
     const bool may_grow_;  // whether a larger band may be asked for; otherwise propagation ends at the rim
+    const double unit_;    // of squares of lengths in Edge
     const Index count_at_start_ = band_.tetras.size() + band_.triangles.size();
     const std::unordered_set<std::uint64_t> blocked_;
     std::unordered_set<std::uint64_t> left_;  // see left()

@@ -65,6 +65,32 @@ void check_contacts(const Workpiece& f) {
     throw QualityError(message.str());
 }
 
+void check_extent(const Mesh& mesh) {
+    if (mesh.points.empty()) return;
+    // Squares of volumes are to be numbers, too.
+    constexpr double smallest = 1e-30, largest = 1e30;
+    // Times the size of the mesh: beyond, coordinates are rounded by more than what counts as the same place.
+    constexpr double farthest = 4e6;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Vec3& x : mesh.points) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const double size = (high - low).stableNorm(),
+                 off = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    std::ostringstream message;
+    if (size > 0 && (size < smallest || off > largest))
+        message << "the mesh is " << size << " across, with coordinates up to " << off << ": lengths must be between "
+                << smallest << " and " << largest << " to be computed with. Give it in another unit";
+    else if (size > 0 && off > farthest * size)
+        message << "the mesh is " << size << " across, but has coordinates up to " << off
+                << ", which double precision rounds by up to " << off * std::numeric_limits<double>::epsilon() / 2
+                << ": too much for its elements. Move it to the origin first";
+    else
+        return;
+    throw QualityError(message.str(), "mesh");
+}
+
 void check_input_shape(Workpiece& f, const Mesh& mesh) {
     const std::vector<Bad> poor = worse_than(0.1, f, mesh);
     std::vector<Bad> bad;

@@ -5,6 +5,10 @@
 
 namespace femscalpel {
 
+/// Throws QualityError when the mesh is so small, so large or so far from the origin for its size that numbers in
+/// double precision cannot tell its elements from flat ones.
+void check_extent(const Mesh& mesh);
+
 /// Throws QualityError that names the elements when the input itself has inverted ones in the band, or second-order
 /// ones that are folded where solvers integrate; counts poor ones (mean ratio below 0.1) as a warning. Elements that
 /// are folded at a corner only are mended, see folded_input.h.

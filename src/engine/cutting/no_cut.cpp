@@ -177,6 +177,23 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
     return message.str();
 }
 
+bool is_smaller_than_elements(const Workpiece& f, const Tool& tool) {
+    if (!std::isfinite(tool.feature_size())) return false;
+    const BandMesh& band = f.d.band;
+    const double near = 10 * f.tolerance + tool.feature_size();
+    for (int v = 0; v < band.size(); ++v)
+        if (band.in_use(v) && std::abs(tool.distance(band.nodes[v].at)) <= near &&
+            band.mean_edge_length(v) > tool.feature_size())
+            return true;
+    return false;
+}
+
+std::string why_too_small(const Tool& tool) {
+    return "the " + tool.kind() +
+           " is smaller than the elements there, and parts none of them. Refine the mesh there first, or move the " +
+           tool.kind() + " into the material";
+}
+
 std::string why_nothing_parts(const Workpiece& f, const Blade& blade, const std::string& otherwise) {
     const BandMesh& band = f.d.band;
     std::vector<Vec3> behind, before;  // nodes of faces, and edges of shells, on the tool
@@ -210,6 +227,7 @@ std::string why_nothing_parts(const Workpiece& f, const Blade& blade, const std:
     if (shells > 0)
         return std::to_string(shells) + " shell element(s) lie in the " + blade.tool->kind() +
                ", and nothing stands on them that it could part from them" + advice;
+    if (is_smaller_than_elements(f, *blade.tool)) return why_too_small(*blade.tool);
     if (!behind.empty() || !before.empty()) {
         const std::string side = before.empty()   ? "all elements there are on its negative side"
                                  : behind.empty() ? "all elements there are on its positive side"

@@ -20,4 +20,10 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
 /// edge of a shell lies on it.
 std::string why_nothing_parts(const Workpiece& workpiece, const Blade& blade, const std::string& otherwise);
 
+/// Whether the elements around a node on the tool, or within it, are larger than the tool, by its radius.
+bool is_smaller_than_elements(const Workpiece& workpiece, const Tool& tool);
+
+/// What is said of such a tool that parts nothing.
+std::string why_too_small(const Tool& tool);
+
 }  // namespace femscalpel

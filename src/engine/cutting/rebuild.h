@@ -33,7 +33,8 @@ struct Numbering {
     Index cell = 1;
 };
 
-/// Those above the largest in use, also by elements outside the mesh that the solver's input has.
+/// Those above the largest in use, also by elements outside the mesh that the solver's input has. Throws ToolError when
+/// that is too large.
 Numbering next_numbers(const Mesh& mesh);
 
 /// Puts the band's changes into `copy`, a copy of `input`: moved nodes, split elements, doubled nodes, lip elements in

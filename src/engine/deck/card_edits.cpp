@@ -44,8 +44,9 @@ void CardEdits::apply(Card& card) const {
                 run = next;
                 run_number = next_number;
                 if (!edit->second.added.empty()) {
-                    const auto file = std::make_shared<const DeckFile>(DeckFile{
-                        piece.file->path + ":" + std::to_string(number) + " (carried over)", edit->second.added});
+                    const std::string place =
+                        piece.where(number) + std::string(piece.file->carried ? "" : carried_over);
+                    const auto file = std::make_shared<const DeckFile>(DeckFile{place, edit->second.added, true});
                     out.push_back({file, file->text, 1});
                 }
             }

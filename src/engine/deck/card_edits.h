@@ -9,6 +9,9 @@
 
 namespace femscalpel {
 
+/// Said in the place of a line that was made from another: "deck.inp:12 (carried over): ".
+inline constexpr std::string_view carried_over = " (carried over)";
+
 /// Changes to the lines of a card; what is not changed keeps its text and its line number.
 class CardEdits {
 public:

@@ -2,6 +2,7 @@
 #include "deck/carry_over.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "cancel.h"
@@ -51,33 +52,47 @@ void tell_emptied(const SolverInput& deck, const Mesh& before, const Mesh& after
         emptied.tell(c, deck.cards()[c], rules.find(deck.cards()[c])->names_per_line(), remarks);
 }
 
-void pass_on(const Remarks& remarks, bool strict, std::vector<std::string>& warnings) {
-    const std::vector<std::string> problems = remarks.problems(), notes = remarks.notes();
+/// What is not there yet.
+void append(std::vector<std::string>& out, std::vector<std::string> texts) {
+    for (std::string& text : texts)
+        if (std::ranges::find(out, text) == out.end()) out.push_back(std::move(text));
+}
+
+std::vector<std::string> pass_on(std::vector<std::string> problems, std::vector<std::string> notes, bool strict) {
     if (strict && !problems.empty()) {
         std::string text = "the solver's input cannot follow the change (strict=True):";
         for (const std::string& problem : problems) text += "\n  " + problem;
         throw Error(text);
     }
-    warnings.insert(warnings.end(), problems.begin(), problems.end());
-    warnings.insert(warnings.end(), notes.begin(), notes.end());
+    std::ranges::move(notes, std::back_inserter(problems));
+    return problems;
 }
 
 }  // namespace
 
-void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict,
-                std::vector<std::string>& warnings) {
+Remarks carry_deck(const Mesh& before, Mesh& after, const Changes& changes) {
     const SolverInput* const deck = solver_input(before);
-    if (!deck) return;
+    if (!deck) return {};
     if (is_mesh_alone(*deck)) {
         Remarks remarks(*deck);
         tell_emptied(*deck, before, after, remarks);
-        pass_on(remarks, strict, warnings);
-        return;
+        return remarks;
     }
     Carrying carrying(before, after, changes);
     carry_cards(carrying);
     after.companion = carrying.result();
-    pass_on(carrying.remarks(), strict, warnings);
+    return carrying.remarks();
+}
+
+std::vector<std::string> warnings_of(const Remarks& remarks, bool strict) {
+    return pass_on(remarks.problems(), remarks.notes(), strict);
+}
+
+std::vector<std::string> warnings_of(const JoinedRemarks& remarks, bool strict) {
+    std::vector<std::string> problems = remarks.first().problems(), notes = remarks.first().notes();
+    append(problems, remarks.second().problems());
+    append(notes, remarks.second().notes());
+    return pass_on(std::move(problems), std::move(notes), strict);
 }
 
 }  // namespace femscalpel

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "deck/rules/joined_remarks.h"
+#include "deck/rules/remarks.h"
 #include "mesh/changes.h"
 #include "mesh/mesh.h"
 
@@ -34,9 +36,15 @@ namespace femscalpel {
 /// - Reference nodes, nodes of elements outside the mesh stay the originals.
 ///
 /// What of this changes the meaning, what names something removed or a set that lost all its members, and cards of
-/// unknown keyword, are warnings "file:line: ..."; with `strict` all of them but the ones about whole concentrated
-/// loads make an Error, and `after` is then of no use. So does, always, a removed node of an element outside the mesh.
-void carry_deck(const Mesh& before, Mesh& after, const Changes& changes, bool strict,
-                std::vector<std::string>& warnings);
+/// unknown keyword, are remarks "file:line: ...", to be told. Throws Error when a node of an element outside the mesh
+/// is removed. Nothing happens without a deck.
+Remarks carry_deck(const Mesh& before, Mesh& after, const Changes& changes);
+
+/// Remarks as warnings. With `strict`, problems, which is all but what is said about whole concentrated loads, make an
+/// Error that lists them.
+std::vector<std::string> warnings_of(const Remarks& remarks, bool strict);
+
+/// The same of two changes one after the other.
+std::vector<std::string> warnings_of(const JoinedRemarks& remarks, bool strict);
 
 }  // namespace femscalpel

@@ -126,9 +126,13 @@ const std::string* Card::parameter(std::string_view name) const {
     return nullptr;
 }
 
+std::string DeckText::where(Index its_line) const {
+    return file->carried ? file->path : file->path + ":" + std::to_string(its_line);
+}
+
 std::string Card::where() const {
     if (text.empty()) return "";
-    return text.front().file->path + ":" + std::to_string(text.front().line);
+    return text.front().where(text.front().line);
 }
 
 void Card::set_text(std::string new_text) {
@@ -234,7 +238,7 @@ std::string CardReader::where() const {
     if (piece_ >= card_->text.size()) return card_->where() + ": ";
     const DeckText& piece = card_->text[piece_];
     const Index lines = std::count(piece.text.data(), line_ ? line_ : piece.text.data(), '\n');
-    return piece.file->path + ":" + std::to_string(piece.line + lines) + ": ";
+    return piece.where(piece.line + lines) + ": ";
 }
 
 }  // namespace femscalpel

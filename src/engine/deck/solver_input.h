@@ -18,6 +18,7 @@ namespace femscalpel {
 struct DeckFile {
     std::string path;  ///< for messages; empty for text made by a program
     std::string text;
+    bool carried = false;  ///< made from a line of another file: `path` is the place of that
 };
 
 /// Whole consecutive lines of one file.
@@ -25,6 +26,9 @@ struct DeckText {
     std::shared_ptr<const DeckFile> file;
     std::string_view text;  ///< inside file->text
     Index line = 1;         ///< number of the first line in the file
+
+    /// "deck.inp:12", for messages about a line of the file.
+    std::string where(Index its_line) const;
 };
 
 /// NAME=value on a keyword line. Names are upper case without blanks; values are as written, trimmed.

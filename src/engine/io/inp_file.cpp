@@ -48,6 +48,12 @@ std::string unzip(const std::string& packed, const std::string& shown) {
 
 }  // namespace
 
+bool is_packed(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    return extension.size() == 3 && (extension[1] == 'g' || extension[1] == 'G') &&
+           (extension[2] == 'z' || extension[2] == 'Z');
+}
+
 std::string load_text(const fs::path& path) {
     const std::string shown = path.string();
     std::error_code error;
@@ -70,8 +76,7 @@ std::string load_text(const fs::path& path) {
 
 void save_text(const fs::path& path, const std::string& text) {
     AtomicFile file(path);
-    std::string extension = path.extension().string();
-    if (extension == ".gz" || extension == ".GZ") {
+    if (is_packed(path)) {
         std::unique_ptr<gzFile_s, int (*)(gzFile)> out(gzopen(file.temporary().c_str(), "wb6"), gzclose);
         bool good = out != nullptr;
         for (std::size_t at = 0; good && at < text.size();) {

@@ -7,6 +7,9 @@
 
 namespace femscalpel {
 
+/// CalculiX counts in 32 bits.
+inline constexpr Index largest_deck_number = 2147483647;
+
 /// Appends `value` as a CalculiX deck holds it: in at most 20 characters, exactly if that is possible, otherwise the
 /// closest that fits.
 void append_coordinate(std::string& out, double value);

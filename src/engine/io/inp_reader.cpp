@@ -10,20 +10,20 @@
 #include "deck/solver_sets.h"
 #include "io/inp.h"
 #include "io/inp_cards.h"
+#include "io/inp_file.h"
+#include "io/inp_numbers.h"
 
 namespace femscalpel {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Index largest_number = 2147483647;  // CalculiX counts in 32 bits
-
 class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
         input_->cards() = read_cards(path);
         fs::path stem = path.filename();
-        if (stem.extension() == ".gz" || stem.extension() == ".GZ") stem = stem.stem();
+        if (is_packed(stem)) stem = stem.stem();
         mesh_.name = stem.stem().string();
     }
 
@@ -80,9 +80,9 @@ private:
         Index id = 0;
         if (!line.integer(id))
             throw ReadError(line.where() + "'" + line.field() + "' is not " + std::string(what) + " number");
-        if (id <= 0 || id > largest_number)
+        if (id <= 0 || id > largest_deck_number)
             throw ReadError(line.where() + std::string(what) + " number " + std::to_string(id) +
-                            " is not between 1 and 2147483647");
+                            " is not between 1 and " + std::to_string(largest_deck_number));
         return id;
     }
 

@@ -135,10 +135,13 @@ private:
 
     void claim(DeckSetType type, const std::string& name, const std::string& group) {
         const std::string key = deck_key(name);
-        if (key.empty() || key.size() > 80 || name.find_first_of(",\n\r") != name.npos || key.starts_with('*'))
+        using namespace std::string_view_literals;
+        constexpr std::string_view blanks = " \t";  // do not count, and get lost
+        if (key.empty() || key.size() > 80 || name.find_first_of(",\n\r\0"sv) != name.npos || key.starts_with('*') ||
+            blanks.find(name.front()) != blanks.npos || blanks.find(name.back()) != blanks.npos)
             throw WriteError("group '" + group +
-                             "' cannot be a CalculiX set: names have 1 to 80 characters, no comma and no "
-                             "asterisk first; rename the group");
+                             "' cannot be a CalculiX set: names have 1 to 80 characters, no comma, no asterisk first "
+                             "and no blank at either end; rename the group");
         const auto [it, is_new] = names_.emplace(name_key(type, name), group);
         if (is_new) return;
         if (it->second == group)

@@ -26,6 +26,8 @@ public:
 
     std::string write() {
         if (mesh_.node_count() == 0) throw WriteError("the mesh has no nodes");
+        check_number(mesh_.largest_node_id(), "node");
+        check_number(mesh_.largest_cell_id(), "element");
         const std::string& first = input_->cards().front().text.front().file->text;
         const std::size_t newline = first.find('\n');
         if (newline != first.npos && newline > 0 && first[newline - 1] == '\r') eol_ = "\r\n";
@@ -42,6 +44,12 @@ public:
     }
 
 private:
+    static void check_number(Index largest, const char* what) {
+        if (largest > largest_deck_number)
+            throw WriteError("cannot be written: " + std::string(what) + " number " + std::to_string(largest) +
+                             " is larger than CalculiX can hold (" + std::to_string(largest_deck_number) + ")");
+    }
+
     static std::shared_ptr<const SolverInput> deck_of(const Mesh& mesh) {
         if (auto deck = std::dynamic_pointer_cast<const SolverInput>(mesh.companion); deck && !deck->cards().empty())
             return deck;

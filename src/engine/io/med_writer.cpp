@@ -150,10 +150,13 @@ private:
         if (name.empty() || name == ".") name = "mesh";
         std::copy(name.begin(), name.end(), name_);
 
+        if (mesh_.unit.size() > MED_SNAME_SIZE)
+            fail("the unit '" + mesh_.unit + "' has " + std::to_string(mesh_.unit.size()) + " bytes, MED allows " +
+                 std::to_string(MED_SNAME_SIZE) + "; give it a shorter name");
         std::string axes, units;
         for (const char* axis : {"X", "Y", "Z"}) {
             axes += axis;
-            units += mesh_.unit.substr(0, MED_SNAME_SIZE);
+            units += mesh_.unit;
             axes.resize((axes.size() + MED_SNAME_SIZE - 1) / MED_SNAME_SIZE * MED_SNAME_SIZE, ' ');
             units.resize(axes.size(), ' ');
         }

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/carry_over.h"
 #include "groups/opened_areas.h"
 #include "mesh/quality.h"
 #include "operators/poor.h"
@@ -256,7 +257,7 @@ void Account::open(const Workpiece& f) {
     if (options_.preserve) gauge_.emplace(f.d.band, edit_.mesh(), drifting_);
     if (f.d.constraints.has_shortcuts())
         shortcuts_.emplace(DriftGauge::of_shortcuts(f.d.band, edit_.mesh(), drifting_,
-                                                    refined_ ? refined_->on_shortcuts : std::vector<Index>()));
+                                                    refined_ ? refined_->trace.on_shortcuts : std::vector<Index>()));
 }
 
 void Account::judge(Workpiece& f, std::span<const Blade> blades, const Opening& opening) {
@@ -297,6 +298,15 @@ void Account::count(const Rebuilt& rebuilt) {
     report_.elements_removed = rebuilt.elements_removed;
 }
 
+/// Throws Error when there are problems and the option strict is given. A preview does not carry the deck over.
+std::vector<std::string> Account::deck_warnings(const Edited& edited) const {
+    if (edit_.is_part()) return {};
+    if (!was_refined() || !refined_->deck) return warnings_of(edited.deck, options_.strict);
+    const JoinedRemarks both(refined_->trace.deck, refined_->trace.changes, edited.deck, edited.rebuilt.changes,
+                             edited.rebuilt.mesh, *refined_->deck);
+    return warnings_of(both, options_.strict);
+}
+
 void Account::find_warnings(const Workpiece& f, std::span<const Blade> blades, const Opening& opening,
                             const Edited& edited) {
     // Sets that follow surfaces change with these; no size of theirs can get lost.
@@ -309,7 +319,8 @@ void Account::find_warnings(const Workpiece& f, std::span<const Blade> blades, c
     const Mesh& mesh = edit_.mesh();
     if (!options_.skin) warn_of_changed_size(edit_.whole(), mesh, edited.before, edited.after, f, unjudged, report_);
     warn_of_emptied_groups(mesh, meaningless, report_);
-    for (const std::vector<std::string>* warnings : {&f.warnings, &opening.warnings, &edited.deck_warnings})
+    const std::vector<std::string> of_deck = deck_warnings(edited);
+    for (const std::vector<std::string>* warnings : {&f.warnings, &opening.warnings, &of_deck})
         for (const std::string& w : *warnings)
             if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
     if (!was_refined()) warn_of_growth(edit_.whole().cell_count(), *blades.front().tool, report_);

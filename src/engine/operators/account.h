@@ -41,6 +41,7 @@ private:
     bool was_refined() const { return refined_ && !refined_->tried_in_vain; }
     void list_node_sets(const Workpiece& f, const Naming& naming, const Rebuilt& rebuilt);
     void count(const Rebuilt& rebuilt);
+    std::vector<std::string> deck_warnings(const Edited& edited) const;
     void find_warnings(const Workpiece& f, std::span<const Blade> blades, const Opening& opening, const Edited& edited);
     void join_refinement(const Rebuilt& rebuilt);
     void describe_drift(const Workpiece& f);

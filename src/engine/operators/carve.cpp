@@ -10,6 +10,7 @@
 #include "cutting/checks.h"
 #include "cutting/deform.h"
 #include "cutting/improve.h"
+#include "cutting/no_cut.h"
 #include "cutting/removal.h"
 #include "cutting/retry.h"
 #include "cutting/snap.h"
@@ -154,6 +155,14 @@ std::vector<Body> without_idle_walls(const Mesh& mesh, std::span<const Body> bod
     return out;
 }
 
+/// Whether a body with several walls passes through the material, however thin it is: there are nodes behind each wall.
+bool is_inside(const Workpiece& f, const Body& body) {
+    return body.walls.size() > 1 && std::ranges::all_of(body.walls, [&](const Body::Wall& w) {
+               return std::ranges::any_of(
+                   f.d.band.nodes, [&](const auto& node) { return w.tool->distance(node.at) < -10 * f.tolerance; });
+           });
+}
+
 /// Whether the band has elements left.
 bool has_elements(const BandMesh& band) {
     const auto any = [](const auto& list) {
@@ -224,6 +233,7 @@ public:
         check_contacts(f);
         Opening walls = open_walls(f);
         warn_of_flat_walls(f, walls, tools());
+        warn_of_empty_walls(f, walls);
         note_slivers(f, tools(), -1);
         return walls;
     }
@@ -235,6 +245,20 @@ private:
         out.reserve(blades_.size());
         for (const Blade& blade : blades_) out.push_back(blade.tool);
         return out;
+    }
+
+    void warn_of_empty_walls(Workpiece& f, const Opening& walls) const {
+        std::vector<bool> used(blades_.size(), false);
+        for (const auto& face : walls.faces) used[static_cast<std::size_t>(face.group)] = true;
+        for (const auto& edge : walls.edges) used[static_cast<std::size_t>(edge.group)] = true;
+        std::size_t tag = 0;
+        for (const Body& body : bodies_)
+            for (const Body::Wall& wall : body.walls)
+                if (!used[tag++])
+                    f.warnings.push_back("nothing is left of the wall " + options_.name + wall.suffixes.back() + " (" +
+                                         wall.tool->kind() +
+                                         "): where it would be, other tools take the material, or there is none; its "
+                                         "group has no members from it");
     }
 
     void carve_once(Workpiece& f, const Site& site) const {
@@ -260,17 +284,36 @@ private:
 
     void check_removed(const Workpiece& f, Index removed, const Site& site) const {
         const std::string tool = "the " + blades_.front().tool->kind();
-        if (removed == 0)
-            throw ToolError(tool + " removes nothing: " +
-                            (site.crossed == 0
-                                 ? "it touches the mesh from outside, and no element lies inside. Move " + tool +
-                                       " into the material"
-                                 : "what it would take off is thinner than the elements there. Refine the mesh there, "
-                                   "or move " +
-                                       tool + " into the material"));
+        if (removed == 0) fail_to_remove(f, site);
         if (!has_elements(f.d.band) && removed >= solid_count(site.whole))
             throw ToolError(tool +
                             " would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it");
+    }
+
+    [[noreturn]] void fail_to_remove(const Workpiece& f, const Site& site) const {
+        const Body& body = bodies_.front();
+        const std::string tool = "the " + body.walls.front().tool->kind();
+        const bool in_material = site.crossed > 0 || is_inside(f, body);
+        if (body.width && in_material) {
+            std::ostringstream message;
+            message << "a slot of width " << *body.width
+                    << " removes nothing: it is narrower than what the elements there can show. Make it wider, or "
+                       "refine the mesh there first";
+            throw ToolError(message.str(), "width");
+        }
+        const std::string move = "move " + tool + " into the material";
+        if (in_material && !is_smaller_than_elements(f, *body.walls.front().tool))
+            throw ToolError(tool +
+                            " removes nothing: what it would take off is thinner than the elements there. Refine the "
+                            "mesh there, or " +
+                            move);
+        if (is_smaller_than_elements(f, *body.walls.front().tool))
+            throw ToolError(tool +
+                            " removes nothing: it is smaller than the elements there, and none lies inside. Refine "
+                            "the mesh there first, or " +
+                            move);
+        throw ToolError(tool + " removes nothing: it touches the mesh from outside, and no element lies inside. M" +
+                        move.substr(1));
     }
 
     const char* kind_;

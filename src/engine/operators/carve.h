@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct Body {
         std::vector<std::string> suffixes;
     };
     std::vector<Wall> walls;
+    std::optional<double> width = {};  ///< of a slot, if its user gave one
 
     /// Not positive inside; outside about the distance.
     double depth(const Vec3& x) const;

@@ -171,6 +171,7 @@ std::string why_no_lips(const Workpiece& f, const Opening& opening, const Blade&
                                      " only touches the mesh, along edges or in single nodes: it passes through no "
                                      "element and along no face. Move " +
                                      tool + " into the material");
+    if (is_smaller_than_elements(f, *blade.tool)) return why_too_small(*blade.tool);
     return tool + " only grazes the mesh: what it would cut off is thinner than the elements there. Move " + tool +
            " into the material";
 }

@@ -102,7 +102,7 @@ private:
         ConstraintOptions out = edit_.constraints();
         out.feature_angle = options_.feature_angle;
         out.drifting_groups = drifting_;
-        if (refined_) out.on_shortcuts = refined_->on_shortcuts;
+        if (refined_) out.on_shortcuts = refined_->trace.on_shortcuts;
         out.shape = options_.skin;
         out.tolerance = location_.tolerance;
         out.rounding = location_.rounding > location_.tolerance ? location_.rounding : 0;
@@ -146,7 +146,7 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
     account.judge(f, blades, opening);
     watch.lap("open");
     const Naming naming = recipe.naming();
-    Edited edited = edit.finish(f, opening, naming, options.strict, watch);
+    Edited edited = edit.finish(f, opening, naming, watch);
     Result result{{}, account.close(f, blades, opening, naming, edited)};
     recipe.finished(edited.rebuilt);
     result.mesh = std::move(edited.rebuilt.mesh);
@@ -183,6 +183,7 @@ void check_name(const Mesh& mesh, const std::string& name, const Naming& naming)
 
 Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();
+    check_extent(input);
     recipe.start(input);
     check_name(input, options.name, recipe.naming());
     check_options(options);

@@ -74,7 +74,7 @@ ConstraintOptions Edit::constraints() const {
     return out;
 }
 
-Edited Edit::finish(Workpiece& f, const Opening& opening, const Naming& naming, bool strict, Stopwatch& watch) {
+Edited Edit::finish(Workpiece& f, const Opening& opening, const Naming& naming, Stopwatch& watch) {
     put_back_middles(f, mesh());
     auto [output, totals] = await(copy_);
     if (part_) output = std::make_unique<Mesh>(mesh());
@@ -86,7 +86,7 @@ Edited Edit::finish(Workpiece& f, const Opening& opening, const Naming& naming, 
         renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *solver_input(input_), rebuilt.after);
     watch.lap("rebuild");
     if (input_.companion && !part_) {
-        carry_deck(mesh(), rebuilt.mesh, rebuilt.changes, strict, out.deck_warnings);
+        out.deck = carry_deck(mesh(), rebuilt.mesh, rebuilt.changes);
         watch.lap("carry deck");
     }
     out.before = known_.totals ? *known_.totals : totals;

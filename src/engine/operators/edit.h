@@ -14,6 +14,7 @@
 #include "cutting/rebuild.h"
 #include "cutting/workpiece.h"
 #include "deck/mark_deck.h"
+#include "deck/rules/remarks.h"
 #include "deformation/node_constraints.h"
 #include "groups/group_report.h"
 #include "mesh/crop.h"
@@ -35,7 +36,7 @@ struct Naming {
 struct Edited {
     Rebuilt rebuilt;             ///< its mesh still has the hidden groups of mark_deck()
     FamilyTotals before, after;  ///< of the whole mesh
-    std::vector<std::string> deck_warnings;
+    Remarks deck;                ///< on how the solver's input followed
 };
 
 /// What is done to a mesh around the work on its band, whatever that is: the solver's input marked, the output's copy
@@ -79,7 +80,7 @@ public:
 
     /// Puts the band back, makes the groups of `naming`, and carries the solver's input over. Throws as carry_deck()
     /// does. To be called once, after start_copy().
-    Edited finish(Workpiece& f, const Opening& opening, const Naming& naming, bool strict, Stopwatch& watch);
+    Edited finish(Workpiece& f, const Opening& opening, const Naming& naming, Stopwatch& watch);
 
 private:
     std::vector<Index> in_part(const std::vector<Index>& nodes) const;

@@ -13,6 +13,7 @@
 #include "cutting/mend_curved.h"
 #include "cutting/opening.h"
 #include "cutting/workpiece.h"
+#include "deck/carry_over.h"
 #include "deck/mark_deck.h"
 #include "deformation/curved_shape.h"
 #include "deformation/relaxation.h"
@@ -43,8 +44,8 @@ void check(const RefineOptions& o) {
 }
 
 /// Marks the corners of elements that have an edge to be bisected, level 0.
-std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& field,
-                                         const std::vector<double>& distance) {
+std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& field, const std::vector<double>& distance,
+                                         const std::string& advice) {
     std::vector<std::int8_t> level(mesh.points.size(), -1);
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
@@ -66,10 +67,10 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& fiel
         for (std::size_t k = 0; k < unsupported.size() && k < 5; ++k)
             numbers += (k ? ", " : "") + std::to_string(unsupported[k]);
         if (unsupported.size() > 5) numbers += ", ...";
-        throw UnsupportedElementError(
-            "the refinement reaches " + std::to_string(unsupported.size()) + " " + std::string(t.name) + " elements (" +
-            numbers + "); only triangles and tetrahedra can be bisected. Choose a larger size or gradation, " +
-            "or split these elements into tetrahedra first");
+        throw UnsupportedElementError("the refinement reaches " + std::to_string(unsupported.size()) + " " +
+                                      std::string(t.name) + " elements (" + numbers +
+                                      "); only triangles and tetrahedra can be bisected. " + advice +
+                                      ", or split these elements into tetrahedra first");
     }
     return level;
 }
@@ -129,7 +130,7 @@ std::vector<Index> new_on_shortcuts(const Workpiece& f, const Rebuilt& rebuilt) 
     return out;
 }
 
-std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh, const Edited& edited) {
+std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh) {
     const Workpiece& f = bisected.workpiece();
     std::vector<std::string> out = f.warnings;
     std::ranges::move(warnings_of_opened_areas(f.d.band, mesh), std::back_inserter(out));
@@ -141,7 +142,6 @@ std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh,
     if (const int off = bisected.bisector().off_shape(); off > 0)
         out.push_back(std::to_string(off) +
                       " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
-    out.insert(out.end(), edited.deck_warnings.begin(), edited.deck_warnings.end());
     return out;
 }
 
@@ -151,7 +151,7 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
     Report report;
     report.operation = "refine";
     report.method = "bisection";
-    report.warnings = warnings_of(bisected, mesh, edited);
+    report.warnings = warnings_of(bisected, mesh);
     report.nodes_added = report.nodes_split = rebuilt.nodes_split;
     report.elements_added = rebuilt.elements_added;
     describe_changed(mesh, bisected.workpiece(), rebuilt, report);
@@ -168,9 +168,11 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
     Laps seconds;
     Stopwatch watch(seconds);
-    std::vector<Index> on_shortcuts;
-    if (std::optional<Result> result = refine_where_needed(input, distance, options, on_shortcuts))
+    Trace trace;
+    if (std::optional<Result> result = refine_where_needed(input, distance, options, trace)) {
+        std::ranges::move(warnings_of(trace.deck, options.strict), std::back_inserter(result->report.warnings));
         return std::move(*result);
+    }
     watch.lap("locate");
     Result untouched;
     const FamilyTotals totals = family_totals(input);
@@ -186,15 +188,16 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
 }
 
 std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,
-                                          const RefineOptions& options, std::vector<Index>& on_shortcuts) {
+                                          const RefineOptions& options, Trace& trace) {
     check(options);
+    check_extent(input);
     Laps seconds;
     Stopwatch watch(seconds);
     const SizeField field(distance, options);
     std::vector<double> distances(input.points.size());
     SparseCheck check(256);
     for (std::size_t n = 0; n < distances.size(); ++n, check()) distances[n] = field.distance(input.points[n]);
-    const std::vector<std::int8_t> core = find_long_edges(input, field, distances);
+    const std::vector<std::int8_t> core = find_long_edges(input, field, distances, options.finer_advice);
     watch.lap("locate");
     if (std::ranges::find(core, 0) == core.end()) return {};
     Edit edit(input, {});
@@ -207,10 +210,12 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     watch.lap("bisect");
     if (!f.folded_input.empty()) check_folded_input(f, newly_folded(f, folded_elements(f, 0)));
     f.mid_side = [&](int a, int b) { return bisected.bisector().mid_side(a, b); };
-    Edited edited = edit.finish(f, no_opening(f.d.band), {}, options.strict, watch);
-    on_shortcuts = new_on_shortcuts(f, edited.rebuilt);
+    Edited edited = edit.finish(f, no_opening(f.d.band), {}, watch);
+    trace.on_shortcuts = new_on_shortcuts(f, edited.rebuilt);
     Result result{{}, report_of(bisected, mesh, edited)};
     result.mesh = std::move(edited.rebuilt.mesh);
+    trace.changes = std::move(edited.rebuilt.changes);
+    trace.deck = std::move(edited.deck);
     remove_marks(result.mesh);
     watch.lap("report");
     result.report.seconds = seconds.list();

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "cutting/bisection.h"
+#include "deck/rules/remarks.h"
+#include "mesh/changes.h"
 #include "operators/report.h"
 
 namespace femscalpel {
@@ -32,11 +34,19 @@ struct RefineOptions : BisectionOptions {
 /// bisected is one of a quadrangle, prism, pyramid or hexahedron), QualityError (inverted elements near the tool).
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
 
-/// The same, but nothing when no edge is longer than wanted. `on_shortcuts` gets the numbers, ascending, of new nodes
-/// inside the material that are in node groups: those of edges from member to member that are on no boundary of the
-/// group. (Who goes on with the result alone does not know them: to an operation on it they are members like any other,
-/// whose place is kept.)
+/// What an operation has to know of a refinement that it goes on from.
+struct Trace {
+    /// Numbers, ascending, of new nodes inside the material that are in node groups: those of edges from member to
+    /// member that are on no boundary of the group. (Who goes on with the result alone does not know them: to an
+    /// operation on it they are members like any other, whose place is kept.)
+    std::vector<Index> on_shortcuts;
+    Changes changes;
+    Remarks deck;  ///< on how the solver's input followed
+};
+
+/// The same, but nothing when no edge is longer than wanted; and what is to be told of the solver's input is in
+/// `trace`, not in the report, nor an error with the option strict.
 std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options,
-                                          std::vector<Index>& on_shortcuts);
+                                          Trace& trace);
 
 }  // namespace femscalpel

@@ -94,16 +94,16 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     RefineOptions o;
     o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
     o.feature_angle = options.feature_angle;
-    o.strict = options.strict;
     o.skin = options.skin;
+    o.finer_advice = "Give `refine` a larger length, or False";
+    o.larger_advice.clear();
     if (!asked) {
         o.max_elements = most_elements;
         o.gradation = steepest_gradation;
     }
     Refined out;
     try {
-        std::optional<Result> result =
-            refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.on_shortcuts);
+        std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.trace);
         if (!result) return {};
         out.mesh = std::move(result->mesh);
         out.report = std::move(result->report);
@@ -118,6 +118,7 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
     }
     out.summary = {o.size, mesh.cell_count(), out.mesh.cell_count()};
     out.numbering = next_numbers(mesh);
+    out.deck = solver_input(mesh);
     if (!asked && is_much(out.summary)) out.report.warnings.push_back(describe(out.summary));
     return out;
 }

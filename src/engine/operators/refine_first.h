@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cutting/rebuild.h"
+#include "deck/solver_input.h"
 #include "operators/options.h"
 #include "operators/refine.h"
 #include "tools/patch.h"
@@ -23,10 +24,11 @@ struct Refined {
     Mesh mesh;
     Report report;  ///< of the refinement
     Refinement summary;
-    Numbering numbering;              ///< nodes and elements from these numbers on are not the input's
-    std::vector<Index> on_shortcuts;  ///< see refine_where_needed()
-    double seconds = 0;               ///< of the call so far
-    bool tried_in_vain = false;       ///< `report` has but a warning that says why, and `mesh` is empty
+    Numbering numbering;                ///< nodes and elements from these numbers on are not the input's
+    const SolverInput* deck = nullptr;  ///< of the mesh as it was, if it has one
+    Trace trace;
+    double seconds = 0;          ///< of the call so far
+    bool tried_in_vain = false;  ///< `report` has but a warning that says why, and `mesh` is empty
 };
 
 /// The zone around a tool's surface where it cuts, that is where `beyond` (if any) is not positive: as the options say,

@@ -98,15 +98,13 @@ struct CadShape::Geometry {
             TopTools_IndexedMapOfShape map;
             TopExp::MapShapes(shape, TopAbs_FACE, map);
             for (int k = 1; k <= map.Extent(); ++k) faces.push_back({Face::from_shape(map(k)), box_of(map(k))});
-            if (faces.empty()) throw ToolError("skin: the shape has no face", "skin");
+            if (faces.empty()) throw ToolError("shape: there is no face in it", "source");
             map.Clear();
             TopExp::MapShapes(shape, TopAbs_EDGE, map);
             for (int k = 1; k <= map.Extent(); ++k)
                 if (!BRep_Tool::Degenerated(TopoDS::Edge(map(k)))) edges.emplace_back(TopoDS::Edge(map(k)));
-        } catch (const ToolError& e) {  // of a face, which does not know what it is for
-            throw ToolError(e.what(), "skin");
         } catch (const Standard_Failure& e) {
-            throw ToolError(std::string("skin: OpenCASCADE says: ") + e.GetMessageString(), "skin");
+            throw ToolError(std::string("shape: OpenCASCADE says: ") + e.GetMessageString(), "source");
         }
         size = box_of(shape).diagonal().norm();
     }
@@ -117,7 +115,7 @@ CadShape CadShape::read(const std::filesystem::path& path) {
 }
 
 CadShape CadShape::from_brep(const std::string& text) {
-    return CadShape(std::make_shared<const Geometry>(shape_from_brep(text, "skin", "skin")));
+    return CadShape(std::make_shared<const Geometry>(shape_from_brep(text, "shape")));
 }
 
 int CadShape::face_count() const { return static_cast<int>(geometry_->faces.size()); }

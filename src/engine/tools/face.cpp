@@ -66,13 +66,13 @@ Face Face::read(const std::filesystem::path& path) {
     try {
         return from_shape(read_cad_file(path));
     } catch (const Standard_Failure& e) {
-        throw ReadError("'" + path.string() + "': OpenCASCADE says: " + e.GetMessageString());
+        throw ReadError("'" + path.string() + "': OpenCASCADE says: " + e.GetMessageString(), "source");
     }
 }
 
 Face Face::from_brep(const std::string& text) {
     try {
-        return from_shape(shape_from_brep(text, "face", "source"));
+        return from_shape(shape_from_brep(text, "face"));
     } catch (const Standard_Failure& e) {
         throw ToolError(std::string("face: OpenCASCADE says: ") + e.GetMessageString(), "source");
     }

@@ -221,7 +221,9 @@ Patch Polygon::on(const Tool& tool) const {
 CylinderPart::CylinderPart(double low, double high, std::optional<Angles> angles)
     : low_(low), high_(high), angles_(std::move(angles)) {
     if (!(std::isfinite(low) && std::isfinite(high) && low < high))
-        throw ToolError("cylinder part: low must be less than high, both finite numbers", "along");
+        throw ToolError(
+            "cylinder part: along must go from one place to another farther along the axis, both finite numbers",
+            "along");
     if (!angles_) return;
     checked_direction(angles_->zero, {"cylinder part", "zero"});
     if (!(angles_->start < angles_->end && angles_->end < angles_->start + 360))

@@ -15,7 +15,7 @@ CELL_TYPES: Dict[str, Tuple[int, int, int]] = _engine.cell_types()
 
 
 def _check_kind(kind: str, name: str = "kind") -> str:
-    if kind not in KINDS:
+    if not isinstance(kind, str) or kind not in KINDS:
         raise _arguments.about(
             name, ValueError(f"{name} must be one of {', '.join(map(repr, KINDS))}, not {_arguments.describe(kind)}")
         )
@@ -177,10 +177,7 @@ class Mesh:
     __slots__ = ("_engine_mesh", "__weakref__")
 
     def __init__(self, points, cells, node_ids=None, cell_ids=None, groups=(), name: str = "mesh"):
-        try:
-            points = np.ascontiguousarray(points, dtype=np.float64)
-        except (TypeError, ValueError):
-            raise _arguments.about("points", TypeError("points must be an array of numbers of shape (n, 3)")) from None
+        points = _arguments.coordinates(points, "points")
         if points.size == 0:
             points = points.reshape(0, 3)
         if points.ndim != 2 or points.shape[1] != 3:

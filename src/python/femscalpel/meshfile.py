@@ -10,14 +10,6 @@ from .mesh import Mesh, check_mesh
 Path = Union[str, "os.PathLike[str]"]
 
 
-def _path(path) -> str:
-    if not isinstance(path, (str, os.PathLike)):
-        raise _arguments.about(
-            "path", TypeError(f"path must be a string or a path object, not {_arguments.describe(path)}")
-        )
-    return os.fsdecode(path)
-
-
 class Format(NamedTuple):
     """A file format, see :func:`formats`."""
 
@@ -44,7 +36,7 @@ def read(path: Path) -> Mesh:
 
     Raises :class:`femscalpel.ReadError`, which names the file and, for text, the line.
     """
-    return Mesh._wrap(_engine.read(_path(path)))
+    return Mesh._wrap(_engine.read(_arguments.path(path, "path")))
 
 
 def write(mesh: Mesh, path: Path) -> None:
@@ -54,4 +46,4 @@ def write(mesh: Mesh, path: Path) -> None:
 
     Raises :class:`femscalpel.WriteError` when the file cannot be written or its format cannot hold the mesh.
     """
-    _engine.write(check_mesh(mesh), _path(path))
+    _engine.write(check_mesh(mesh), _arguments.path(path, "path"))

@@ -232,8 +232,12 @@ def _along(along) -> tuple:
 
 def _walls(tool, width, other, bottom) -> tuple:
     """The two positional and the last argument of the engine's cut()."""
-    if (width is None) == (other is None):
+    if width is None and other is None:
         raise ValueError("give either width or other: the slot's width around a plane, or its other wall")
+    if width is not None and other is not None:
+        raise _arguments.about(
+            "other", ValueError("other must not be given with width: a slot has a width, or two walls of its own")
+        )
     if bottom is not None:
         check_tool(bottom, "bottom")
     if other is not None:
@@ -471,8 +475,8 @@ def _near(near) -> tuple:
     if isinstance(near, (list, tuple)) and any(isinstance(t, Tool) for t in near):
         return [check_tool(t, f"near[{k}]") for k, t in enumerate(near)], none
     try:
-        points = np.array(near, dtype=np.float64)
-    except (TypeError, ValueError):
+        points = _arguments.coordinates(near, "near")
+    except TypeError:
         raise _arguments.about("near", TypeError(message)) from None
     if points.shape == (3,):
         points = points.reshape(1, 3)

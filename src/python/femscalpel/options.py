@@ -25,7 +25,7 @@ ShapeOption = Union[None, Shape, str, os.PathLike, Any]
 
 
 def _method(value):
-    if value not in METHODS:
+    if not isinstance(value, str) or value not in METHODS:
         raise _arguments.about(
             "method", ValueError(f"method must be 'snap' or 'deform', not {_arguments.describe(value)}")
         )
@@ -33,7 +33,7 @@ def _method(value):
 
 
 def _transition(value):
-    return None if value is None else _arguments.whole(value, "transition", 1)
+    return None if value is None else _arguments.whole(value, "transition", 1, 20)
 
 
 def check_feature_angle(value):
@@ -50,11 +50,20 @@ def check_preserve(value):
     """A list of names or None, or TypeError."""
     if value is None:
         return None
-    if isinstance(value, str) or not isinstance(value, Iterable):
+    try:
+        names = None if isinstance(value, str) else list(value)
+    except TypeError:
+        names = None
+    if names is None:
         raise _arguments.about(
             "preserve", TypeError(f"preserve must be a list of group names, not {_arguments.describe(value)}")
         )
-    return [_arguments.text(group, "preserve") for group in value]
+    for k, name in enumerate(names):
+        if not isinstance(name, str):
+            raise _arguments.about(
+                "preserve", TypeError(f"preserve[{k}] must be the name of a group, not {_arguments.describe(name)}")
+            )
+    return [_arguments.text(name, "preserve") for name in names]
 
 
 def _refine(value):

@@ -29,15 +29,12 @@ class Shape(_engine.CadShape):
         if hasattr(source, "exportBrepToString"):
             super().__init__(source.exportBrepToString().encode())
         elif isinstance(source, str) and "\n" in source:
-            super().__init__(source.encode())
+            super().__init__(_arguments.text(source, "source").encode())
         elif isinstance(source, (str, os.PathLike)):
-            super().__init__(os.fspath(source))
+            super().__init__(_arguments.path(source, "source"))
         else:
             raise _arguments.about(
-                "skin",
-                TypeError(
-                    f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(source)}"
-                ),
+                "source", TypeError(f"source must be a path or a FreeCAD shape, not {_arguments.describe(source)}")
             )
 
     def __repr__(self) -> str:
@@ -45,5 +42,19 @@ class Shape(_engine.CadShape):
 
 
 def check_skin(skin):
-    """`skin` as a Shape, or None."""
-    return skin if skin is None or isinstance(skin, Shape) else Shape(skin)
+    """`skin` as a Shape, or None; errors are about the parameter of that name."""
+    if skin is None or isinstance(skin, Shape):
+        return skin
+    if not (isinstance(skin, (str, os.PathLike)) or hasattr(skin, "exportBrepToString")):
+        raise _arguments.about(
+            "skin",
+            TypeError(f"skin must be a path, a FreeCAD shape or a femscalpel.Shape, not {_arguments.describe(skin)}"),
+        )
+    try:
+        return Shape(skin)
+    except (TypeError, ValueError) as error:
+        raise _arguments.about("skin", error) from None
+    except _engine.Error as error:
+        about_skin = type(error)(f"skin: {error}")
+        about_skin._parameter = "skin"
+        raise about_skin from None

@@ -38,7 +38,7 @@ def _shape(value, name):
     if hasattr(value, "exportBrepToString"):
         return value.exportBrepToString().encode()
     if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)
+        return _arguments.path(value, name)
     raise _arguments.about(
         name, TypeError(f"{name} must be a path or a FreeCAD shape, not {_arguments.describe(value)}")
     )
@@ -87,7 +87,7 @@ TOOLS: Dict[str, ToolKind] = {}
 
 def _distance(self, points) -> np.ndarray:
     """Signed distances of `points`, shape (n, 3), to the surface, in the mesh's unit; positive on the normal's side."""
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    array = _arguments.coordinates(points, "points")
     if array.ndim == 1:
         array = array.reshape(1, -1)
     if array.ndim != 2 or array.shape[1] != 3:

@@ -44,7 +44,7 @@ void ElementLoads::carry(std::size_t c, const Card& card, Carrying& carrying) {
         sink.field();
         sink.field();
         if (Index node = 0; l.label.suffix == "FC" && sink.integer(node) && carrying.origins().is_doubled(node))
-            carrying.remarks().add(c, Weight::problem, sink.where(), node_text(node),
+            carrying.remarks().add(c, Weight::problem, sink.where(), the_node(node),
                                    "the crack doubled; the original, on the negative side, stays the sink");
         if (l.group.empty()) continue;
         if (const auto [it, fresh] = left.try_emplace(l.group); fresh)
@@ -108,7 +108,7 @@ void ElementLoads::replace(std::size_t c, const LoadLine& line, Carrying& carryi
         for (const Index part : carrying.parts_of(element)) edits.add_after(line.line, line.with(part, line.written));
     for (const auto& [element, face] : line.faces)
         if (carrying.parts_of(element).empty() && loaded_->shrank(line.group))
-            carrying.remarks().add(c, Weight::problem, line.line.where(), element_text(element),
+            carrying.remarks().add(c, Weight::problem, line.line.where(), the_element(element),
                                    "was removed, and with it its " + line.written);
 }
 

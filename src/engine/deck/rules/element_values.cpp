@@ -55,10 +55,10 @@ void ElementValues::carry(std::size_t c, const Card& card, Carrying& carrying) {
         }
         if (!known) continue;
         Remarks& remarks = carrying.remarks();
-        if (parts.empty()) remarks.add(c, Weight::problem, where, element_text(what->number), "was removed");
+        if (parts.empty()) remarks.add(c, Weight::problem, where, the_element(what->number), "was removed");
         const CellType cell = carrying.old().numbers().cell(what->number)->type;
         if (has_points(card) && parts.size() > 1 && cell != CellType::tetra && cell != CellType::triangle)
-            remarks.add(c, Weight::problem, where, element_text(what->number),
+            remarks.add(c, Weight::problem, where, the_element(what->number),
                         "was split; the values at its integration points are given to those of each part");
         for (const Index part : parts)
             if (part != what->number) edits.add_after(line, std::to_string(part) + "," + rest);

@@ -42,7 +42,7 @@ void EmptiedSets::tell(std::size_t c, const Card& card, int names_per_line, Rema
     if (emptied_.empty() || names_per_line == 0) return;
     const auto check = [&](const std::string& where, const std::string& name) {
         if (const auto set = emptied_.find(deck_key(name)); set != emptied_.end())
-            remarks.add(c, Weight::problem, where, set->second + " '" + name + "'", "lost all its members");
+            remarks.add(c, Weight::problem, where, the_set(name, set->second), "lost all its members");
     };
     for (const CardParameter& p : card.parameters)
         if (p.name == "NSET" || p.name == "ELSET" || p.name == "SURFACE") check(card.where() + ": ", p.value);

@@ -23,7 +23,7 @@ bool read_factor(NodeEquation::Term& term) {
 
 void check_node(std::size_t c, const CardReader& line, Index node, bool copies_follow, Carrying& carrying) {
     const auto tell = [&](const char* what) {
-        carrying.remarks().add(c, Weight::problem, line.where(), node_text(node), what);
+        carrying.remarks().add(c, Weight::problem, line.where(), the_node(node), what);
     };
     if (carrying.node_gone(node))
         tell("was removed; its equation is left out");
@@ -151,9 +151,8 @@ void Equations::tell_unrelated(const std::vector<RelatedNodes::Missed>& missed, 
         by_card.try_emplace(places_[m.like].first, places_[m.like].second, std::set<Index>{})
             .first->second.second.insert(m.node);
     for (const auto& [c, found] : by_card)
-        carrying.remarks().add_problem(found.first.where() + "*" + carrying.old().cards()[c].keyword + ": " +
-                                       std::to_string(found.second.size()) + " new node(s), the first is " +
-                                       std::to_string(*found.second.begin()) + ", " + what);
+        carrying.remarks().add_new_nodes(found.first.where() + "*" + carrying.old().cards()[c].keyword + ": ",
+                                         found.second, what);
 }
 
 void Equations::carry(std::size_t c, const Card& card, Carrying& carrying) {
@@ -199,10 +198,11 @@ void Equations::carry_set(std::size_t c, const CardReader& line, Entry& entry, C
     const std::string& set = entry.what->set;
     entry.text = carrying.closed_sets().name_of_old_members(set);
     if (carrying.closed_sets().lost_members(set) > 0)
-        remarks.add(c, Weight::problem, line.where(), named_set(set), "lost nodes; its pairs no longer match");
-    if (entry.text != set)
-        remarks.add(c, Weight::problem, line.where(), named_set(set),
-                    "has new nodes; the equations stay with the nodes it had ('" + entry.text + "')");
+        remarks.add(c, Weight::problem, line.where(), the_set(set), "lost nodes; its pairs no longer match");
+    if (entry.text == set) return;
+    remarks.add_replaced(set, entry.text);
+    remarks.add(c, Weight::problem, line.where(), the_set(set),
+                "has new nodes; the equations stay with the nodes it had ('" + entry.text + "')");
 }
 
 std::string Equations::line_text(const Equation& equation, std::size_t line) {

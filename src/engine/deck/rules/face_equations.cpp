@@ -16,7 +16,7 @@ void FaceEquations::carry(std::size_t c, const Card& card, Carrying& carrying) {
             }
             if (k == 0 && line.at_end()) break;  // the number of terms
             if (carrying.had_element(element) && carrying.parts_of(element) != std::vector<Index>{element})
-                carrying.remarks().add(c, Weight::problem, line.where(), element_text(element),
+                carrying.remarks().add(c, Weight::problem, line.where(), the_element(element),
                                        "was split or removed; the equation is kept as it is");
         }
 }

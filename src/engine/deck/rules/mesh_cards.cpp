@@ -25,12 +25,12 @@ void MeshCards::end_carrying(Carrying& carrying) {
                           element = "element " + std::to_string(e.number) + " of type " + e.type;
         for (const Index node : e.nodes)
             if (carrying.node_gone(node))
-                throw Error(where + element + " needs " + node_text(node) +
+                throw Error(where + element + " needs " + the_node(node).text() +
                             ", which would be removed, and cannot be removed itself. Move the tool, or take the "
                             "element out of the deck");
             else if (carrying.origins().is_doubled(node))
                 carrying.remarks().add(
-                    e.card, Weight::problem, where, node_text(node),
+                    e.card, Weight::problem, where, the_node(node),
                     "the crack doubled; " + element + " stays with the original, on the negative side");
     }
 }

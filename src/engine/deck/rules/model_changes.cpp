@@ -28,7 +28,7 @@ void ModelChanges::carry(std::size_t c, const Card& card, Carrying& carrying) {
             const std::vector<Index> parts = carrying.parts_of(what.number);
             same = same && parts == std::vector<Index>{what.number};
             if (parts.empty())
-                carrying.remarks().add(c, Weight::problem, line.where(), element_text(what.number), "was removed");
+                carrying.remarks().add(c, Weight::problem, line.where(), the_element(what.number), "was removed");
             for (const Index part : parts) entries.push_back(std::to_string(part));
         }
         if (same) continue;

@@ -65,7 +65,7 @@ void Mpcs::carry(std::size_t c, const Card& card, Carrying& carrying) {
 
 void Mpcs::carry_line(std::size_t c, const Mpc& mpc, const Line& line, Carrying& carrying) {
     const auto tell = [&](Index node, const std::string& what) {
-        carrying.remarks().add(c, Weight::problem, line.line.where(), node_text(node), what);
+        carrying.remarks().add(c, Weight::problem, line.line.where(), the_node(node), what);
     };
     std::string left = &line == &mpc.lines.front() ? mpc.type : "";
     bool gone = false;
@@ -110,9 +110,8 @@ void Mpcs::tell_not_joining(const Mpc& mpc, Carrying& carrying) {
     for (const NodeOrigins::Node& n : carrying.origins().nodes())
         if (n.ancestors.size() > 1 && is_born_between(n, nodes)) between.insert(n.number);
     if (!between.empty())
-        carrying.remarks().add_problem(mpc.lines.back().line.where() + "*MPC: " + std::to_string(between.size()) +
-                                       " new node(s), the first is " + std::to_string(*between.begin()) +
-                                       ", lie between nodes of this " + mpc.type + " MPC and do not join it");
+        carrying.remarks().add_new_nodes(mpc.lines.back().line.where() + "*MPC: ", between,
+                                         "lie between nodes of this " + mpc.type + " MPC and do not join it");
 }
 
 }  // namespace femscalpel

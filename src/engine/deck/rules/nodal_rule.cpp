@@ -50,7 +50,7 @@ NodalRule::Pool NodalRule::read_pool(const std::vector<std::size_t>& cards, Carr
             Line out{{}, {}, std::move(*values)};
             if (what->is_number()) {
                 if (carrying.node_gone(what->number)) {
-                    carrying.remarks().add(c, Weight::problem, line.where(), node_text(what->number), "was removed");
+                    carrying.remarks().add(c, Weight::problem, line.where(), the_node(what->number), "was removed");
                     carrying.edits(c).drop(line);
                 }
                 pool.of_node[what->number].push_back(pool.lines.size());

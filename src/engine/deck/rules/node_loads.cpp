@@ -12,11 +12,12 @@ void carry_set(std::size_t c, const CardReader& line, const std::string& set, co
                Carrying& carrying) {
     Remarks& remarks = carrying.remarks();
     if (const Index lost = carrying.closed_sets().lost_members(set); lost > 0)
-        remarks.add(c, Weight::problem, line.where(), named_set(set),
+        remarks.add(c, Weight::problem, line.where(), the_set(set),
                     "lost " + std::to_string(lost) + " node(s) and with them their " + share);
     const std::string name = carrying.closed_sets().name_of_old_members(set);
     if (name == set) return;
-    remarks.add(c, Weight::note, line.where(), named_set(set),
+    remarks.add_replaced(set, name);
+    remarks.add(c, Weight::note, line.where(), the_set(set),
                 "has new nodes; the card now names '" + name + "', the nodes it had, so that the total stays the same");
     carrying.edits(c).replace(line, name + "," + std::string(line.rest()));
 }
@@ -44,15 +45,15 @@ void NodeLoads::carry(std::size_t c, const Card& card, Carrying& carrying) {
         }
         const Index node = what->number;
         if (carrying.node_gone(node)) {
-            remarks.add(c, Weight::problem, line.where(), node_text(node), "was removed, and with it the " + share);
+            remarks.add(c, Weight::problem, line.where(), the_node(node), "was removed, and with it the " + share);
             carrying.edits(c).drop(line);
         } else if (carrying.origins().is_doubled(node)) {
-            remarks.add(c, is_load(card) ? Weight::note : Weight::problem, line.where(), node_text(node),
+            remarks.add(c, is_load(card) ? Weight::note : Weight::problem, line.where(), the_node(node),
                         "the crack doubled; its " + share + " stays whole on the original, on the negative side");
         }
         if (carrying.node_moved(node))
             remarks.add(
-                c, Weight::problem, line.where(), node_text(node),
+                c, Weight::problem, line.where(), the_node(node),
                 "is a mid-side node that moved by " + number_text(carrying.origins().moved(node)) + " with its edge");
     }
 }

@@ -29,7 +29,7 @@ void Normals::carry(std::size_t c, const Card& card, Carrying& carrying) {
         CardEdits& edits = carrying.edits(c);
         edits.drop(l.line);
         if (now.empty())
-            carrying.remarks().add(c, Weight::problem, l.line.where(), element_text(l.element),
+            carrying.remarks().add(c, Weight::problem, l.line.where(), the_element(l.element),
                                    "has no longer the node of its normal");
         for (const auto& [part, image] : now)
             edits.add_after(l.line,

@@ -45,7 +45,7 @@ void ReferenceNodes::mark(std::size_t /*c*/, const Card& card, Marking& marking)
 void ReferenceNodes::carry(std::size_t c, const Card& card, Carrying& carrying) {
     for (const auto& [parameter, node] : nodes_of(card)) {
         const auto tell = [&](const std::string& what) {
-            carrying.remarks().add(c, Weight::problem, card.where() + ": ", node_text(node), what);
+            carrying.remarks().add(c, Weight::problem, card.where() + ": ", the_node(node), what);
         };
         if (carrying.node_gone(node))
             tell("was removed; give another " + parameter);

@@ -3,17 +3,32 @@
 
 namespace femscalpel {
 
-void Remarks::add(std::size_t card, Weight weight, const std::string& where, const std::string& entity,
+std::string Entity::text() const {
+    switch (kind) {
+        case Kind::node:
+            return "node " + std::to_string(number);
+        case Kind::element:
+            return "element " + std::to_string(number);
+        case Kind::set:
+            break;
+    }
+    return type + " '" + name + "'";
+}
+
+void Remarks::add(std::size_t card, Weight weight, const std::string& where, const Entity& entity,
                   const std::string& what) {
     Remark& r = remarks_[{card, weight, what}];
-    if (r.count++ == 0) {
-        r.where = where;
-        r.entity = entity;
-    }
+    r.keyword = deck_->cards()[card].keyword;
+    r.places.push_back({where, entity});
 }
 
 std::vector<std::string> Remarks::problems() const {
-    std::vector<std::string> out = problems_;
+    std::vector<std::string> out;
+    for (const Problem& p : problems_)
+        out.push_back(p.new_nodes.empty()
+                          ? p.text
+                          : p.text + std::to_string(p.new_nodes.size()) + " new node(s), the first is " +
+                                std::to_string(*p.new_nodes.begin()) + ", " + p.what);
     for (std::string& text : texts(Weight::problem)) out.push_back(std::move(text));
     return out;
 }
@@ -23,9 +38,12 @@ std::vector<std::string> Remarks::texts(Weight weight) const {
     for (const auto& [key, r] : remarks_) {
         const auto& [card, its_weight, what] = key;
         if (its_weight != weight) continue;
-        std::string text = r.where + "*" + deck_.cards()[card].keyword + " names " + r.entity;
-        if (r.count > 1)
-            text += " and " + std::to_string(r.count - 1) + " more, each of which " + what;
+        std::set<std::tuple<Entity::Kind, Index, std::string>> entities;
+        for (const Place& p : r.places) entities.insert(p.entity.key());
+        const Place& first = r.places.front();
+        std::string text = first.where + "*" + r.keyword + " names " + first.entity.text();
+        if (entities.size() > 1)
+            text += " and " + std::to_string(entities.size() - 1) + " more, each of which " + what;
         else
             text += ", which " + what;
         out.push_back(std::move(text));
