@@ -16,8 +16,8 @@ struct Beside {
 };
 
 /// The parts of a band's skin (border of shells) beside those covered, and those `following` already, that have to go
-/// with them: all that are joined to them smoothly, as far as these face the way the wall does. (A fillet follows a wall
-/// that is pushed in, up to the face on its other side, along which it then slides.)
+/// with them: all that are joined to them smoothly, as far as these face the way the wall does. (A fillet follows a
+/// wall that is pushed in, up to the face on its other side, along which it then slides.)
 ///
 /// Nothing may have moved in the band. Throws ToolError naming `group` where that is no narrow strip beside the wall.
 Beside parts_beside(const Workpiece& f, const Covered& covered, const std::vector<std::array<Index, 3>>& following,
