@@ -22,7 +22,9 @@ struct Box {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
-    bool meets(const Box& o) const { return (low.array() <= o.high.array()).all() && (o.low.array() <= high.array()).all(); }
+    bool meets(const Box& o) const {
+        return (low.array() <= o.high.array()).all() && (o.low.array() <= high.array()).all();
+    }
 };
 
 /// Whether the segment p-q passes through the inside of the triangle.
@@ -44,6 +46,20 @@ bool cross(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
     if (n.norm() <= none || std::abs(n.normalized().dot(a - p)) > touching * std::max(u.norm(), v.norm())) return false;
     const double s = (a - p).cross(v).dot(n) / n.squaredNorm(), t = (a - p).cross(u).dot(n) / n.squaredNorm();
     return s > touching && s < 1 - touching && t > touching && t < 1 - touching;
+}
+
+/// Whether a point is inside a simplex; of a triangle in space, inside it in its plane.
+bool is_inside(const Vec3& x, std::span<const Vec3> corner) {
+    const Vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], r = x - corner[0], n = a.cross(b);
+    if (corner.size() == 3) {
+        if (std::abs(n.dot(r)) > touching * std::pow(n.squaredNorm(), 0.75)) return false;
+        const double u = r.cross(b).dot(n) / n.squaredNorm(), v = a.cross(r).dot(n) / n.squaredNorm();
+        return std::min({u, v, 1 - u - v}) > touching;
+    }
+    const Vec3 c = corner[3] - corner[0];
+    const double all = n.dot(c);
+    const double u = r.cross(b).dot(c) / all, v = a.cross(r).dot(c) / all, w = n.dot(r) / all;
+    return std::min({u, v, w, 1 - u - v - w}) > touching;
 }
 
 /// The parts, in the cells of a grid.
@@ -79,7 +95,8 @@ public:
             found = std::ranges::any_of(cell->second, [&](int k) {
                 const auto& part = parts_[k];
                 return boxes_[k].meets(box) &&
-                       std::ranges::none_of(part, [&](Index n) { return std::ranges::find(nodes, n) != nodes.end(); }) &&
+                       std::ranges::none_of(part,
+                                            [&](Index n) { return std::ranges::find(nodes, n) != nodes.end(); }) &&
                        crosses(part, nodes);
             });
         });
@@ -102,6 +119,15 @@ private:
         const auto at = [&](Index n) -> const Vec3& { return mesh_.points[n]; };
         const int corners = part[2] < 0 ? 2 : 3;
         const int count = static_cast<int>(nodes.size());
+        std::array<Vec3, 4> corner;
+        for (int k = 0; k < count; ++k) corner[k] = at(nodes[k]);
+        // Where meshes match, edges meet edges only; so points inside the part are looked at, too.
+        for (const auto& weight : {std::array{0.31, 0.33, 0.36}, std::array{0.57, 0.32, 0.11}}) {
+            const double rest = corners == 2 ? weight[2] / 2 : 0;
+            Vec3 x = (weight[0] + rest) * at(part[0]) + (weight[1] + rest) * at(part[1]);
+            if (corners == 3) x += weight[2] * at(part[2]);
+            if (is_inside(x, std::span(corner).first(static_cast<std::size_t>(count)))) return true;
+        }
         for (int i = 0; i < (corners == 2 ? 1 : 3); ++i) {
             const Vec3 &p = at(part[i]), &q = at(part[(i + 1) % corners]);
             for (int k = 0; k < (count == 4 ? 4 : 1); ++k) {
