@@ -23,7 +23,7 @@ constexpr double stride = 0.4, smallest_step = 1.0 / 64;
 /// Elements that come out of a step worse than this, or than half of what they were, spoil it.
 constexpr double spoilt = 0.08;
 /// Elements worse than this are worked on.
-constexpr double goal_of_steps = 0.35, goal_of_end = 0.45;
+constexpr double goal_of_steps = 0.22, goal_of_end = 0.3;
 
 class Mover {
 public:
@@ -118,13 +118,13 @@ private:
             if (d_.constraints.project(v, d_.contact[v], x) && !d_.is_barred(v, x)) band_.nodes[v].at = x;
         }
         if (remesher_.worst() < spoilt) untangle(d_, others, 2 * spoilt);
-        relax(d_, others);
+        relax(d_, remesher_.strained());
     }
 
     void finish() {
         for (const int v : wall_nodes()) d_.contact[v] = goals_.tools(v);
         arrived_ = true;
-        relax(d_, remesher_.movable());
+        relax(d_, remesher_.strained());
         remesher_.run(goal_of_end);
         mend_curved(f_, false);
         check_sides();
