@@ -12,8 +12,7 @@ namespace {
 /// A cube of eight, and a triangle of nodes of its own with these corners.
 std::optional<CellRef> crossed(const Vec3& a, const Vec3& b, const Vec3& c) {
     Mesh mesh = checks::grid(2, 2, 2);
-    std::vector<std::array<Index, 3>> parts{
-        {mesh.add_node(a, 1001), mesh.add_node(b, 1002), mesh.add_node(c, 1003)}};
+    std::vector<std::array<Index, 3>> parts{{mesh.add_node(a, 1001), mesh.add_node(b, 1002), mesh.add_node(c, 1003)}};
     return crossed_element(mesh, parts);
 }
 

@@ -25,7 +25,9 @@ WithWall block() {
     return WithWall(checks::grid(4, 4, 4), [](const Vec3& x) { return x.z() == 4; });
 }
 
-double worst(WithWall& w) { return Remesher(w.f, w.mesh, [](int) { return false; }).worst(); }
+double worst(WithWall& w) {
+    return Remesher(w.f, w.mesh, [](int) { return false; }).worst();
+}
 
 TEST(MoveWall, VolumeFollowsExactly) {
     for (const double by : {-2.5, -1.0, 0.1, 1.0, 3.0}) {

@@ -25,17 +25,17 @@ TEST(Tangent, TheRestOfAPlane) {
     EXPECT_TRUE(whole.same.empty() && whole.following.empty()) << "beside an edge of the box";
 }
 
-/// A block whose top at x > 4 turns upwards in a quarter of a circle of radius 2 around (4, 3.5) and goes on as a wall.
+/// A block whose top at x > 4 turns upwards in a quarter of a circle of radius 1 around (4, 3) and goes on as a wall.
 Mesh with_fillet() {
-    Mesh mesh = checks::grid(9, 2, 2);
+    Mesh mesh = checks::grid(11, 2, 2);
     for (Vec3& x : mesh.points) {
         const double height = x.z() - 2, along = x.x();
         if (along <= 4) continue;
-        const double turn = std::min(1.0, (along - 4) / 2) * std::numbers::pi / 2;
-        const Vec3 centre(4, 0, 5), out(std::sin(turn), 0, -std::cos(turn));
+        const double turn = std::min(1.0, (along - 4) / 4) * std::numbers::pi / 2;
+        const Vec3 centre(4, 0, 3), out(std::sin(turn), 0, -std::cos(turn));
         const double y = x.y();
-        x = centre + (3 - height) * out;
-        if (along > 6) x += (along - 6) * Vec3(0, 0, 1);
+        x = centre + (1 - height) * out;
+        if (along > 8) x += (along - 8) * Vec3(0, 0, 1);
         x.y() = y;
     }
     return mesh;
@@ -46,9 +46,9 @@ TEST(Tangent, AFilletUpToTheFaceAlongWhichItSlides) {
     const Beside out = beside(mesh, [](const Vec3& x) { return x.z() == 2 && x.x() <= 4; });
     EXPECT_TRUE(out.same.empty());
     ASSERT_FALSE(out.following.empty());
-    EXPECT_EQ(out.following.size(), 8U) << "two by two pairs of triangles, not those of the wall behind";
+    EXPECT_EQ(out.following.size(), 16U) << "four by two pairs of triangles, not those of the wall behind";
     for (const auto& part : out.following)
-        for (const Index n : part) EXPECT_NEAR((mesh.points[n] - Vec3(4, mesh.points[n].y(), 5)).norm(), 3, 1e-9);
+        for (const Index n : part) EXPECT_NEAR((mesh.points[n] - Vec3(4, mesh.points[n].y(), 3)).norm(), 1, 1e-9);
 }
 
 TEST(Tangent, NotAWallThatGoesOnFar) {
