@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "cancel.h"
@@ -121,7 +122,24 @@ private:
         relax(d_, remesher_.strained());
     }
 
+    /// Edges of patches that keep their shape are as bent as before, for their size.
+    void scale_bulges() {
+        if (!d_.mids.any() || motion_.carried.factor == 1) return;
+        std::set<std::array<int, 2>> edges;
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s)
+                if (list.alive(s) && !motion_.tools[list.tag(s)] && !motion_.follows[list.tag(s)])
+                    for (std::size_t k = 0; k < list[s].size(); ++k)
+                        for (std::size_t j = 0; j < k; ++j)
+                            edges.insert({std::min(list[s][j], list[s][k]), std::max(list[s][j], list[s][k])});
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        for (const auto& [a, b] : edges) d_.mids.set_bulge(a, b, motion_.carried.factor * d_.mids.bulge(a, b));
+    }
+
     void finish() {
+        scale_bulges();
         for (const int v : wall_nodes()) d_.contact[v] = goals_.tools(v);
         arrived_ = true;
         relax(d_, remesher_.strained());
