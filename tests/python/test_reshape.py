@@ -283,6 +283,7 @@ PLANE = fs.Plane((7, 0, 0), (1, 0, 0))
         (dict(group="END", onto=PLANE, scale=(2, (0, 0, 0))), "scale", "more than one"),
         (dict(group="END", onto=3), "onto", "must be"),
         (dict(group="END", by=(0, 0, 0)), "by", "is zero"),
+        (dict(group="END", by=(0, 1, 2)), "by", "runs along the wall"),
         (dict(group="END", by=(1, 0)), "by", "three numbers"),
         (dict(group="END", scale=(0, (0, 0, 0))), "scale", "positive"),
         (dict(group="END", scale=(-1.5, (0, 0, 0))), "scale", "positive"),

@@ -104,6 +104,10 @@ WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& mot
         }
         if (known < 2) spread(leading, known);
     }
+    if (!motion.onto && std::ranges::all_of(leading, [&](int v) {
+            return (goal_[v] - f.d.band.nodes[v].at).norm() <= 1e-9 * f.d.constraints.geometry().size;
+        }))
+        throw ToolError("the motion runs along the wall, or out of its shell: nothing would move", motion.parameter);
     place_following(wall);
 }
 
