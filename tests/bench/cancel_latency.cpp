@@ -24,6 +24,7 @@
 #include "operators/cut.h"
 #include "operators/drill.h"
 #include "operators/refine.h"
+#include "operators/reshape.h"
 #include "operators/scalpel.h"
 #include "simple_meshes.h"
 #include "tools/cylinder.h"
@@ -165,6 +166,9 @@ void measure_all(const std::filesystem::path& path) {
     o.gradation = 100;
     measure("refine, nothing to do", [&] { refine(mesh, distance_to(std::vector<Vec3>{{1000, 0, 0}}), o); });
     if (mesh.cell_count() < 100'000) measure_curved(mesh);
+    ReshapeOptions wall;
+    wall.by = Vec3(1, 0, 0);
+    measure("reshape", [&] { reshape(mesh, "END_RIGHT", wall); });
     measure("virtual boundaries", [&] {
         const VirtualBoundaryFinder finder(mesh);
         for (std::size_t g = 0; g < mesh.groups.size(); ++g) finder.find(static_cast<GroupIndex>(g));

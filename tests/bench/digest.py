@@ -497,6 +497,23 @@ def _refine(kind):
     return run
 
 
+#: What reshape() is called with: the group, how it is moved, in edges.
+WALLS = {
+    "face": lambda mesh, make: fs.reshape(mesh, "END_RIGHT", by=(1.5 * make.edge, 0, 0)),
+    "pressed": lambda mesh, make: fs.reshape(mesh, "END_LEFT", by=(2.5 * make.edge, 0, 0)),
+    "border": lambda mesh, make: fs.reshape(mesh, "GLUE", onto=fs.Plane((10.5, 0, 0), (1, 0.05, 0))),
+    "head": lambda mesh, make: fs.reshape(mesh, "HEAD", by=(0, 0, 2)),
+    "stem": lambda mesh, make: fs.reshape(mesh, "Surface1", scale=(1.2, (0, 0, 0))),
+    "inlet": lambda mesh, make: fs.reshape(mesh, "INLET", by=(0, -1.5, 0)),
+    "bore": lambda mesh, make: fs.reshape(mesh, "BORE", scale=(1.1, (0, 0, 0))),
+    "too_far": lambda mesh, make: fs.reshape(mesh, "END_RIGHT", by=(-25, 0, 0)),
+}
+
+
+def _reshape(kind):
+    return lambda mesh, make, folder: WALLS[kind](mesh, make)
+
+
 def _rounding(number):
     """A case of rounding_cases: tools at small distances from nodes, rounded coordinates."""
 
@@ -994,6 +1011,20 @@ TABLE: Tuple[Tuple[str, Callable, tuple, Tuple[str, ...]], ...] = (
             ("all", ("uneven_box", "plate2")),
             ("too_many", ("two_boxes",)),
             ("nothing", ("l_shape",)),
+        )
+    ),
+    # walls
+    *(
+        (f"reshape/{k}", _reshape, (k,), s)
+        for k, s in (
+            ("face", ("two_boxes",)),
+            ("pressed", ("two_boxes",)),
+            ("border", ("two_boxes",)),
+            ("head", ("flanged",)),
+            ("stem", ("flanged",)),
+            ("inlet", ("elbow",)),
+            ("bore", ("elbow",)),
+            ("too_far", ("two_boxes",)),
         )
     ),
     # skin

@@ -49,6 +49,10 @@ def refine(**options):
     return lambda: fs.refine(box_with_groups(), **{"near": PLANE, "size": 0.5, **options})
 
 
+def reshape(**options):
+    return lambda: fs.reshape(box_with_groups(), **{"group": "TOP", **options})
+
+
 def mesh(**arguments):
     return lambda: fs.Mesh(**{"points": [O, X, (0, 1, 0)], "cells": {"triangle": [[0, 1, 2]]}, **arguments})
 
@@ -114,6 +118,11 @@ IN_THE_ENGINE = [
     (refine(reach=-1), "reach"),
     (refine(feature_angle=0), "feature_angle"),
     (refine(skin=SHAPES / "plane.brep"), "skin"),
+    (reshape(), "onto"),
+    (reshape(by=X, onto=PLANE), "by"),
+    (reshape(scale=(0, O)), "scale"),
+    (reshape(group="NOWHERE", by=Z), "group"),
+    (reshape(by=(0, 0, -9)), "by"),
 ]
 
 #: (call, parameter): what the package says is wrong.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Kirsch's problem: a hole drilled in a plate under tension, refined first, solved with CalculiX."""
+"""Kirsch's problem: a hole in a plate under tension, drilled, or made larger or smaller, solved with CalculiX."""
 
 import subprocess
 
@@ -38,24 +38,17 @@ def nodal_stresses(folder, component):
     return values
 
 
-@needs_ccx
-@pytest.mark.parametrize("kind", ["CPS6", "C3D10"])
-def test_kirsch(tmp_path, kind):
-    flat = kind == "CPS6"
+def plate_for(flat):
     if flat:
         mesh = quadratic_of(plate((20, 10), (LENGTH, WIDTH)))
     else:
         mesh = quadratic(grid_box((20, 10, 1), (LENGTH, WIDTH, THICKNESS)))
     mesh.add_group("ALL", "element", np.concatenate(list(mesh.cell_ids.values())))
-    refined = fs.refine(mesh, HOLE, size=RADIUS / 7, gradation=0.4)
-    result = fs.drill(refined.mesh, HOLE, name="HOLE")
-    drilled = result.mesh
-    # Wall nodes, mid-side nodes too, lie on the cylinder.
-    wall = drilled.groups["HOLE_WALL"].ids
-    kind_of_wall = "line3" if flat else "triangle6"
-    on_wall = np.unique(drilled.cells[kind_of_wall][np.isin(drilled.cell_ids[kind_of_wall], wall)])
-    assert np.abs(HOLE.distance(drilled.points[on_wall])).max() < 1e-9
+    return mesh
 
+
+def solve(tmp_path, drilled, flat):
+    """The gross stress, the nodes' stresses along the pull, and where the nodes are."""
     # Only the body goes into the deck: in CalculiX the wall's faces would be shells.
     body = "triangle6" if flat else "tetra10"
     deck = fs.Mesh(
@@ -88,6 +81,13 @@ def test_kirsch(tmp_path, kind):
     gross = force / (WIDTH * THICKNESS)
     stresses = nodal_stresses(tmp_path, "XX")
     place = dict(zip(ids.tolist(), points))
+    return gross, stresses, dict(zip(ids.tolist(), points))
+
+
+def check_concentration(tmp_path, result, kind):
+    drilled = result.mesh
+    gross, stresses, place = solve(tmp_path, drilled, kind == "CPS6")
+    body = "triangle6" if kind == "CPS6" else "tetra10"
     top = max((s, n) for n, s in stresses.items() if n in place)
     factor, expected = top[0] / gross, concentration()
     print(
@@ -98,3 +98,31 @@ def test_kirsch(tmp_path, kind):
     assert factor == pytest.approx(expected, rel=0.03)
     # It is where it belongs: on the wall, across the pull.
     assert abs(HOLE.distance(place[top[1]])[0]) < 1e-9 and abs(place[top[1]][0] - HOLE.origin[0]) < 0.1 * RADIUS
+
+
+@needs_ccx
+@pytest.mark.parametrize("kind", ["CPS6", "C3D10"])
+def test_kirsch(tmp_path, kind):
+    flat = kind == "CPS6"
+    refined = fs.refine(plate_for(flat), HOLE, size=RADIUS / 7, gradation=0.4)
+    result = fs.drill(refined.mesh, HOLE, name="HOLE")
+    drilled = result.mesh
+    # Wall nodes, mid-side nodes too, lie on the cylinder.
+    wall = drilled.groups["HOLE_WALL"].ids
+    kind_of_wall = "line3" if flat else "triangle6"
+    on_wall = np.unique(drilled.cells[kind_of_wall][np.isin(drilled.cell_ids[kind_of_wall], wall)])
+    assert np.abs(HOLE.distance(drilled.points[on_wall])).max() < 1e-9
+    check_concentration(tmp_path, result, kind)
+
+
+@needs_ccx
+@pytest.mark.parametrize("kind, before", [("CPS6", 0.6), ("CPS6", 1.6), ("C3D10", 0.6)])
+def test_kirsch_of_a_hole_made_larger_or_smaller(tmp_path, kind, before):
+    flat = kind == "CPS6"
+    first = fs.Cylinder(HOLE.origin, HOLE.axis, before * RADIUS)
+    refined = fs.refine(plate_for(flat), first, size=(before if flat else 1) * RADIUS / 7, gradation=0.4)
+    drilled = fs.drill(refined.mesh, first, name="HOLE").mesh
+    result = fs.reshape(drilled, "HOLE_WALL", onto=HOLE)
+    wall = np.isin(result.mesh.node_ids, result.mesh.groups["SHAPE_WALL"].ids)
+    assert wall.sum() > 40 and np.abs(HOLE.distance(result.mesh.points[wall])).max() < 1e-9
+    check_concentration(tmp_path, result, kind)

@@ -2,7 +2,10 @@
 #include "cutting/move_wall.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "cancel.h"
@@ -21,7 +24,7 @@ constexpr double stride = 0.4, smallest_step = 1.0 / 64;
 /// Elements that come out of a step worse than this, or than half of what they were, spoil it.
 constexpr double spoilt = 0.08;
 /// Elements worse than this are worked on.
-constexpr double goal_of_steps = 0.35, goal_of_end = 0.45;
+constexpr double goal_of_steps = 0.22, goal_of_end = 0.3;
 
 class Mover {
 public:
@@ -116,15 +119,73 @@ private:
             if (d_.constraints.project(v, d_.contact[v], x) && !d_.is_barred(v, x)) band_.nodes[v].at = x;
         }
         if (remesher_.worst() < spoilt) untangle(d_, others, 2 * spoilt);
-        relax(d_, others);
+        relax(d_, remesher_.strained());
+    }
+
+    /// Edges of patches that keep their shape are as bent as before, for their size.
+    void scale_bulges() {
+        if (!d_.mids.any() || motion_.carried.factor == 1) return;
+        std::set<std::array<int, 2>> edges;
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s)
+                if (list.alive(s) && !motion_.tools[list.tag(s)] && !motion_.follows[list.tag(s)])
+                    for (std::size_t k = 0; k < list[s].size(); ++k)
+                        for (std::size_t j = 0; j < k; ++j)
+                            edges.insert({std::min(list[s][j], list[s][k]), std::max(list[s][j], list[s][k])});
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        for (const auto& [a, b] : edges) d_.mids.set_bulge(a, b, motion_.carried.factor * d_.mids.bulge(a, b));
     }
 
     void finish() {
+        scale_bulges();
         for (const int v : wall_nodes()) d_.contact[v] = goals_.tools(v);
         arrived_ = true;
-        relax(d_, remesher_.movable());
+        relax(d_, remesher_.strained());
         remesher_.run(goal_of_end);
         mend_curved(f_, false);
+        check_sides();
+    }
+
+    /// Unit normal of a part of the wall, out of the material.
+    Vec3 normal(const std::array<int, 3>& v) const {
+        const Vec3& a = band_.nodes[v[0]].at;
+        return (band_.nodes[v[1]].at - a).cross(band_.nodes[v[2]].at - a).normalized();
+    }
+    Vec3 normal(const std::array<int, 2>& v) const {
+        const Vec3 &a = band_.nodes[v[0]].at, &b = band_.nodes[v[1]].at;
+        Vec3 out = Vec3::Zero();
+        for (const int t : band_.triangles.around(v[0])) {
+            const auto& n = band_.triangles[t];
+            if (std::ranges::find(n, v[1]) == n.end()) continue;
+            out = (b - a).cross(d_.shell_normals[band_.triangles.origin(t)]).normalized();
+            for (const int w : n)
+                if (w != v[0] && w != v[1] && out.dot(band_.nodes[w].at - a) > 0) out = -out;
+        }
+        return out;
+    }
+
+    /// The material is on one side of each tool: else the wall, such as all around a hole on a plane, lies on itself.
+    void check_sides() const {
+        std::map<const Tool*, std::array<bool, 2>> sides;
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                const Tool* tool = motion_.tools[list.tag(s)];
+                if (!tool) continue;
+                Vec3 middle = Vec3::Zero();
+                for (const int v : list[s]) middle += band_.nodes[v].at / static_cast<double>(list[s].size());
+                sides[tool][normal(list[s]).dot(tool->normal(middle)) > 0] = true;
+            }
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        for (const auto& [tool, side] : sides)
+            if (side[0] && side[1])
+                throw ToolError("the wall would lie on itself there, with material on both sides of the " +
+                                    tool->kind() + ". Move less of it, or elsewhere",
+                                motion_.parameter);
     }
 
     [[noreturn]] void refuse() const {

@@ -16,10 +16,14 @@ namespace femscalpel {
 namespace {
 
 /// Edges longer than this are bisected, and nodes at shorter than that merged, in lengths of the input.
-constexpr double too_long = 1.6, too_short = 0.5;
+constexpr double too_long = 2.0, too_short = 0.4;
 /// Elements worse than this get their longest edge bisected, in so many rounds at most.
-constexpr double split_below = 0.35;
-constexpr int split_rounds = 6;
+constexpr double split_below = 0.25;
+constexpr int split_rounds = 4;
+/// An element that has at least this part of the mean ratio it had has not become poor.
+constexpr double as_it_was = 0.85;
+/// Relaxation leaves elements better than this alone, and those that have nearly the mean ratio they had.
+constexpr double good = 0.55, unstrained = 0.97;
 
 /// Whether a node group means each of its members: it is no such thing as all nodes of a part, which holds all
 /// neighbours of the node, too.
@@ -38,7 +42,13 @@ bool means_it_alone(const Mesh& mesh, const BandMesh& band, int node, std::vecto
 
 Remesher::Remesher(Workpiece& f, const Mesh& mesh, std::function<bool(int)> slides)
     : f_(f), d_(f.d), band_(f.d.band), merger_(f), slides_(std::move(slides)) {
-    for (int v = 0; v < band_.size(); ++v) size_.push_back(band_.mean_edge_length(v));
+    for (int v = 0; v < band_.size(); ++v) {
+        size_.push_back(band_.mean_edge_length(v));
+        material_.push_back(band_.nodes[v].at);
+    }
+    for (int t = 0; t < band_.tetras.size(); ++t) tetra_was_.push_back(tetra_quality(d_, t));
+    for (int t = 0; t < band_.triangles.size(); ++t)
+        shell_was_.push_back(d_.constraints.is_shell(t) ? shell_quality(d_, t) : 1);
     find_removable(mesh);
 }
 
@@ -67,16 +77,20 @@ double Remesher::worst() const {
     return worst;
 }
 
-double Remesher::wanted(int a, int b) const {
+/// The length of an edge in the input, or where it is a new one that of edges there: the shorter or the longer.
+double Remesher::wanted(int a, int b, bool shortest) const {
+    const double length = (material_[a] - material_[b]).norm();
+    if (!band_.is_new(a) && !band_.is_new(b)) return length;
     const double mean = (size_[a] + size_[b]) / 2;
-    if (band_.is_new(a) || band_.is_new(b)) return mean;
-    return (band_.nodes[a].start - band_.nodes[b].start).norm();
+    return shortest ? std::min(mean, length) : std::max(mean, length);
 }
+
+double Remesher::was(BandElement e) const { return (e.triangle ? shell_was_ : tetra_was_)[e.origin(band_)]; }
 
 bool Remesher::exists(int a, int b) const { return in_one(band_.tetras, a, b) || in_one(band_.triangles, a, b); }
 
 /// The edges with a movable end that `counts(excess)`, each once.
-std::vector<Remesher::Edge> Remesher::edges(auto counts) const {
+std::vector<Remesher::Edge> Remesher::edges(bool shortest, auto counts) const {
     std::vector<Edge> out;
     std::vector<int> neighbours;
     SparseCheck check(64);
@@ -85,7 +99,7 @@ std::vector<Remesher::Edge> Remesher::edges(auto counts) const {
         band_.neighbours(v, neighbours);
         for (const int w : neighbours) {
             if (band_.nodes[w].movable() && w < v) continue;
-            const double excess = (band_.nodes[v].at - band_.nodes[w].at).norm() / wanted(v, w);
+            const double excess = (band_.nodes[v].at - band_.nodes[w].at).norm() / wanted(v, w, shortest);
             if (counts(excess) && exists(v, w)) out.push_back({excess, v, w});
         }
     }
@@ -101,6 +115,7 @@ bool Remesher::split(int a, int b) {
     if (((bent || tools) && !fits) || worst < 0.02 || curved_children(d_, a, b, at, tools) < curved_limit) return false;
     touched_.push_back(d_.split_edge(a, b, at, tools));
     size_.push_back((size_[a] + size_[b]) / 2);
+    material_.push_back((material_[a] + material_[b]) / 2);
     f_.distance.push_back(0);
     return true;
 }
@@ -127,7 +142,7 @@ int Remesher::merge(int v) {
 }
 
 bool Remesher::split_long() {
-    std::vector<Edge> found = edges([](double excess) { return excess > too_long; });
+    std::vector<Edge> found = edges(false, [](double excess) { return excess > too_long; });
     std::ranges::sort(found, [](const Edge& x, const Edge& y) {
         return std::tie(y.excess, x.a, x.b) < std::tie(x.excess, y.a, y.b);
     });
@@ -137,7 +152,7 @@ bool Remesher::split_long() {
 }
 
 bool Remesher::merge_short() {
-    std::vector<Edge> found = edges([](double excess) { return excess < too_short; });
+    std::vector<Edge> found = edges(true, [](double excess) { return excess < too_short; });
     std::ranges::sort(found, [](const Edge& x, const Edge& y) {
         return std::tie(x.excess, x.a, x.b) < std::tie(y.excess, y.a, y.b);
     });
@@ -148,15 +163,18 @@ bool Remesher::merge_short() {
     return any;
 }
 
+/// Those worse than `goal`, and than they were.
 std::vector<Remesher::Poor> Remesher::poor_elements(double goal) const {
     check_cancelled();
     std::vector<Poor> out;
-    for (int t = 0; t < band_.tetras.size(); ++t)
-        if (band_.tetras.alive(t) && tetra_is_below(goal, d_, t))
-            out.push_back({tetra_quality(d_, t), band_.tetras[t]});
+    for (int t = 0; t < band_.tetras.size(); ++t) {
+        if (!band_.tetras.alive(t)) continue;
+        const double limit = std::min(goal, as_it_was * was({false, t}));
+        if (tetra_is_below(limit, d_, t)) out.push_back({tetra_quality(d_, t), band_.tetras[t]});
+    }
     for (int t = 0; t < band_.triangles.size(); ++t)
         if (band_.triangles.alive(t) && d_.constraints.is_shell(band_.triangles.origin(t)))
-            if (const double q = shell_quality(d_, t); q < goal) {
+            if (const double q = shell_quality(d_, t); q < std::min(goal, as_it_was * was({true, t}))) {
                 const auto& v = band_.triangles[t];
                 out.push_back({q, {v[0], v[1], v[2], -1}});
             }
@@ -201,11 +219,25 @@ double Remesher::shortfall(double limit) const {
     return sum;
 }
 
+std::vector<int> Remesher::strained() const {
+    std::vector<char> in(static_cast<std::size_t>(band_.size()), 0);
+    for (int t = 0; t < band_.tetras.size(); ++t)
+        if (band_.tetras.alive(t) && tetra_is_below(std::min(good, unstrained * was({false, t})), d_, t))
+            for (const int v : band_.tetras[t]) in[v] = 1;
+    for (int t = 0; t < band_.triangles.size(); ++t)
+        if (band_.triangles.alive(t) && d_.constraints.is_shell(band_.triangles.origin(t)) &&
+            shell_quality(d_, t) < std::min(good, unstrained * was({true, t})))
+            for (const int v : band_.triangles[t]) in[v] = 1;
+    std::vector<int> out = movable();
+    std::erase_if(out, [&](int v) { return in[v] == 0; });
+    return out;
+}
+
 void Remesher::relax_touched() {
     const std::vector<int> all = movable(), near = band_.nodes_near(std::exchange(touched_, {}), 2);
-    std::vector<int> first;
-    std::ranges::set_intersection(all, near, std::back_inserter(first));
-    relax_from(d_, first, all);
+    std::vector<int> there;
+    std::ranges::set_intersection(all, near, std::back_inserter(there));
+    relax_from(d_, there, there);
 }
 
 void Remesher::run(double goal) {

@@ -7,6 +7,7 @@
 
 #include "cutting/merging.h"
 #include "cutting/workpiece.h"
+#include "deformation/curved_shape.h"
 
 namespace femscalpel {
 
@@ -25,6 +26,9 @@ public:
     /// Nodes that may move for better shape.
     std::vector<int> movable() const;
 
+    /// Of them, those of elements that have become less than good.
+    std::vector<int> strained() const;
+
     /// Smallest mean ratio of the band's elements, negative when one is inverted.
     double worst() const;
 
@@ -42,8 +46,9 @@ private:
         auto operator<=>(const Poor&) const = default;
     };
 
-    std::vector<Edge> edges(auto counts) const;
-    double wanted(int a, int b) const;
+    std::vector<Edge> edges(bool shortest, auto counts) const;
+    double wanted(int a, int b, bool shortest) const;
+    double was(BandElement element) const;
     bool split(int a, int b);
     int merge(int node);
     bool split_long();
@@ -62,9 +67,11 @@ private:
     BandMesh& band_;
     NodeMerger merger_;
     std::function<bool(int)> slides_;
-    std::vector<double> size_;     // by node: length of edges there in the input
-    std::vector<char> removable_;  // by input node: nothing means it alone
-    std::vector<int> touched_;     // nodes born, and those others were merged into
+    std::vector<double> size_;                   // by node: length of edges there in the input
+    std::vector<Vec3> material_;                 // by node: where in the input what is there now was
+    std::vector<double> tetra_was_, shell_was_;  // by slot of the input's element: its mean ratio
+    std::vector<char> removable_;                // by input node: nothing means it alone
+    std::vector<int> touched_;                   // nodes born, and those others were merged into
     int taken_out_ = 0;
 };
 

@@ -35,13 +35,14 @@ SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch&
     return out;
 }
 
-/// The direction that a wall with these normals runs along, if it is but one; zero else.
-Vec3 direction_along(const std::vector<Vec3>& normals, bool several) {
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+/// The directions in which the normals of a wall point, as a projector.
+Eigen::Matrix3d directions_across(const std::vector<Vec3>& normals) {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(), out = spread;
     for (const Vec3& n : normals) spread += n * n.transpose() / static_cast<double>(normals.size());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    if (axes.eigenvalues()[several ? 1 : 0] > 1e-6) return Vec3::Zero();
-    return axes.eigenvectors().col(0);
+    for (int k = 0; k < 3; ++k)
+        if (axes.eigenvalues()[k] > 1e-6) out += axes.eigenvectors().col(k) * axes.eigenvectors().col(k).transpose();
+    return out;
 }
 
 }  // namespace
@@ -60,15 +61,19 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
     for (std::size_t k = 0; k < wall.patches.size(); ++k) {
         if (wall.patches[k].follows) continue;
         SurfaceSample sample = sample_of(f, wall, wall.patches[k]);
-        normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
         if (!wall.faces) {
             const int t = f.d.band.triangles.around(g.segments[wall.patches[k].parts[0]].node[0])[0];
             double_across(sample, f.d.shell_normals[t], g.size);
         }
         motion.own.push_back(fitted_tool(sample.points, sample.normals, tolerance, motion.carried));
         motion.tools[k] = motion.own.back().get();
+        if (!motion.tools[k]) {
+            normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
+            continue;
+        }
+        for (const Vec3& x : sample.points) normals.push_back(motion.tools[k]->normal(motion.carried(x)));
     }
-    motion.along = direction_along(normals, false);
+    motion.across = directions_across(normals);
 }
 
 WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh)
@@ -81,9 +86,7 @@ WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& mot
     std::ranges::copy_if(wall.nodes, std::back_inserter(leading), [&](int v) { return !follows(v); });
     for (const int v : leading) {
         const Vec3& at = f.d.band.nodes[v].at;
-        Vec3 move = motion.onto ? Vec3(Vec3::Zero()) : Vec3(motion.carried(at) - at);
-        // What runs along the wall itself does not change it.
-        move -= motion.along * motion.along.dot(move);
+        const Vec3 move = motion.onto ? Vec3(Vec3::Zero()) : Vec3(motion.across * (motion.carried(at) - at));
         Vec3 x = at + move;
         if (!f.d.constraints.project(NodeConstraint{}, tools(v), x)) x = at + move;
         plain_[v] = goal_[v] = x;
@@ -101,6 +104,10 @@ WallGoals::WallGoals(const Workpiece& f, const Wall& wall, const WallMotion& mot
         }
         if (known < 2) spread(leading, known);
     }
+    if (!motion.onto && std::ranges::all_of(leading, [&](int v) {
+            return (goal_[v] - f.d.band.nodes[v].at).norm() <= 1e-9 * f.d.constraints.geometry().size;
+        }))
+        throw ToolError("the motion runs along the wall, or out of its shell: nothing would move", motion.parameter);
     place_following(wall);
 }
 

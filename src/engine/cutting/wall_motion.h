@@ -19,7 +19,8 @@ struct WallMotion {
     std::vector<const Tool*> tools = {};  ///< by patch: the surface that it will lie on; null if its own shape is
                                           ///< carried instead
     std::vector<char> follows = {};       ///< by patch: Wall::Patch::follows
-    Vec3 along = Vec3::Zero();            ///< unit vector, if the wall runs along it everywhere
+    /// Takes from a motion what runs along the wall everywhere, which does not change it.
+    Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
     std::vector<std::unique_ptr<Tool>> own = {};  ///< those of `tools` that were made for it
 };
 

@@ -24,9 +24,14 @@ Vec3 mean_of(std::span<const Vec3> points) {
     return sum / static_cast<double>(points.size());
 }
 
-std::unique_ptr<Tool> fitted_plane(std::span<const Vec3> points, const Vec3& normal, double tolerance,
+/// `normal` is that of the plane where all points are on one line.
+std::unique_ptr<Tool> fitted_plane(std::span<const Vec3> points, Vec3 normal, double tolerance,
                                    const Similarity& moved) {
     const Vec3 origin = mean_of(points);
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vec3& p : points) spread += (p - origin) * (p - origin).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    if (axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2]) normal = axes.eigenvectors().col(0);
     for (const Vec3& p : points)
         if (std::abs(normal.dot(p - origin)) > tolerance) return nullptr;
     return std::make_unique<Plane>(moved(origin), normal);

@@ -8,6 +8,7 @@
 
 #include "cancel.h"
 #include "cutting/checks.h"
+#include "cutting/crossing.h"
 #include "cutting/locate.h"
 #include "cutting/move_wall.h"
 #include "cutting/opening.h"
@@ -132,12 +133,17 @@ Workpiece band_of(const Edit& edit, const ReshapeOptions& options, Covered& cove
     }
 }
 
+/// Whether a node is on the wall itself, not only on what follows it.
+bool leads(const Workpiece& f, const Wall& wall, int node) {
+    return std::ranges::any_of(wall_tags(f.d.band, node), [&](int tag) { return !wall.patches[tag].follows; });
+}
+
 /// Adds the mid-side nodes of the wall's edges to the group of its nodes.
-void add_middles(const Workpiece& f, Rebuilt& rebuilt, GroupIndex group) {
+void add_middles(const Workpiece& f, const Wall& wall, Rebuilt& rebuilt, GroupIndex group) {
     Mesh& mesh = rebuilt.mesh;
     std::unordered_map<Index, int> band_node;
     for (int v = 0; v < f.d.band.size(); ++v)
-        if (rebuilt.node[v] >= 0 && is_on_wall(f.d.band, v)) band_node.emplace(rebuilt.node[v], v);
+        if (rebuilt.node[v] >= 0 && leads(f, wall, v)) band_node.emplace(rebuilt.node[v], v);
     for (const CellRef& c : rebuilt.after) {
         const CellTraits& t = traits(c.type);
         if (!t.quadratic) continue;
@@ -149,6 +155,33 @@ void add_middles(const Workpiece& f, Rebuilt& rebuilt, GroupIndex group) {
             family = mesh.families.with(family, group);
         }
     }
+}
+
+/// Throws ToolError when what moved of the skin passes through elements elsewhere.
+void check_crossing(const Workpiece& f, const Wall& wall, const Rebuilt& rebuilt, const char* parameter) {
+    const BandMesh& band = f.d.band;
+    std::vector<std::array<Index, 3>> parts;
+    const auto add = [&](const auto& list, bool all) {
+        for (int s = 0; s < list.size(); ++s) {
+            if (!list.alive(s)) continue;
+            std::array<Index, 3> part{-1, -1, -1};
+            bool moved = all;
+            for (std::size_t k = 0; k < list[s].size(); ++k) {
+                const BandNode& n = band.nodes[list[s][k]];
+                part[k] = rebuilt.node[list[s][k]];
+                moved = moved || n.at != n.start;
+            }
+            if (moved) parts.push_back(part);
+        }
+    };
+    add(band.cut_faces, true);
+    add(band.cut_edges, true);
+    if (wall.faces) add(band.skin, false);
+    const std::optional<CellRef> crossed = crossed_element(rebuilt.mesh, parts);
+    if (!crossed) return;
+    throw ToolError("the wall would pass through another part of the mesh, element " +
+                        std::to_string(rebuilt.mesh.block(crossed->type).ids[crossed->cell]) + ". Move it less",
+                    parameter);
 }
 
 Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, Edited& edited) {
@@ -209,9 +242,10 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     Opening opening = no_opening(f.d.band);
     opening.removes = true;
     for (int v = 0; v < f.d.band.size(); ++v)
-        if (f.d.band.in_use(v) && is_on_wall(f.d.band, v)) opening.front_nodes.push_back(v);
+        if (f.d.band.in_use(v) && leads(f, wall, v)) opening.front_nodes.push_back(v);
     Edited edited = edit.finish(f, opening, naming, options.strict, watch);
-    add_middles(f, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
+    check_crossing(f, wall, edited.rebuilt, motion.parameter);
+    add_middles(f, wall, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
     recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
     Result result{{}, report_of(edit, options, f, edited)};
     (void)moved;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/rules/node_loads.h"
 
+#include <algorithm>
+
 #include "deck/card_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
@@ -20,6 +22,16 @@ void carry_set(std::size_t c, const CardReader& line, const std::string& set, co
     remarks.add(c, Weight::note, line.where(), the_set(set),
                 "has new nodes; the card now names '" + name + "', the nodes it had, so that the total stays the same");
     carrying.edits(c).replace(line, name + "," + std::string(line.rest()));
+}
+
+/// Whether a node is a corner of an element: then only a wall that is moved (reshape) takes it along.
+bool is_corner(const Mesh& mesh, Index number) {
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto corners = b.nodes(c).first(static_cast<std::size_t>(traits(b.type).corners));
+            if (std::ranges::any_of(corners, [&](Index n) { return mesh.node_ids[n] == number; })) return true;
+        }
+    return false;
 }
 
 }  // namespace
@@ -51,10 +63,14 @@ void NodeLoads::carry(std::size_t c, const Card& card, Carrying& carrying) {
             remarks.add(c, is_load(card) ? Weight::note : Weight::problem, line.where(), the_node(node),
                         "the crack doubled; its " + share + " stays whole on the original, on the negative side");
         }
-        if (carrying.node_moved(node))
-            remarks.add(
-                c, Weight::problem, line.where(), the_node(node),
-                "is a mid-side node that moved by " + number_text(carrying.origins().moved(node)) + " with its edge");
+        if (!carrying.node_moved(node)) continue;
+        const std::string moved = "moved by " + number_text(carrying.origins().moved(node));
+        if (is_corner(carrying.before(), node))
+            remarks.add(c, Weight::note, line.where(), the_node(node),
+                        moved + " with the wall it is on; its " + share + " goes with it");
+        else
+            remarks.add(c, Weight::problem, line.where(), the_node(node),
+                        "is a mid-side node that " + moved + " with its edge");
     }
 }
 

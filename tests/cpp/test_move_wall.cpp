@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Walls on their way, step by step.
+#include "cutting/move_wall.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cutting/remesh.h"
+#include "wall_testing.h"
+
+namespace femscalpel {
+namespace {
+
+using checks::WithWall;
+
+MovedWall push(WithWall& w, const Vec3& by) {
+    WallMotion motion{.parameter = "by", .carried = {1, by}};
+    find_tools(w.f, w.wall, motion);
+    MovedWall out = move_wall(w.f, w.wall, motion, w.mesh);
+    for (int v = 0; v < w.f.d.band.size(); ++v) w.f.d.contact[v] = {};  // as the tools end here
+    return out;
+}
+
+WithWall block() {
+    return WithWall(checks::grid(4, 4, 4), [](const Vec3& x) { return x.z() == 4; });
+}
+
+double worst(WithWall& w) {
+    return Remesher(w.f, w.mesh, [](int) { return false; }).worst();
+}
+
+TEST(MoveWall, VolumeFollowsExactly) {
+    for (const double by : {-2.5, -1.0, 0.1, 1.0, 3.0}) {
+        WithWall w = block();
+        const MovedWall moved = push(w, {0, 0, by});
+        EXPECT_GE(moved.steps, std::abs(by) > 0.5 ? 2 : 1) << by;
+        EXPECT_NEAR(checks::volume(w.f), 16 * (4 + by), 1e-9) << by;
+        EXPECT_GT(worst(w), 0.3) << by;
+    }
+}
+
+TEST(MoveWall, NodesAreTakenOutWhereThereIsNoRoom) {
+    WithWall w = block();
+    EXPECT_GT(push(w, {0, 0, -3.7}).taken_out, 0);
+    EXPECT_NEAR(checks::volume(w.f), 16 * 0.3, 1e-9);
+}
+
+TEST(MoveWall, EdgesAreDividedWhereTheyGetLong) {
+    WithWall w = block();
+    push(w, {0, 0, 12});
+    EXPECT_GT(w.f.d.band.size(), w.f.d.band.original_nodes());
+    EXPECT_NEAR(checks::volume(w.f), 16 * 16, 1e-9);
+}
+
+TEST(MoveWall, NotThroughTheOtherSide) {
+    WithWall w = block();
+    try {
+        push(w, {0, 0, -4.2});
+        FAIL();
+    } catch (const ToolError& e) {
+        EXPECT_STREQ(e.parameter(), "by");
+        EXPECT_THAT(e.what(), testing::HasSubstr("cannot be moved so far"));
+    }
+}
+
+}  // namespace
+}  // namespace femscalpel

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Moved walls on whole meshes; see tests/python/test_reshape.py for random ones.
+#include "operators/reshape.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "groups/group_report.h"
+#include "mesh/quality.h"
+#include "operators/drill.h"
+#include "simple_meshes.h"
+#include "tools/cylinder.h"
+#include "tools/plane.h"
+
+namespace femscalpel {
+namespace {
+
+using testing::HasSubstr;
+
+/// A block of 12 x 4 x 4 with the nodes of its end in a group.
+Mesh block(bool second_order = false) {
+    Mesh mesh = checks::grid(12, 4, 4);
+    if (second_order) mesh = checks::second_order(mesh);
+    const FamilyIndex family = checks::family_of(mesh, "END", GroupKind::node);
+    for (std::size_t n = 0; n < mesh.points.size(); ++n)
+        if (mesh.points[n].x() == 12) mesh.node_families[n] = family;
+    return mesh;
+}
+
+double volume(const Mesh& mesh) {
+    double sum = 0;
+    for (const CellBlock& b : mesh.blocks())
+        if (traits(b.type).dimension == 3)
+            for (Index c = 0; c < b.size(); ++c) sum += cell_measure(mesh, b.type, c);
+    return sum;
+}
+
+ReshapeOptions by(double x, double y = 0, double z = 0) {
+    ReshapeOptions out;
+    out.by = Vec3(x, y, z);
+    return out;
+}
+
+std::string refusal(const Mesh& mesh, const char* group, const ReshapeOptions& options, const char* parameter) {
+    try {
+        reshape(mesh, group, options);
+    } catch (const Error& e) {
+        EXPECT_STREQ(e.parameter(), parameter) << e.what();
+        return e.what();
+    }
+    ADD_FAILURE() << "no error";
+    return "";
+}
+
+TEST(Reshape, OnlyTheBandChanges) {
+    for (const bool second_order : {false, true}) {
+        const Mesh mesh = block(second_order);
+        const Result result = reshape(mesh, "END", by(1.5));
+        EXPECT_NEAR(volume(result.mesh), 13.5 * 16, 1e-9);
+        result.mesh.validate();
+        Index same = 0;
+        for (Index n = 0; n < mesh.node_count(); ++n) {
+            EXPECT_EQ(result.mesh.node_ids[n], mesh.node_ids[n]);
+            same += result.mesh.points[n] == mesh.points[n];
+            if (mesh.points[n].x() < 5) EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
+            if (mesh.points[n].x() == 12) EXPECT_EQ(result.mesh.points[n].x(), 13.5);
+        }
+        EXPECT_EQ(result.report.nodes_moved, mesh.node_count() - same);
+        EXPECT_EQ(checks::members(result.mesh, "SHAPE_WALL", GroupKind::node),
+                  checks::members(mesh, "END", GroupKind::node));
+        EXPECT_GT(result.report.quality_after.minimum, 0.4);
+    }
+}
+
+TEST(Reshape, AlongTheWallIsNoMotion) {
+    const Result result = reshape(block(), "END", by(1, 3, -2));
+    EXPECT_NEAR(volume(result.mesh), 13 * 16, 1e-9);
+}
+
+TEST(Reshape, MidSideNodesOfAHoleLieOnTheTool) {
+    const Cylinder hole({6, 2, 0}, {0, 0, 1}, 0.9), wider({6, 2, 0}, {0, 0, 1}, 1.4);
+    const Tool* tools[] = {&hole};
+    const Mesh drilled = drill(block(true), tools).mesh;
+    ReshapeOptions options;
+    options.onto = &wider;
+    const Result result = reshape(drilled, "HOLE_WALL", options);
+    const GroupIndex wall = *result.mesh.find_group("SHAPE_WALL");
+    int count = 0;
+    for (Index n = 0; n < result.mesh.node_count(); ++n) {
+        if (!result.mesh.families.contains(result.mesh.node_families[n], wall)) continue;
+        ++count;
+        EXPECT_NEAR(wider.distance(result.mesh.points[n]), 0, 1e-9);
+    }
+    EXPECT_GT(count, 100);
+    ReshapeOptions scaled;
+    scaled.scale = {1.4 / 0.9, {6, 2, 77}};
+    const Result same = reshape(drilled, "HOLE_WALL", scaled);
+    EXPECT_NEAR(volume(same.mesh), volume(result.mesh), 1e-6 * volume(result.mesh));
+}
+
+TEST(Reshape, WhatIsWrongIsNamed) {
+    const Mesh mesh = block();
+    const Plane plane({13, 0, 0}, {1, 0, 0}), across({0, 1.5, 0}, {0, 1, 0});
+    EXPECT_THAT(refusal(mesh, "NOWHERE", by(1), "group"), HasSubstr("no group 'NOWHERE'"));
+    EXPECT_THAT(refusal(mesh, "END", {}, "onto"), HasSubstr("none of onto, by and scale"));
+    ReshapeOptions both = by(1);
+    both.onto = &plane;
+    EXPECT_THAT(refusal(mesh, "END", both, "by"), HasSubstr("more than one"));
+    refusal(mesh, "END", by(0), "by");
+    ReshapeOptions scaled;
+    scaled.scale = {-1, Vec3::Zero()};
+    EXPECT_THAT(refusal(mesh, "END", scaled, "scale"), HasSubstr("must be positive"));
+    EXPECT_THAT(refusal(mesh, "END", by(-12.5), "by"), HasSubstr("cannot be moved so far"));
+    ReshapeOptions wrong;
+    wrong.onto = &across;
+    refusal(mesh, "END", wrong, "onto");
+    ReshapeOptions named = by(1);
+    named.name = "A B";
+    refusal(mesh, "END", named, "name");
+}
+
+TEST(Reshape, NotThroughAnotherPart) {
+    Mesh mesh = block();
+    const Mesh other = block();
+    const Index first = mesh.node_count();
+    for (const Vec3& x : other.points) mesh.add_node(x + Vec3(14, 0.3, 0.2), mesh.largest_node_id() + 1);
+    for (Index c = 0; c < other.block(CellType::tetra).size(); ++c) {
+        std::array<Index, 4> nodes;
+        for (int k = 0; k < 4; ++k) nodes[k] = first + other.block(CellType::tetra).nodes(c)[k];
+        mesh.add_cell(CellType::tetra, nodes, mesh.largest_cell_id() + 1);
+    }
+    EXPECT_NO_THROW(reshape(mesh, "END", by(1.9)));
+    EXPECT_THAT(refusal(mesh, "END", by(2.2), "by"), HasSubstr("another part of the mesh"));
+}
+
+}  // namespace
+}  // namespace femscalpel

@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Walls moved: random holes and faces against what must hold of every result, and special cases."""
+
+import os
+import pathlib
+
+import numpy as np
+import pytest
+
+import femscalpel as fs
+from meshes import grid_box, quadratic, tetra_volumes
+from test_physics import plate, quadratic_of
+
+MESHES = pathlib.Path(
+    os.environ.get("FEMSCALPEL_TEST_MESHES", pathlib.Path(__file__).parents[2] / "build/release/tests/meshes")
+)
+Z = (0.0, 0.0, 1.0)
+CORNERS = {"tetra": 4, "tetra10": 4, "triangle": 3, "triangle6": 3}
+EDGES = {
+    "tetra10": ((0, 1, 4), (1, 2, 5), (2, 0, 6), (0, 3, 7), (1, 3, 8), (2, 3, 9)),
+    "triangle6": ((0, 1, 3), (1, 2, 4), (2, 0, 5)),
+}
+
+
+def body(mesh):
+    return next(k for k in ("tetra", "tetra10", "triangle", "triangle6") if len(mesh.cells.get(k, ())))
+
+
+def check_conforming(mesh):
+    """Every face (edge, of shells) is in at most two elements, every edge has one mid-side node."""
+    kind = body(mesh)
+    cells = mesh.cells[kind][:, : CORNERS[kind]]
+    faces = np.concatenate([np.delete(cells, k, axis=1) for k in range(CORNERS[kind])])
+    counts = np.unique(np.sort(faces, axis=1), axis=0, return_counts=True)[1]
+    assert counts.max() <= 2
+    if kind in EDGES:
+        triples = np.concatenate([mesh.cells[kind][:, list(e)] for e in EDGES[kind]])
+        triples[:, :2].sort(axis=1)
+        found = np.unique(triples, axis=0)
+        assert len(np.unique(found[:, :2], axis=0)) == len(found)
+    used = np.unique(np.concatenate([c.ravel() for c in mesh.cells.values()]))
+    assert len(used) == mesh.node_count
+
+
+def check_kept(mesh, result):
+    """Numbers, groups and all that did not move."""
+    after, report = result.mesh, result.report
+    old = dict(zip(mesh.node_ids.tolist(), mesh.points))
+    new = dict(zip(after.node_ids.tolist(), after.points))
+    kept = old.keys() & new.keys()
+    assert min(new.keys() - kept, default=1 << 40) > max(old)
+    moved = {n for n in kept if (old[n] != new[n]).any()}
+    assert report.nodes_moved == len(moved) and report.nodes_removed == len(old) - len(kept)
+    assert report.nodes_added == len(new) - len(kept)
+    kind = body(mesh)
+    before = dict(zip(mesh.cell_ids[kind].tolist(), mesh.node_ids[mesh.cells[kind]].tolist()))
+    now = dict(zip(after.cell_ids[kind].tolist(), after.node_ids[after.cells[kind]].tolist()))
+    assert min(now.keys() - before.keys(), default=1 << 40) > max(before)
+    assert set(mesh.groups) <= set(after.groups)
+    for record in report.groups:
+        if record.status == "untouched" and record.kind == "element":
+            assert record.measure_after == record.measure_before
+            assert (mesh.groups[record.name].ids == after.groups[record.name].ids).all()
+    return old, new
+
+
+def check_quality(mesh, result):
+    quality = result.report.quality
+    assert quality.after.minimum >= min(0.2, quality.before.minimum)
+    if body(result.mesh).startswith("tetra"):
+        cells = result.mesh.cells[body(result.mesh)]
+        assert tetra_volumes(result.mesh.points, cells).min() > 0
+
+
+def check(mesh, result, tool=None):
+    check_conforming(result.mesh)
+    check_quality(mesh, result)
+    if tool is not None:
+        wall = np.isin(result.mesh.node_ids, result.mesh.groups["SHAPE_WALL"].ids)
+        assert wall.sum() > 5
+        assert np.abs(tool.distance(result.mesh.points[wall])).max() < 1e-9 * np.ptp(mesh.points, axis=0).max()
+    return check_kept(mesh, result)
+
+
+def record(result, name, kind="element"):
+    return next(g for g in result.report.groups if g.name == name and g.kind == kind)
+
+
+def random_hole(random):
+    """A hole through the two glued boxes, away from all that is not to be met, and its factor."""
+    while True:
+        radius, factor = random.uniform(1.5, 3), random.uniform(0.6, 1.7)
+        origin = np.array([random.uniform(3, 17), 5 + random.uniform(-1, 1), 0])
+        if random.random() < 0.3:
+            origin[0] = 10 + random.uniform(-0.4, 0.4)
+        axis = np.array([*random.normal(scale=0.12, size=2), 1])
+        fits = True
+        for r in (radius, factor * radius):
+            for z in (0, 10):
+                x, y, _ = origin + axis * z
+                beside = abs(x - 10)
+                fits &= min(x - r, 20 - x - r, y - r, 10 - y - r) > 1.3
+                fits &= beside > r + 1.3 or beside < 0.6 * r
+        if fits:
+            return origin, axis, radius, factor
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_holes_in_a_solid(seed):
+    origin, axis, radius, factor = random_hole(np.random.default_rng(seed))
+    drilled = fs.drill(fs.read(MESHES / "two_boxes.inp"), fs.Cylinder(origin, axis, radius)).mesh
+    tool = fs.Cylinder(origin, axis, radius * factor)
+    result = fs.reshape(drilled, "HOLE_WALL", onto=tool)
+    check(drilled, result, tool)
+    # The part's faces stay flat, the border between its groups too.
+    after = result.mesh
+    assert after.points.min(axis=0) == pytest.approx([0, 0, 0], abs=1e-12)
+    assert after.points.max(axis=0) == pytest.approx([20, 10, 10], abs=1e-12)
+    top = np.unique(after.cells["triangle"][np.isin(after.cell_ids["triangle"], after.groups["TOP"].ids)])
+    assert np.abs(after.points[top, 2] - 10).max() < 1e-12
+    glue = np.unique(after.cells["triangle"][np.isin(after.cell_ids["triangle"], after.groups["GLUE"].ids)])
+    assert np.abs(after.points[glue, 0] - 10).max() < 1e-12
+    for end in ("END_LEFT", "END_RIGHT"):
+        assert record(result, end).measure_after == pytest.approx(record(result, end).measure_before, rel=1e-9)
+    parts = sum(record(result, side).measure_after for side in ("LEFT", "RIGHT"))
+    assert parts == pytest.approx(record(result, "ALL").measure_after, rel=1e-9)
+    exact = np.pi * radius**2 * (factor**2 - 1) * 10 * np.linalg.norm(axis / axis[2])
+    change = record(result, "ALL").measure_before - record(result, "ALL").measure_after
+    assert change == pytest.approx(exact, abs=0.08 * np.pi * (radius * max(1, factor)) ** 2 * 10)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_walls_of_a_solid(seed):
+    random = np.random.default_rng(100 + seed)
+    mesh = fs.read(MESHES / "two_boxes.inp")
+    name, axis, side = [("END_LEFT", 0, -1), ("END_RIGHT", 0, 1), ("TOP", 2, 1)][seed % 3]
+    by = np.zeros(3)
+    by[axis] = random.uniform(-3, 3) * 1.25
+    result = fs.reshape(mesh, name, by=by)
+    check(mesh, result)
+    for group in ("ALL", "LEFT", "RIGHT"):
+        before, after = record(result, group).measure_before, record(result, group).measure_after
+        moved = name == "TOP" or (group != "LEFT" if name == "END_RIGHT" else group != "RIGHT")
+        area = (200 if group == "ALL" else 100) if name == "TOP" else 100
+        assert after - before == pytest.approx(side * by[axis] * area if moved else 0, abs=1e-8)
+    assert record(result, name).measure_after == pytest.approx(record(result, name).measure_before)
+
+
+@pytest.mark.parametrize("second_order", [False, True])
+@pytest.mark.parametrize("seed", range(6))
+def test_random_holes_in_a_plate(seed, second_order):
+    random = np.random.default_rng(200 + seed)
+    count = int(random.integers(12, 24))
+    mesh = plate((count, count), (10.0, 10.0))
+    if second_order:
+        mesh = quadratic_of(mesh)
+    radius, factor = random.uniform(1, 2), random.uniform(0.6, 1.7)
+    origin = (5 + random.uniform(-1, 1), 5 + random.uniform(-1, 1), 0)
+    drilled = fs.drill(mesh, fs.Cylinder(origin, Z, radius)).mesh
+    tool = fs.Cylinder(origin, Z, radius * factor)
+    check(drilled, fs.reshape(drilled, "HOLE_WALL", onto=tool), tool)
+    check(drilled, fs.reshape(drilled, "HOLE_WALL", scale=(factor, origin)), tool)
+    by = random.uniform(-1, 1, size=3) * (1, 1, 0)
+    moved = fs.reshape(drilled, "HOLE_WALL", by=by)
+    check(drilled, moved, fs.Cylinder(origin + by, Z, radius))
+
+
+@pytest.mark.parametrize("by", [(0, 0, 2), (0, 0, -2)])
+def test_a_round_stem(by):
+    """The cylinder beside the face goes on as the cylinder it is."""
+    mesh = fs.read(MESHES / "flanged_cylinder.inp")
+    result = fs.reshape(mesh, "HEAD", by=by)
+    old, new = check(mesh, result)
+    head = [n for n, x in old.items() if x[2] == 16]
+    assert all(new[n][2] == pytest.approx(16 + by[2], abs=1e-12) for n in head)
+    rim = [n for n in head if np.hypot(*old[n][:2]) > 3.99]
+    assert all(np.hypot(*new[n][:2]) == pytest.approx(4, abs=1e-8) for n in rim)
+    for name in ("CORNER", "FOOT", "GLUE", "FLANGE"):
+        assert record(result, name).measure_after == record(result, name).measure_before
+
+
+@pytest.mark.parametrize("radius", [2.5, 3.3, 5.0])
+def test_the_stem_itself(radius):
+    mesh = fs.read(MESHES / "flanged_cylinder.inp")
+    tool = fs.Cylinder((0, 0, 0), Z, radius)
+    result = fs.reshape(mesh, "Surface1", onto=tool)
+    check(mesh, result, tool)
+    corner = np.isin(result.mesh.cell_ids["line"], result.mesh.groups["CORNER"].ids)
+    inside = np.unique(result.mesh.cells["line"][corner])
+    assert np.abs(tool.distance(result.mesh.points[inside])).max() < 1e-9
+
+
+@pytest.mark.parametrize("y", [-2.0, 1.5])
+def test_the_elbow_gets_longer_or_shorter(y):
+    mesh = fs.read(MESHES / "quadratic_elbow.inp")
+    result = fs.reshape(mesh, "INLET", by=(0, y, 0))
+    check(mesh, result, fs.Plane((0, -4 + y, 0), (0, 1, 0)))
+    area = np.pi * (3.5**2 - 2**2)
+    change = record(result, "STRAIGHT").measure_after - record(result, "STRAIGHT").measure_before
+    assert change == pytest.approx(-y * area, rel=1e-3)
+
+
+def with_fillet():
+    """A step with a fillet: elements of a grid whose corner was rounded."""
+    mesh = grid_box((12, 4, 4), (12.0, 4.0, 4.0))
+    points = mesh.points.copy()
+    along, height = mesh.points[:, 0], mesh.points[:, 2] - 4
+    turn = np.clip((along - 4) / 4, 0, 1) * np.pi / 2
+    points[:, 0] = np.where(along <= 4, along, 4 + (1 - height) * np.sin(turn))
+    points[:, 2] = np.where(along <= 4, points[:, 2], 5 - (1 - height) * np.cos(turn) + np.maximum(0, along - 8))
+    top = (height == 0) & (along <= 4)
+    return fs.Mesh(points, {"tetra": mesh.cells["tetra"]}, groups={"STEP": ("node", mesh.node_ids[top])})
+
+
+def test_a_fillet_follows():
+    mesh = with_fillet()
+    round_ = (np.abs(np.hypot(mesh.points[:, 0] - 4, mesh.points[:, 2] - 5) - 1) < 1e-9) & (mesh.points[:, 2] < 4.99)
+    result = fs.reshape(mesh, "STEP", by=(0, 0, 0.8))
+    old, new = check(mesh, result, fs.Plane((0, 0, 4.8), Z))
+    for n in mesh.node_ids[round_]:
+        assert new[n] - old[n] == pytest.approx([0, 0, 0.8], abs=1e-9)
+    assert any("tangent" in w for w in result.report.warnings)
+
+
+def test_part_of_a_face_takes_the_rest_along():
+    mesh = grid_box()
+    mesh.add_group("HALF", "node", mesh.node_ids[(mesh.points[:, 2] == 4) & (mesh.points[:, 0] <= 3)])
+    result = fs.reshape(mesh, "HALF", by=(0, 0, 0.5))
+    assert tetra_volumes(result.mesh.points, result.mesh.cells["tetra"]).sum() == pytest.approx(6 * 5 * 4.5)
+    assert any("same surface" in w for w in result.report.warnings)
+
+
+def test_a_tilted_plane():
+    mesh = quadratic(grid_box())
+    mesh.add_group("END", "node", mesh.node_ids[mesh.points[:, 0] == 6])
+    plane = fs.Plane((6, 2.5, 2), (1, 0.2, -0.3))
+    result = fs.reshape(mesh, "END", onto=plane, name="TILT")
+    check_conforming(result.mesh)
+    wall = np.isin(result.mesh.node_ids, result.mesh.groups["TILT_WALL"].ids)
+    assert wall.sum() == (mesh.points[:, 0] == 6).sum()
+    assert np.abs(plane.distance(result.mesh.points[wall])).max() < 1e-12
+    assert result.mesh.points[:, 1:].min() >= -1e-12 and result.mesh.points[:, 1].max() <= 5 + 1e-12
+
+
+def test_an_interface_inside():
+    mesh = fs.read(MESHES / "two_boxes.inp")
+    result = fs.reshape(mesh, "GLUE", by=(1.5, 0, 0))
+    check(mesh, result, fs.Plane((11.5, 0, 0), (1, 0, 0)))
+    assert record(result, "LEFT").measure_after == pytest.approx(1150)
+    assert record(result, "RIGHT").measure_after == pytest.approx(850)
+    assert record(result, "TOP").measure_after == pytest.approx(200)
+
+
+def test_on_a_session():
+    mesh = fs.read(MESHES / "two_boxes.inp")
+    once, session = fs.reshape(mesh, "END_LEFT", by=(-1, 0, 0)), fs.Scalpel(mesh)
+    again = session.reshape("END_LEFT", by=(-1, 0, 0))
+    assert (once.mesh.points == again.mesh.points).all() and once.report.groups == again.report.groups
+
+
+def box():
+    mesh = grid_box()
+    mesh.add_group("END", "node", mesh.node_ids[mesh.points[:, 0] == 6])
+    mesh.add_group("INSIDE", "node", mesh.node_ids[mesh.points[:, 0] == 3])
+    mesh.add_group("NONE", "node", [])
+    mesh.add_group("VOLUMES", "element", mesh.cell_ids["tetra"][:20])
+    return mesh
+
+
+PLANE = fs.Plane((7, 0, 0), (1, 0, 0))
+
+
+@pytest.mark.parametrize(
+    "arguments, parameter, text",
+    [
+        (dict(group="NOWHERE", by=(1, 0, 0)), "group", "no group 'NOWHERE'"),
+        (dict(group="NONE", by=(1, 0, 0)), "group", "is empty"),
+        (dict(group="INSIDE", by=(1, 0, 0)), "group", "covers no face"),
+        (dict(group="VOLUMES", by=(1, 0, 0)), "group", "has tetra"),
+        (dict(group=3, by=(1, 0, 0)), "group", "must be a string"),
+        (dict(group="END"), "onto", "none of onto, by and scale"),
+        (dict(group="END", onto=PLANE, by=(1, 0, 0)), "by", "more than one"),
+        (dict(group="END", onto=PLANE, scale=(2, (0, 0, 0))), "scale", "more than one"),
+        (dict(group="END", onto=3), "onto", "must be"),
+        (dict(group="END", by=(0, 0, 0)), "by", "is zero"),
+        (dict(group="END", by=(0, 1, 2)), "by", "runs along the wall"),
+        (dict(group="END", by=(1, 0)), "by", "three numbers"),
+        (dict(group="END", scale=(0, (0, 0, 0))), "scale", "positive"),
+        (dict(group="END", scale=(-1.5, (0, 0, 0))), "scale", "positive"),
+        (dict(group="END", scale=2), "scale", "a factor and a point"),
+        (dict(group="END", by=(-6.5, 0, 0)), "by", "cannot be moved so far"),
+        (dict(group="END", onto=fs.Plane((-1, 0, 0), (1, 0, 0))), "onto", "cannot be moved so far"),
+        (dict(group="END", onto=fs.Plane((0, 2.2, 0), (0, 1, 0))), "onto", "cannot get there"),
+        (dict(group="END", by=(1, 0, 0), name=""), "name", "empty"),
+        (dict(group="END", by=(1, 0, 0), name="END OF IT"), "name", "character"),
+        (dict(group="END", by=(1, 0, 0), feature_angle=200), "feature_angle", "between 0 and 180"),
+        (dict(group="END", by=(1, 0, 0), preserve=["NO"]), "preserve", "NO"),
+    ],
+)
+def test_what_is_wrong_is_named(arguments, parameter, text):
+    mesh = box()
+    points = mesh.points.copy()
+    with pytest.raises((fs.Error, TypeError, ValueError), match=text) as caught:
+        fs.reshape(mesh, **arguments)
+    assert caught.value.parameter == parameter
+    assert (mesh.points == points).all() and "SHAPE_WALL" not in mesh.groups
+
+
+def test_a_deck_follows(tmp_path):
+    mesh = grid_box()
+    mesh.add_group("ALL", "element", mesh.cell_ids["tetra"])
+    mesh.add_group("FIX", "node", mesh.node_ids[mesh.points[:, 0] == 0])
+    mesh.add_group("END", "node", mesh.node_ids[mesh.points[:, 0] == 6])
+    fs.write(mesh, tmp_path / "plain.inp")
+    pulled = int(mesh.node_ids[(mesh.points == (6, 5, 4)).all(axis=1)][0])
+    text = (tmp_path / "plain.inp").read_text() + (
+        "*MATERIAL, NAME=M\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*STEP\n*STATIC\n"
+        f"*BOUNDARY\nFIX, 1, 3\n*CLOAD\n{pulled}, 1, 5.\nEND, 3, 1.\n*END STEP\n"
+    )
+    (tmp_path / "deck.inp").write_text(text)
+    deck = fs.read(tmp_path / "deck.inp")
+    result = fs.reshape(deck, "END", by=(-2.5, 0, 0))
+    fs.write(result.mesh, tmp_path / "out.inp")
+    again = fs.read(tmp_path / "out.inp")
+    out = (tmp_path / "out.inp").read_text()
+    assert f"{pulled}, 1, 5." in out and "END, 3, 1." in out and "FIX, 1, 3" in out
+    assert (again.groups["END"].ids == mesh.groups["END"].ids).all()
+    ends = again.points[np.isin(again.node_ids, again.groups["END"].ids)]
+    assert np.abs(ends[:, 0] - 3.5).max() < 1e-9
+    assert len(result.report.warnings) == 1 and "with the wall it is on" in result.report.warnings[0]
+    fs.reshape(deck, "END", by=(-2.5, 0, 0), strict=True)
