@@ -56,8 +56,34 @@ TEST(Fillet, ElementsThatAreReplacedLeaveTheirGroupsToTheNewOnes) {
               result.mesh.block(CellType::tetra).size());
 }
 
-TEST(Fillet, GroupsThatMeetAtTheEdgeAreARefusal) {
-    EXPECT_THROW(fillet(checks::two_halves(), {{}, {}, {{1, 0, 0}}}, 0.5), QualityError);
+/// Volume of an element group's tetrahedra.
+double volume_of(const Mesh& mesh, const char* name) {
+    double sum = 0;
+    const auto group = mesh.find_group(name, GroupKind::element);
+    const CellBlock& b = mesh.block(CellType::tetra);
+    for (Index c = 0; c < b.size(); ++c)
+        if (mesh.families.contains(b.families[c], *group)) sum += cell_measure(mesh, CellType::tetra, c);
+    return sum;
+}
+
+TEST(Fillet, BordersOfMaterialsAcrossTheEdgeStayPlane) {
+    const Mesh mesh = checks::two_halves();
+    const Result result = fillet(mesh, {{}, {}, {{1, 0, 0}}}, 0.5);
+    const double left = volume_of(result.mesh, "LEFT"), right = volume_of(result.mesh, "RIGHT");
+    EXPECT_NEAR(left, volume(mesh) / 2 - (1 - M_PI / 4) * 0.25, 0.005);
+    EXPECT_NEAR(left, right, 1e-3);
+    EXPECT_NEAR(left + right, volume(result.mesh), 1e-12);
+    const auto group = result.mesh.find_group("LEFT", GroupKind::element);
+    const CellBlock& b = result.mesh.block(CellType::tetra);
+    for (Index c = 0; c < b.size(); ++c)
+        for (const Index n : b.nodes(c)) {
+            const double x = result.mesh.points[n].x();
+            EXPECT_TRUE(result.mesh.families.contains(b.families[c], *group) ? x < 1 + 1e-9 : x > 1 - 1e-9);
+        }
+}
+
+TEST(Fillet, BorderAlongTheEdgeIsARefusal) {
+    EXPECT_THROW(fillet(checks::two_halves(), {{}, {}, {{0, 1, 0}}}, 1.2), Error);
 }
 
 TEST(Fillet, RadiusMustBeALength) {
