@@ -58,7 +58,8 @@ public:
         }
         for (const Rounding& r : roundings_)
             for (const int side : {0, 1}) {
-                Blade blade{&r.path->wall(side), {}, {}, -1};
+                // With a tag: improving elements must keep these faces.
+                Blade blade{&r.path->wall(side), {}, {}, static_cast<int>(blades_.size())};
                 blade.bound = [&path = *r.path, reach = r.reach, side](const Vec3& x) {
                     return std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
                 };
@@ -106,6 +107,9 @@ public:
     }
 
     Opening open(Workpiece& f, const Site& site) override {
+        auto& faces = f.d.band.cut_faces;
+        for (int s = 0; s < faces.size(); ++s)
+            if (faces.alive(s)) faces.remove(s);
         for (const Rounding& r : roundings_) FilletCavity(f, site.mesh, *r.path, r.reach).replace(0);
         for (int v = 0; v < f.d.band.size(); ++v) {
             Contact on;
