@@ -14,6 +14,7 @@
 #include "cutting/snap.h"
 #include "operators/driver.h"
 #include "operators/fillet_cavity.h"
+#include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
 
 namespace femscalpel {
@@ -47,14 +48,14 @@ struct Rounding {
 class Fillet final : public Recipe {
 public:
     Fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options) : options_(options) {
-        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
-        for (const FeatureLine& line : find_feature_lines(mesh, along, options.feature_angle)) {
-            Rounding r{std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr};
+        plane_ = mesh.dimension() == 2;
+        if (plane_)
+            find_corners(mesh, along, radius);
+        else
+            find_edges(mesh, along, radius);
+        for (Rounding& r : roundings_) {
             r.reach = r.path->convex() ? 1.02 * r.path->centre().norm() : r.path->tangent_length() + 1.2 * radius;
             r.surroundings = std::make_unique<Surroundings>(*r.path, r.reach);
-            if (line.extended)
-                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
-            roundings_.push_back(std::move(r));
         }
         for (const Rounding& r : roundings_)
             for (const int side : {0, 1}) {
@@ -110,7 +111,14 @@ public:
         auto& faces = f.d.band.cut_faces;
         for (int s = 0; s < faces.size(); ++s)
             if (faces.alive(s)) faces.remove(s);
-        for (const Rounding& r : roundings_) FilletCavity(f, site.mesh, *r.path, r.reach).replace(0);
+        auto& edges = f.d.band.cut_edges;
+        for (int s = 0; s < edges.size(); ++s)
+            if (edges.alive(s)) edges.remove(s);
+        for (const Rounding& r : roundings_)
+            if (plane_)
+                FilletCorner(f, site.mesh, *r.path, r.reach).replace(0);
+            else
+                FilletCavity(f, site.mesh, *r.path, r.reach).replace(0);
         for (int v = 0; v < f.d.band.size(); ++v) {
             Contact on;
             for (const Rounding& r : roundings_)
@@ -125,7 +133,32 @@ public:
     }
 
 private:
+    void find_edges(const Mesh& mesh, const Along& along, double radius) {
+        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
+        for (const FeatureLine& line : find_feature_lines(mesh, along, options_.feature_angle)) {
+            roundings_.push_back({std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr});
+            if (line.extended)
+                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
+        }
+    }
+
+    void find_corners(const Mesh& mesh, const Along& along, double radius) {
+        for (const OutlineCorner& c : find_outline_corners(mesh, along, options_.feature_angle)) {
+            const Vec3& at = mesh.points[c.node];
+            Rounding r{std::make_unique<FilletPath>(at, c.normal, c.along, c.convex, radius), 0, nullptr};
+            if (r.path->tangent_length() > 0.999 * std::min(c.room[0], c.room[1])) {
+                std::ostringstream message;
+                message << "radius: " << radius << " is too large for the corner at (" << at.transpose()
+                        << "): the outline is straight for " << std::min(c.room[0], c.room[1])
+                        << " beside it, and would be touched at " << r.path->tangent_length();
+                throw ToolError(message.str(), "radius");
+            }
+            roundings_.push_back(std::move(r));
+        }
+    }
+
     const FilletOptions& options_;
+    bool plane_ = false;  // a mesh of triangles, with corners
     std::vector<Rounding> roundings_;
     std::vector<Blade> blades_, surroundings_;
     std::vector<std::string> warnings_;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cancel.h"
+#include "cutting/inner_node.h"
 #include "cutting/removal.h"
 #include "mesh/quality.h"
 
@@ -379,7 +380,7 @@ void FilletCavity::make_arc(Section& section) {
     for (int k = 1; k < divisions_; ++k) {
         const Vec2 p = path_.arc(path_.arc_angle() * k / divisions_);
         const Vec3 x = path_.at(on_plane(p, section), p);
-        section.arc.push_back(new_node(x, &path_.ball(), true, face_near(section, x)));
+        section.arc.push_back(add_inner_node(f_, x, &path_.ball(), true, face_near(section, x)));
     }
     section.arc.push_back(rows_[1][section.in_row[1]]);
 }
@@ -424,7 +425,7 @@ void FilletCavity::mesh_section(Section& section) {
     smooth(points, given, triangles, 5);
     for (std::size_t k = given; k < points.size(); ++k) {
         const Vec3 x = origin + points[k].x() * u + points[k].y() * w;
-        outline.push_back(new_node(x, {}, true, face_near(section, x)));
+        outline.push_back(add_inner_node(f_, x, {}, true, face_near(section, x)));
     }
     for (const Triangle& t : triangles) section.fresh.push_back({outline[t[0]], outline[t[1]], outline[t[2]]});
 }
@@ -517,7 +518,7 @@ void FilletCavity::mesh_whole_arc() {
     Row seam;
     for (int k = 1; k < divisions_; ++k) {
         const Vec3 x = path_.at(seam_s(k), path_.arc(path_.arc_angle() * k / divisions_));
-        seam.push_back(new_node(x, &path_.ball(), true, nodes_near(x)));
+        seam.push_back(add_inner_node(f_, x, &path_.ball(), true, nodes_near(x)));
     }
     const auto unrolled = [&](int v, double from) {
         const double s = place(v).s;
@@ -543,7 +544,7 @@ void FilletCavity::add_arc_triangles(const std::vector<int>& node_of, const std:
     std::vector<int> nodes = node_of;
     for (const Vec2& p : inner) {
         const Vec3 x = path_.at(p.x(), path_.arc(p.y() / path_.radius()));
-        nodes.push_back(new_node(x, &path_.ball(), true, nodes_near(x)));
+        nodes.push_back(add_inner_node(f_, x, &path_.ball(), true, nodes_near(x)));
     }
     double outwards = 0;
     const std::size_t first = arc_.size();
@@ -576,7 +577,7 @@ void FilletCavity::fill() {
             }
         Filled filled = fill_cavity(points, surface, options);
         std::vector<int> fresh;
-        for (const Vec3& x : filled.points) fresh.push_back(new_node(x, {}, false, nodes_near(x)));
+        for (const Vec3& x : filled.points) fresh.push_back(add_inner_node(f_, x, {}, false, nodes_near(x)));
         for (Tetra t : filled.tetras) {
             for (int& v : t)
                 if (v >= static_cast<int>(points.size())) v = fresh[v - static_cast<int>(points.size())];
@@ -640,24 +641,6 @@ int FilletCavity::parent(const Vec3& x, int domain) const {
     if (best < 0)
         for (int c = 0; c < static_cast<int>(centres_.size()); ++c) look(c);
     return best;
-}
-
-/// A node that is in the node groups which two of some nodes have in common, those two that have fewest.
-int FilletCavity::new_node(const Vec3& x, const Contact& tools, bool exterior, std::span<const int> n) {
-    std::array<int, 2> between{n[0], n[1]};
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    for (std::size_t a = 0; a < n.size(); ++a)
-        for (std::size_t b = a + 1; b < n.size(); ++b) {
-            const auto one = f_.d.membership.groups(n[a]), other = f_.d.membership.groups(n[b]);
-            const auto common = static_cast<std::size_t>(
-                std::ranges::count_if(one, [&](GroupIndex g) { return std::ranges::find(other, g) != other.end(); }));
-            if (common >= fewest) continue;
-            fewest = common;
-            between = {n[a], n[b]};
-        }
-    const int node = f_.d.add_node(x, between[0], between[1], tools, exterior);
-    f_.distance.push_back(1);
-    return node;
 }
 
 }  // namespace femscalpel

@@ -74,7 +74,6 @@ private:
     std::vector<Vec2> inner_points(const std::function<double(int)>& from, const std::function<double(int)>& to) const;
     void fill();
     void write_section(const Section& section);
-    int new_node(const Vec3& x, const Contact& tools, bool exterior, std::span<const int> between);
     std::array<int, 4> nodes_near(const Vec3& x) const;
     const Triangle& face_near(const Section& section, const Vec3& x) const;
     int parent(const Vec3& x, int domain) const;

@@ -65,9 +65,16 @@ FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
     : closed_(line.closed), radius_(radius) {
     fit(mesh, line);
     find_faces(mesh, line);
-    for (const int face : {0, 1}) walls_[face] = std::make_unique<Wall>(*this, face);
-    ball_ = std::make_unique<Ball>(*this);
     check_room(mesh, skin);
+}
+
+FilletPath::FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex,
+                       double radius)
+    : convex_(convex), origin_(corner), direction_(normal), radius_(radius) {
+    x_ = faces[0];
+    y_ = direction_.cross(x_);
+    along_face_ = {Vec2(1, 0), Vec2(faces[1].dot(x_), faces[1].dot(y_))};
+    set_faces({0, -1});
 }
 
 void FilletPath::fit(const Mesh& mesh, const FeatureLine& line) {
@@ -165,8 +172,15 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     const auto [s, p] = place(middle);
     const Vec2 turned(-d.y(), d.x());
     const Vec3 turned_3d = at(s, p + turned) - at(s, p);
-    normal_[0] = turned_3d.dot(n) > 0 ? turned : Vec2(-turned);
-    convex_ = normal_[0].dot(e) < 0;
+    const Vec2 outwards = turned_3d.dot(n) > 0 ? turned : Vec2(-turned);
+    convex_ = outwards.dot(e) < 0;
+    set_faces(outwards);
+}
+
+/// What follows from where the faces are, and the first one's normal out of the material.
+void FilletPath::set_faces(const Vec2& normal) {
+    const Vec2 &d = along_face_[0], &e = along_face_[1];
+    normal_[0] = normal;
     normal_[1] = Vec2(-e.y(), e.x());
     if ((normal_[1].dot(d) < 0) != convex_) normal_[1] = -normal_[1];
 
@@ -177,6 +191,8 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     across_ = Vec2(-to_first_.y(), to_first_.x());
     if (across_.dot(tangent_point(1) - centre_) < 0) across_ = -across_;
     arc_angle_ = std::numbers::pi - angle;
+    for (const int face : {0, 1}) walls_[face] = std::make_unique<Wall>(*this, face);
+    ball_ = std::make_unique<Ball>(*this);
 }
 
 void FilletPath::check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const {

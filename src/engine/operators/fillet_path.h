@@ -28,6 +28,10 @@ public:
     /// its faces: `skin` is all of the mesh's.
     FilletPath(const Mesh& mesh, const FeatureLine& line, double radius, const std::vector<std::array<Index, 3>>& skin);
 
+    /// A corner of a plane mesh, like an edge of no length across it: `faces` are unit vectors from it along the
+    /// outline, with the material on the left of the first as seen from where `normal` points to.
+    FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex, double radius);
+
     Place place(const Vec3& x) const;
     Vec3 at(double s, const Vec2& p) const;
 
@@ -68,6 +72,7 @@ public:
 private:
     void fit(const Mesh& mesh, const FeatureLine& line);
     void fit_circle(const std::vector<Vec3>& points);
+    void set_faces(const Vec2& normal);
     void find_faces(const Mesh& mesh, const FeatureLine& line);
     void check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
 
