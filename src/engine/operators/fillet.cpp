@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -12,6 +13,7 @@
 #include "cutting/removal.h"
 #include "cutting/retry.h"
 #include "cutting/snap.h"
+#include "deformation/curved_shape.h"
 #include "operators/driver.h"
 #include "operators/fillet_cavity.h"
 #include "operators/fillet_corner.h"
@@ -114,11 +116,21 @@ public:
         auto& edges = f.d.band.cut_edges;
         for (int s = 0; s < edges.size(); ++s)
             if (edges.alive(s)) edges.remove(s);
-        for (const Rounding& r : roundings_)
-            if (plane_)
+        std::map<std::uint64_t, Vec3> middles;
+        for (const Rounding& r : roundings_) {
+            if (plane_) {
                 FilletCorner(f, site.mesh, *r.path, r.reach).replace(0);
-            else
-                FilletCavity(f, site.mesh, *r.path, r.reach).replace(0);
+                continue;
+            }
+            FilletCavity cavity(f, site.mesh, *r.path, r.reach);
+            cavity.replace(0);
+            middles.insert(cavity.middles().begin(), cavity.middles().end());
+        }
+        if (!middles.empty())
+            f.mid_side = [&f, middles](int a, int b) {
+                const auto known = middles.find(edge_key(a, b));
+                return known == middles.end() ? mid_side(f.d, a, b).at : known->second;
+            };
         for (int v = 0; v < f.d.band.size(); ++v) {
             Contact on;
             for (const Rounding& r : roundings_)

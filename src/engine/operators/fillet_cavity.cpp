@@ -59,8 +59,33 @@ void FilletCavity::replace(int tag) {
     for (const Section& section : sections_) write_section(section);
     remove_elements(f_, removed_);
     for (const Face& face : arc_) f_.d.band.cut_faces.add(face.nodes, tag);
-    for (const Row& row : rows_)
-        for (const int v : row) f_.d.contact[v] = &path_.ball();
+    if (f_.d.mids.any() && !path_.is_straight())
+        bend_row_edges();
+    else
+        for (const Row& row : rows_)
+            for (const int v : row) f_.d.contact[v] = &path_.ball();
+}
+
+/// Mid-side nodes at the tangent lines of a circular edge. That these are on the ball cannot be left to a contact with
+/// it, as it only touches the curved faces there.
+void FilletCavity::bend_row_edges() {
+    std::set<int> on_row;
+    for (const Row& row : rows_) on_row.insert(row.begin(), row.end());
+    for (const Face& face : arc_)
+        for (int k = 0; k < 3; ++k) {
+            const int a = face.nodes[k], b = face.nodes[(k + 1) % 3];
+            if (!on_row.contains(a) && !on_row.contains(b)) continue;
+            const Vec3 chord = (at(a) + at(b)) / 2;
+            Vec3 middle = path_.ball().project(chord);
+            for (const Row& row : rows_)
+                if (std::ranges::find(row, a) != row.end() && std::ranges::find(row, b) != row.end())
+                    middle = path_.at(path_.place(chord).s, path_.tangent_point(&row == &rows_[0] ? 0 : 1));
+            middles_.insert_or_assign(edge_key(a, b), middle);
+            if (f_.d.band.mid_nodes.contains(edge_key(a, b)))
+                f_.d.mids.mend(a, b, middle - chord);
+            else
+                f_.d.mids.set_bulge(a, b, middle - chord);
+        }
 }
 
 /// Elements between the walls, joined to the edge through faces.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <set>
@@ -23,6 +24,9 @@ public:
 
     /// Does it; the faces on the ball become BandMesh::cut_faces with this tag. Throws QualityError where it cannot.
     void replace(int tag);
+
+    /// Mid-side nodes that are to lie exactly where they belong, by edge_key(); of second-order meshes.
+    const std::map<std::uint64_t, Vec3>& middles() const { return middles_; }
 
 private:
     /// Nodes of the skin along one tangent line, in the edge's direction.
@@ -73,6 +77,7 @@ private:
                            const std::vector<Vec2>& inner, int domain);
     std::vector<Vec2> inner_points(const std::function<double(int)>& from, const std::function<double(int)>& to) const;
     void fill();
+    void bend_row_edges();
     void write_section(const Section& section);
     std::array<int, 4> nodes_near(const Vec3& x) const;
     const Triangle& face_near(const Section& section, const Vec3& x) const;
@@ -96,6 +101,7 @@ private:
     std::array<Row, 2> rows_;
     int divisions_ = 4;
     std::vector<Face> arc_;
+    std::map<std::uint64_t, Vec3> middles_;
 };
 
 }  // namespace femscalpel
