@@ -58,6 +58,12 @@ TEST(FilletPath, ConcaveEdge) {
     EXPECT_THROW(path_near(mesh, {2, 2, 1}, 2.1), ToolError);
 }
 
+TEST(FilletPath, RoomIsSeenInAFineMesh) {
+    Mesh mesh = checks::grid(12, 12, 12);
+    EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 3.95)) << "the tangent point lies close before the end of an element";
+    EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 11));
+}
+
 TEST(FilletPath, RadiusTooLargeNamesFaceAndParameter) {
     try {
         path_near(checks::grid(5, 2, 4), {2.4, 0, 0}, 2.2);

@@ -50,6 +50,8 @@ struct Rounding {
 class Fillet final : public Recipe {
 public:
     Fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options) : options_(options) {
+        if (options.method == Method::deform)
+            throw ToolError("method \"deform\" moves nodes only; edges are rounded by method \"snap\"", "method");
         plane_ = mesh.dimension() == 2;
         if (plane_)
             find_corners(mesh, along, radius);
@@ -59,6 +61,7 @@ public:
             r.reach = r.path->convex() ? 1.02 * r.path->centre().norm() : r.path->tangent_length() + 1.2 * radius;
             r.surroundings = std::make_unique<Surroundings>(*r.path, r.reach);
         }
+        check_apart();
         for (const Rounding& r : roundings_)
             for (const int side : {0, 1}) {
                 // With a tag: improving elements must keep these faces.
@@ -152,6 +155,24 @@ private:
             if (line.extended)
                 warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
         }
+    }
+
+    /// What is replaced around one edge must not reach that of another.
+    void check_apart() const {
+        for (std::size_t k = 0; k < roundings_.size(); ++k)
+            for (std::size_t j = 0; j < roundings_.size(); ++j) {
+                const FilletPath &path = *roundings_[k].path, &other = *roundings_[j].path;
+                const double reach = path.rounded_reach() + other.rounded_reach();
+                const int steps = static_cast<int>(std::ceil(path.length() / (0.5 * path.radius())));
+                for (int i = 0; i <= steps && j != k; ++i) {
+                    const Vec3 x = path.at(path.begin() + path.length() * i / std::max(steps, 1), Vec2::Zero());
+                    if (other.distance(x, 0) > reach) continue;
+                    std::ostringstream message;
+                    message << "along: edges that meet, or are so near each other that their roundings would touch, as "
+                            << "at (" << x.transpose() << "), cannot be rounded yet";
+                    throw ToolError(message.str(), "along");
+                }
+            }
     }
 
     void find_corners(const Mesh& mesh, const Along& along, double radius) {

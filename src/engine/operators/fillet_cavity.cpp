@@ -286,7 +286,8 @@ FilletCavity::Section FilletCavity::section_at(int corner, std::vector<Face>& fa
             section.normal = n;
         else if ((n - section.normal).norm() > 1e-6 && (!border || (n + section.normal).norm() > 1e-6))
             refuse(border ? "more than one border, or one that is not plane, crosses it"
-                          : "it ends at a corner of more than three faces, or at a face that is not plane",
+                          : "it ends at a corner of more than three faces, at a wall that stands across it, or at a "
+                            "face that is not plane; there is no end for such a rounding yet",
                    tip);
     }
     if (section.normal.isZero()) refuse("it does not end at a face of the part", tip);

@@ -201,7 +201,7 @@ void FilletPath::check_room(const Mesh& mesh, const std::vector<std::array<Index
     const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
     const auto sample = [&](int k) { return begin_ + length() * (k + 0.5) / places; };
     for (int k = 0; k < places; ++k)
-        for (const int side : {0, 1}) box.extend(at(sample(k), tangent_point(side)));
+        for (const int side : {0, 1}) box.extend(at(sample(k), 1.02 * tangent_point(side)));
     const double margin = 2 * sag_ + 1e-3 * tangent_length_;
     box.min().array() -= 2 * margin;
     box.max().array() += 2 * margin;

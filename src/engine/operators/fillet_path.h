@@ -53,6 +53,8 @@ public:
     const Vec2& normal(int face) const { return normal_[face]; }
     const Vec2& centre() const { return centre_; }
     double tangent_length() const { return tangent_length_; }
+    /// How far from the edge there is material that goes or comes.
+    double rounded_reach() const { return tangent_length_; }
 
     bool convex() const { return convex_; }
     bool closed() const { return closed_; }
