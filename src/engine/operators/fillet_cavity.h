@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cutting/fill.h"
@@ -48,6 +49,7 @@ private:
         int domain;
     };
 
+    [[noreturn]] static void refuse(const std::string& text, const Vec3& near);
     const Vec3& at(int v) const { return f_.d.band.nodes[v].at; }
     FilletPath::Place place(int v) const { return path_.place(at(v)); }
 

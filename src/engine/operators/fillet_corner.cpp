@@ -133,6 +133,7 @@ std::vector<OutlineCorner> find_outline_corners(const Mesh& mesh, const Along& a
     if (wanted.empty())
         refuse_along("no corner of the mesh's outline (of more than feature_angle) is named: nothing to be rounded");
     std::vector<OutlineCorner> out;
+    out.reserve(wanted.size());
     for (const Index n : wanted) out.push_back(outline.corner(n));
     return out;
 }
@@ -264,6 +265,7 @@ void FilletCorner::fill(int tag) {
 
     const Vec3 u = normal.unitOrthogonal(), w = normal.cross(u), origin = at(nodes[0]);
     std::vector<Vec2> points;
+    points.reserve(nodes.size());
     for (const int v : nodes) points.emplace_back(u.dot(at(v) - origin), w.dot(at(v) - origin));
     const std::vector<Vec2> inside = points_inside(points, 0.5 * (spacing + path_.arc_length() / divisions));
     const std::vector<Triangle> triangles = triangulate(points, inside);

@@ -64,6 +64,7 @@ FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
                        const std::vector<std::array<Index, 3>>& skin)
     : closed_(line.closed), radius_(radius) {
     std::vector<Vec3> points;
+    points.reserve(line.nodes.size() + 1);
     for (const Index n : line.nodes) points.push_back(mesh.points[n]);
     if (closed_) points.push_back(points.front());
     fit(points);
