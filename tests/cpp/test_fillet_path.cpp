@@ -37,7 +37,8 @@ TEST(FilletPath, EdgeOfABox) {
     EXPECT_NEAR(path.distance({-2, 0, 0}, 0.5), 1.5, 1e-12);
 }
 
-TEST(FilletPath, ConcaveEdge) {
+/// Four cubes by four by two, without those beyond a concave edge at x = y = 2.
+Mesh l_shape() {
     Mesh mesh = checks::grid(4, 4, 2);
     CellBlock& block = mesh.block(CellType::tetra);
     CellBlock kept = block;
@@ -51,6 +52,11 @@ TEST(FilletPath, ConcaveEdge) {
         kept.families.push_back(0);
     }
     block = kept;
+    return mesh;
+}
+
+TEST(FilletPath, ConcaveEdge) {
+    const Mesh mesh = l_shape();
     const FilletPath path = path_near(mesh, {2, 2, 1}, 1);
     EXPECT_FALSE(path.convex());
     EXPECT_NEAR(path.ball().distance({3, 3, 1}), -1, 1e-12);
@@ -106,6 +112,23 @@ TEST(FilletPath, RoomIsSeenInAFineMesh) {
     Mesh mesh = checks::grid(12, 12, 12);
     EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 3.95)) << "the tangent point lies close before the end of an element";
     EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 11));
+}
+
+TEST(FilletPath, EndsAtAPlaneFaceOnly) {
+    const Mesh mesh = l_shape();
+    const auto check = [&](const Vec3& near) {
+        check_ends(mesh, find_feature_lines(mesh, {{}, {}, {near}}, 30).at(0), skin_of(mesh));
+    };
+    EXPECT_NO_THROW(check({2, 2, 1}));
+    EXPECT_NO_THROW(check({0, 2, 2}));
+    EXPECT_NO_THROW(check({4, 0, 1}));
+    try {
+        check({3, 2, 2});
+        FAIL() << "it ends at a wall";
+    } catch (const ToolError& e) {
+        EXPECT_STREQ(e.parameter(), "along");
+        EXPECT_THAT(e.what(), testing::HasSubstr("the edge ends at (2 2 2) in another way"));
+    }
 }
 
 TEST(FilletPath, RadiusTooLargeNamesFaceAndParameter) {

@@ -151,6 +151,7 @@ private:
     void find_edges(const Mesh& mesh, const Along& along, double radius) {
         const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
         for (const FeatureLine& line : find_feature_lines(mesh, along, options_.feature_angle)) {
+            check_ends(mesh, line, skin);
             roundings_.push_back({std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr});
             if (line.extended)
                 warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
