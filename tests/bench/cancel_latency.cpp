@@ -23,6 +23,7 @@
 #include "operators/crack.h"
 #include "operators/cut.h"
 #include "operators/drill.h"
+#include "operators/fillet.h"
 #include "operators/refine.h"
 #include "operators/reshape.h"
 #include "operators/scalpel.h"
@@ -157,6 +158,7 @@ void measure_all(const std::filesystem::path& path) {
     preview.band_only = true;
     measure("preview in a session", [&] { crack(scalpel.mesh(), plane, preview, scalpel.prepared()); });
     measure("drill", [&] { drill(mesh, tools); });
+    measure("fillet", [&] { fillet(mesh, {{}, {}, {{5, 0, 0}}}, 1); });
     measure("crack along a torus", [&] { crack(mesh, torus); });
     measure("cut", [&] { cut(mesh, plane, 0.5); });
     RefineOptions o;

@@ -839,6 +839,8 @@ SPECIAL = [
     ("group_box", "beside_the_border", _call(lambda m: fs.crack(m, fs.Plane((3.002, 0, 0), X)))),
     ("group_box", "oblique_to_the_border", _call(lambda m: fs.crack(m, fs.Plane((3.05, 2, 2), (1, 0.03, 0))))),
     ("group_box", "refined_many", _call(lambda m: fs.drill(m, fs.Cylinder((2.1, 1.4, 0), Z, 0.12)))),
+    ("group_box", "rounded_edge", _call(lambda m: fs.fillet(m, (3.0, 0.0, 0.0), 0.8))),
+    ("group_box", "rounded_too_much", _call(lambda m: tried(lambda: fs.fillet(m, (3.0, 0.0, 0.0), 6)))),
     ("group_box", "nothing_to_refine", _call(lambda m: fs.refine(m, (0, 0, 0), 5))),
     ("group_box", "broken_files", _broken),
     ("brick", "hole_near_brick", _call(lambda m: fs.drill(m, fs.Cylinder((1.6, 2.5, 0), Z, 1.2)))),

@@ -5,8 +5,10 @@
 
 #include <cmath>
 
+#include "cutting/inner_node.h"
 #include "mesh/quality.h"
 #include "operators/fillet_cavity.h"
+#include "operators/fillet_corner.h"
 #include "simple_meshes.h"
 
 namespace femscalpel {
@@ -56,8 +58,92 @@ TEST(Fillet, ElementsThatAreReplacedLeaveTheirGroupsToTheNewOnes) {
               result.mesh.block(CellType::tetra).size());
 }
 
-TEST(Fillet, GroupsThatMeetAtTheEdgeAreARefusal) {
-    EXPECT_THROW(fillet(checks::two_halves(), {{}, {}, {{1, 0, 0}}}, 0.5), QualityError);
+/// Volume of an element group's tetrahedra.
+double volume_of(const Mesh& mesh, const char* name) {
+    double sum = 0;
+    const auto group = mesh.find_group(name, GroupKind::element);
+    const CellBlock& b = mesh.block(CellType::tetra);
+    for (Index c = 0; c < b.size(); ++c)
+        if (mesh.families.contains(b.families[c], *group)) sum += cell_measure(mesh, CellType::tetra, c);
+    return sum;
+}
+
+TEST(Fillet, SecondOrderEdgeHasMidSideNodesOnTheCylinder) {
+    const Mesh mesh = checks::second_order(checks::grid(4, 4, 4));
+    const Result result = fillet(mesh, {{}, {}, {{2, 0, 0}}}, 1.5);
+    const double removed = (1 - M_PI / 4) * 1.5 * 1.5 * 4;
+    EXPECT_NEAR(64 - volume(result.mesh), removed, 0.001 * removed);
+    const CellBlock& face = result.mesh.block(CellType::triangle6);
+    EXPECT_GT(face.size(), 0);
+    for (Index c = 0; c < face.size(); ++c)
+        for (const Index n : face.nodes(c)) {
+            const Vec3& x = result.mesh.points[n];
+            EXPECT_NEAR(std::hypot(x.y() - 1.5, x.z() - 1.5), 1.5, 1e-9);
+        }
+}
+
+TEST(Fillet, NewNodesJoinTheGroupsOfFacesAcrossTheEdge) {
+    Mesh mesh = checks::grid(4, 4, 4);
+    const FamilyIndex end = checks::family_of(mesh, "END", GroupKind::node);
+    for (Index n = 0; n < mesh.node_count(); ++n)
+        if (mesh.points[n].x() == 0) mesh.node_families[n] = end;
+    const Result result = fillet(mesh, {{}, {}, {{2, 0, 0}}}, 1.5);
+    const auto group = *result.mesh.find_group("END", GroupKind::node);
+    for (Index n = 0; n < result.mesh.node_count(); ++n)
+        EXPECT_EQ(result.mesh.families.contains(result.mesh.node_families[n], group), result.mesh.points[n].x() == 0);
+}
+
+TEST(Fillet, BordersOfMaterialsAcrossTheEdgeStayPlane) {
+    const Mesh mesh = checks::two_halves();
+    const Result result = fillet(mesh, {{}, {}, {{1, 0, 0}}}, 0.5);
+    const double left = volume_of(result.mesh, "LEFT"), right = volume_of(result.mesh, "RIGHT");
+    EXPECT_NEAR(left, volume(mesh) / 2 - (1 - M_PI / 4) * 0.25, 0.005);
+    EXPECT_NEAR(left, right, 1e-3);
+    EXPECT_NEAR(left + right, volume(result.mesh), 1e-12);
+    const auto group = result.mesh.find_group("LEFT", GroupKind::element);
+    const CellBlock& b = result.mesh.block(CellType::tetra);
+    for (Index c = 0; c < b.size(); ++c)
+        for (const Index n : b.nodes(c)) {
+            const double x = result.mesh.points[n].x();
+            EXPECT_TRUE(result.mesh.families.contains(b.families[c], *group) ? x < 1 + 1e-9 : x > 1 - 1e-9);
+        }
+}
+
+TEST(Fillet, BorderAlongTheEdgeIsARefusal) {
+    EXPECT_THROW(fillet(checks::two_halves(), {{}, {}, {{0, 1, 0}}}, 1.2), Error);
+}
+
+TEST(Fillet, CornersOfAPlaneMesh) {
+    for (const bool second_order : {false, true}) {
+        Mesh mesh;
+        checks::add_plate(mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 6, 4);
+        if (second_order) mesh = checks::second_order(mesh);
+        const Result result = fillet(mesh, {{}, {}, {{6, 4, 0}, {0, 0, 0}}}, 1.5);
+        result.mesh.validate();
+        double area = 0;
+        for (const CellType type : {CellType::triangle, CellType::triangle6})
+            for (Index c = 0; c < result.mesh.block(type).size(); ++c) area += cell_measure(result.mesh, type, c);
+        const double removed = 2 * (1 - M_PI / 4) * 1.5 * 1.5;
+        EXPECT_NEAR(24 - area, removed, (second_order ? 0.001 : 0.03) * removed);
+        const CellBlock& arc = result.mesh.block(second_order ? CellType::line3 : CellType::line);
+        EXPECT_GE(arc.size(), 16);
+        for (Index c = 0; c < arc.size(); ++c)
+            for (const Index n : arc.nodes(c)) {
+                const Vec3& x = result.mesh.points[n];
+                const double off = std::min(std::abs((x - Vec3(1.5, 1.5, 0)).norm() - 1.5),
+                                            std::abs((x - Vec3(4.5, 2.5, 0)).norm() - 1.5));
+                EXPECT_LT(off, 1e-9);
+            }
+    }
+}
+
+TEST(Fillet, CornersThatAreNone) {
+    Mesh mesh;
+    checks::add_plate(mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 6, 4);
+    const Index inside = mesh.node_ids[checks::number_near(mesh, {3, 2, 0})];
+    EXPECT_THROW(fillet(mesh, {{}, {inside}, {}}, 1), ToolError);
+    EXPECT_THROW(fillet(mesh, {{}, {}, {{0, 0, 0}}}, 4.2), ToolError) << "larger than the side";
+    EXPECT_EQ(find_outline_corners(mesh, {{}, {}, {{0, 0, 0}}}, 30).at(0).convex, true);
 }
 
 TEST(Fillet, RadiusMustBeALength) {

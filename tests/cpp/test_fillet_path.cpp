@@ -37,7 +37,8 @@ TEST(FilletPath, EdgeOfABox) {
     EXPECT_NEAR(path.distance({-2, 0, 0}, 0.5), 1.5, 1e-12);
 }
 
-TEST(FilletPath, ConcaveEdge) {
+/// Four cubes by four by two, without those beyond a concave edge at x = y = 2.
+Mesh l_shape() {
     Mesh mesh = checks::grid(4, 4, 2);
     CellBlock& block = mesh.block(CellType::tetra);
     CellBlock kept = block;
@@ -51,11 +52,83 @@ TEST(FilletPath, ConcaveEdge) {
         kept.families.push_back(0);
     }
     block = kept;
+    return mesh;
+}
+
+TEST(FilletPath, ConcaveEdge) {
+    const Mesh mesh = l_shape();
     const FilletPath path = path_near(mesh, {2, 2, 1}, 1);
     EXPECT_FALSE(path.convex());
     EXPECT_NEAR(path.ball().distance({3, 3, 1}), -1, 1e-12);
     EXPECT_NEAR((path.at(1, path.centre()) - path.at(1, Vec2::Zero())).norm(), std::sqrt(2.0), 1e-12);
     EXPECT_THROW(path_near(mesh, {2, 2, 1}, 2.1), ToolError);
+}
+
+/// The upper edge of a plate with round ends; its faces are made by hand.
+TEST(FilletPath, StraightPiecesAndArcsThatJoinSmoothly) {
+    Mesh mesh;
+    FeatureLine line;
+    line.closed = true;
+    constexpr int parts = 6;
+    std::vector<Vec2> outline;
+    for (int k = 0; k < 4; ++k) outline.emplace_back(k, 0);
+    for (int k = 0; k < parts; ++k)
+        outline.emplace_back(4 + std::sin(k * M_PI / parts), 1 - std::cos(k * M_PI / parts));
+    for (int k = 0; k < 4; ++k) outline.emplace_back(4 - k, 2);
+    for (int k = 0; k < parts; ++k) outline.emplace_back(-std::sin(k * M_PI / parts), 1 + std::cos(k * M_PI / parts));
+    const int n = static_cast<int>(outline.size());
+    for (const double z : {1.0, 0.0})
+        for (const Vec2& p : outline) mesh.add_node({p.x(), p.y(), z}, mesh.node_count() + 1);
+    const Index middle = mesh.add_node({2, 1, 1}, mesh.node_count() + 1);
+    std::vector<std::array<Index, 3>> skin;
+    for (int k = 0; k < n; ++k) {
+        const Index a = k, b = (k + 1) % n;
+        line.nodes.push_back(a);
+        // The point inside is on the plane, but not straight across from arcs; one beside the edge is.
+        const Vec3 across = (mesh.points[a] + mesh.points[b]) / 2 * 0.9 + mesh.points[middle] * 0.1;
+        const Index inside = mesh.add_node(across, mesh.node_count() + 1);
+        line.faces.push_back({std::array<Index, 3>{a, b, inside}, std::array<Index, 3>{b, a, a + n}});
+        skin.push_back({a, b, middle});
+        skin.push_back({b, a, a + n});
+        skin.push_back({b, a + n, b + n});
+    }
+    const FilletPath path(mesh, line, 0.4, skin);
+    EXPECT_TRUE(path.convex());
+    EXPECT_TRUE(path.closed());
+    EXPECT_NEAR(path.length(), 8 + 2 * M_PI, 1e-9);
+    for (int k = 0; k < 40; ++k) {
+        const double s = (k + 0.3) * path.length() / 40;
+        for (const Vec2& p : {Vec2(0.3, -0.2), Vec2(-0.3, 0.1), Vec2(0, 0)}) {
+            const auto [found, q] = path.place(path.at(s, p));
+            EXPECT_NEAR(found, s, 1e-9);
+            EXPECT_LT((q - p).norm(), 1e-9);
+        }
+    }
+    EXPECT_NEAR(path.ball().distance({2, 0.4, 1}), 0, 1e-9);
+    EXPECT_NEAR(path.ball().distance({5, 1, 0.6}), 0, 1e-9);
+}
+
+TEST(FilletPath, RoomIsSeenInAFineMesh) {
+    Mesh mesh = checks::grid(12, 12, 12);
+    EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 3.95)) << "the tangent point lies close before the end of an element";
+    EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 11));
+}
+
+TEST(FilletPath, EndsAtAPlaneFaceOnly) {
+    const Mesh mesh = l_shape();
+    const auto check = [&](const Vec3& near) {
+        check_ends(mesh, find_feature_lines(mesh, {{}, {}, {near}}, 30).at(0), skin_of(mesh));
+    };
+    EXPECT_NO_THROW(check({2, 2, 1}));
+    EXPECT_NO_THROW(check({0, 2, 2}));
+    EXPECT_NO_THROW(check({4, 0, 1}));
+    try {
+        check({3, 2, 2});
+        FAIL() << "it ends at a wall";
+    } catch (const ToolError& e) {
+        EXPECT_STREQ(e.parameter(), "along");
+        EXPECT_THAT(e.what(), testing::HasSubstr("the edge ends at (2 2 2) in another way"));
+    }
 }
 
 TEST(FilletPath, RadiusTooLargeNamesFaceAndParameter) {

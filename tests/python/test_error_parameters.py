@@ -45,6 +45,10 @@ def cut(**options):
     return lambda: fs.cut(box_with_groups(), **{"tool": PLANE, **options})
 
 
+def fillet(**options):
+    return lambda: fs.fillet(box_with_groups(), **{"along": (3.0, 0.0, 0.0), "radius": 0.5, **options})
+
+
 def refine(**options):
     return lambda: fs.refine(box_with_groups(), **{"near": PLANE, "size": 0.5, **options})
 
@@ -110,6 +114,11 @@ IN_THE_ENGINE = [
     (cut(width=0), "width"),
     (cut(tool=fs.Plane((3, 0, 0), X), width=1e-9), "width"),
     (cut(width=1, method="deform"), "method"),
+    (fillet(along="NOWHERE"), "along"),
+    (fillet(along=[1]), "along"),
+    (fillet(radius=0), "radius"),
+    (fillet(radius=50), "radius"),
+    (fillet(method="deform"), "method"),
     (refine(near=np.empty((0, 3))), "near"),
     (refine(near=[(0, 0, float("nan"))]), "near"),
     (refine(size=0), "size"),
@@ -181,6 +190,8 @@ IN_THE_PACKAGE = [
     (crack(skin=5), "skin"),
     (crack(within=5), "within"),
     (drill(tools=5), "tools"),
+    (fillet(along=5), "along"),
+    (fillet(radius="wide"), "radius"),
     (drill(tools=[]), "tools"),
     (drill(tools=[CYLINDER, 5]), "tools"),
     (drill(depth="deep"), "depth"),

@@ -10,8 +10,8 @@ from femscalpel.options import OPTIONS
 
 from meshes import grid_box
 
-OPERATORS = [fs.crack, fs.drill, fs.cut]
-METHODS = [fs.Scalpel.crack, fs.Scalpel.drill, fs.Scalpel.cut]
+OPERATORS = [fs.crack, fs.drill, fs.cut, fs.fillet]
+METHODS = [fs.Scalpel.crack, fs.Scalpel.drill, fs.Scalpel.cut, fs.Scalpel.fillet]
 PLANE = fs.Plane((3.1, 2, 2), (1, 0.2, 0.1))
 
 
@@ -32,6 +32,7 @@ def test_the_order_of_parameters_stays():
         fs.crack: ["mesh", "tool", *common, "band_only", "within", "refine", "skin"],
         fs.drill: ["mesh", "tools", *common, "depth", "band_only", "refine", "skin"],
         fs.cut: ["mesh", "tool", "width", "other", "bottom", *common, "band_only", "refine", "skin"],
+        fs.fillet: ["mesh", "along", "radius", *common, "band_only", "refine", "skin"],
     }
     for operator, method in zip(OPERATORS, METHODS):
         assert list(inspect.signature(operator).parameters) == expected[operator]

@@ -111,6 +111,18 @@ private:
 
 }  // namespace
 
+Triangle sorted(Triangle face) {
+    std::ranges::sort(face);
+    return face;
+}
+
+std::set<DirectedEdge> directed_edges(std::span<const Triangle> triangles) {
+    std::set<DirectedEdge> out;
+    for (const Triangle& t : triangles)
+        for (int k = 0; k < 3; ++k) out.insert({t[k], t[(k + 1) % 3]});
+    return out;
+}
+
 double enclosed_volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
     double volume = 0;
     if (triangles.empty()) return volume;

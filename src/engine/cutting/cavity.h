@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace femscalpel {
 /// Three nodes of a face, and four of an element.
 using Triangle = std::array<int, 3>;
 using Tetra = std::array<int, 4>;
+/// An edge of a face, in its direction.
+using DirectedEdge = std::array<int, 2>;
+
+/// The nodes in ascending order.
+Triangle sorted(Triangle face);
+
+/// All edges of some triangles.
+std::set<DirectedEdge> directed_edges(std::span<const Triangle> triangles);
 
 /// Volume that triangles enclose, their normals pointing outwards.
 double enclosed_volume(std::span<const Vec3> points, std::span<const Triangle> triangles);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -231,6 +232,39 @@ std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
         if (!twice) skin.push_back(entries[k].face);
     }
     return skin;
+}
+
+void check_ends(const Mesh& mesh, const FeatureLine& line, const std::vector<std::array<Index, 3>>& skin) {
+    if (line.closed) return;
+    const std::size_t last = line.nodes.size() - 1;
+    for (const auto& [node, before] :
+         {std::pair(line.nodes[0], line.nodes[1]), std::pair(line.nodes[last], line.nodes[last - 1])}) {
+        const Vec3& end = mesh.points[node];
+        const Vec3 onwards = (end - mesh.points[before]).normalized();
+        Vec3 plane = Vec3::Zero();
+        bool runs_out = true;
+        std::vector<Face> around;
+        std::ranges::copy_if(skin, std::back_inserter(around),
+                             [&, node = node](const Face& f) { return std::ranges::find(f, node) != f.end(); });
+        for (const Face& f : around) {
+            const Vec3 n = normal(mesh, f);
+            if (n.dot(onwards) < 0.3) continue;
+            if (plane.isZero()) plane = n;
+            runs_out = runs_out && (n - plane).norm() <= 1e-6;
+        }
+        for (const Face& f : around)
+            for (const Index n : f) {
+                const Vec3 to = mesh.points[n] - end;
+                runs_out = runs_out && !plane.isZero() && to.dot(plane) <= 1e-6 * to.norm();
+            }
+        if (runs_out) continue;
+        std::ostringstream message;
+        message << "along: the edge ends at (" << end.transpose()
+                << ") in another way than at one plane face of the part, through which its rounding could run out: its "
+                   "faces go on beyond it, a wall stands across it, or several faces or a curved one meet there. Such "
+                   "ends cannot be rounded yet";
+        throw ToolError(message.str(), "along");
+    }
 }
 
 std::vector<FeatureLine> find_feature_lines(const Mesh& mesh, const Along& along, double feature_angle) {

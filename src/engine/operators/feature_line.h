@@ -29,6 +29,10 @@ struct FeatureLine {
 /// Triangles of the skin of the mesh's tetrahedra, by corners, normals outwards.
 std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh);
 
+/// Throws ToolError (parameter "along") where an end of an open line is not one at which something that is swept along
+/// it can run out of the part: in one plane face, beyond which none of the faces there goes on.
+void check_ends(const Mesh& mesh, const FeatureLine& line, const std::vector<std::array<Index, 3>>& skin);
+
 /// The feature lines (edges of the skin sharper than `feature_angle`, degrees) that `along` names, each as long as it
 /// goes on smoothly. Throws ToolError (parameter "along") when there is no such group or node, or no feature line
 /// there.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -12,8 +13,10 @@
 #include "cutting/removal.h"
 #include "cutting/retry.h"
 #include "cutting/snap.h"
+#include "deformation/curved_shape.h"
 #include "operators/driver.h"
 #include "operators/fillet_cavity.h"
+#include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
 
 namespace femscalpel {
@@ -47,18 +50,22 @@ struct Rounding {
 class Fillet final : public Recipe {
 public:
     Fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options) : options_(options) {
-        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
-        for (const FeatureLine& line : find_feature_lines(mesh, along, options.feature_angle)) {
-            Rounding r{std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr};
+        if (options.method == Method::deform)
+            throw ToolError("method \"deform\" moves nodes only; edges are rounded by method \"snap\"", "method");
+        plane_ = mesh.dimension() == 2;
+        if (plane_)
+            find_corners(mesh, along, radius);
+        else
+            find_edges(mesh, along, radius);
+        for (Rounding& r : roundings_) {
             r.reach = r.path->convex() ? 1.02 * r.path->centre().norm() : r.path->tangent_length() + 1.2 * radius;
             r.surroundings = std::make_unique<Surroundings>(*r.path, r.reach);
-            if (line.extended)
-                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
-            roundings_.push_back(std::move(r));
         }
+        check_apart();
         for (const Rounding& r : roundings_)
             for (const int side : {0, 1}) {
-                Blade blade{&r.path->wall(side), {}, {}, -1};
+                // With a tag: improving elements must keep these faces.
+                Blade blade{&r.path->wall(side), {}, {}, static_cast<int>(blades_.size())};
                 blade.bound = [&path = *r.path, reach = r.reach, side](const Vec3& x) {
                     return std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
                 };
@@ -106,7 +113,27 @@ public:
     }
 
     Opening open(Workpiece& f, const Site& site) override {
-        for (const Rounding& r : roundings_) FilletCavity(f, site.mesh, *r.path, r.reach).replace(0);
+        auto& faces = f.d.band.cut_faces;
+        for (int s = 0; s < faces.size(); ++s)
+            if (faces.alive(s)) faces.remove(s);
+        auto& edges = f.d.band.cut_edges;
+        for (int s = 0; s < edges.size(); ++s)
+            if (edges.alive(s)) edges.remove(s);
+        std::map<std::uint64_t, Vec3> middles;
+        for (const Rounding& r : roundings_) {
+            if (plane_) {
+                FilletCorner(f, site.mesh, *r.path, r.reach).replace(0);
+                continue;
+            }
+            FilletCavity cavity(f, site.mesh, *r.path, r.reach);
+            cavity.replace(0);
+            middles.insert(cavity.middles().begin(), cavity.middles().end());
+        }
+        if (!middles.empty())
+            f.mid_side = [&f, middles](int a, int b) {
+                const auto known = middles.find(edge_key(a, b));
+                return known == middles.end() ? mid_side(f.d, a, b).at : known->second;
+            };
         for (int v = 0; v < f.d.band.size(); ++v) {
             Contact on;
             for (const Rounding& r : roundings_)
@@ -121,7 +148,51 @@ public:
     }
 
 private:
+    void find_edges(const Mesh& mesh, const Along& along, double radius) {
+        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
+        for (const FeatureLine& line : find_feature_lines(mesh, along, options_.feature_angle)) {
+            check_ends(mesh, line, skin);
+            roundings_.push_back({std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr});
+            if (line.extended)
+                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
+        }
+    }
+
+    /// What is replaced around one edge must not reach that of another.
+    void check_apart() const {
+        for (std::size_t k = 0; k < roundings_.size(); ++k)
+            for (std::size_t j = 0; j < roundings_.size(); ++j) {
+                const FilletPath &path = *roundings_[k].path, &other = *roundings_[j].path;
+                const double reach = path.rounded_reach() + other.rounded_reach();
+                const int steps = static_cast<int>(std::ceil(path.length() / (0.5 * path.radius())));
+                for (int i = 0; i <= steps && j != k; ++i) {
+                    const Vec3 x = path.at(path.begin() + path.length() * i / std::max(steps, 1), Vec2::Zero());
+                    if (other.distance(x, 0) > reach) continue;
+                    std::ostringstream message;
+                    message << "along: edges that meet, or are so near each other that their roundings would touch, as "
+                            << "at (" << x.transpose() << "), cannot be rounded yet";
+                    throw ToolError(message.str(), "along");
+                }
+            }
+    }
+
+    void find_corners(const Mesh& mesh, const Along& along, double radius) {
+        for (const OutlineCorner& c : find_outline_corners(mesh, along, options_.feature_angle)) {
+            const Vec3& at = mesh.points[c.node];
+            Rounding r{std::make_unique<FilletPath>(at, c.normal, c.along, c.convex, radius), 0, nullptr};
+            if (r.path->tangent_length() > 0.999 * std::min(c.room[0], c.room[1])) {
+                std::ostringstream message;
+                message << "radius: " << radius << " is too large for the corner at (" << at.transpose()
+                        << "): the outline is straight for " << std::min(c.room[0], c.room[1])
+                        << " beside it, and would be touched at " << r.path->tangent_length();
+                throw ToolError(message.str(), "radius");
+            }
+            roundings_.push_back(std::move(r));
+        }
+    }
+
     const FilletOptions& options_;
+    bool plane_ = false;  // a mesh of triangles, with corners
     std::vector<Rounding> roundings_;
     std::vector<Blade> blades_, surroundings_;
     std::vector<std::string> warnings_;

@@ -63,71 +63,151 @@ private:
 FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
                        const std::vector<std::array<Index, 3>>& skin)
     : closed_(line.closed), radius_(radius) {
-    fit(mesh, line);
+    std::vector<Vec3> points;
+    points.reserve(line.nodes.size() + 1);
+    for (const Index n : line.nodes) points.push_back(mesh.points[n]);
+    if (closed_) points.push_back(points.front());
+    fit(points);
     find_faces(mesh, line);
-    for (const int face : {0, 1}) walls_[face] = std::make_unique<Wall>(*this, face);
-    ball_ = std::make_unique<Ball>(*this);
     check_room(mesh, skin);
 }
 
-void FilletPath::fit(const Mesh& mesh, const FeatureLine& line) {
-    std::vector<Vec3> points;
-    for (const Index n : line.nodes) points.push_back(mesh.points[n]);
-    for (std::size_t k = 1; k < points.size(); ++k) mean_edge_ += (points[k] - points[k - 1]).norm();
-    mean_edge_ /= static_cast<double>(points.size() - 1);
-    const Vec3 chord = points.back() - points.front();
-    double off = 0;
-    for (const Vec3& p : points)
-        off = std::max(off, (p - points.front()).cross(chord).norm() / std::max(chord.norm(), 1e-300));
-    if (!closed_ && off <= 1e-6 * chord.norm()) {
-        origin_ = points.front();
-        direction_ = chord.normalized();
-        x_ = direction_.unitOrthogonal();
-        y_ = direction_.cross(x_);
-        end_ = chord.norm();
-        return;
-    }
-    fit_circle(points);
-    for (const Vec3& p : points)
-        if (place(p).p.norm() > 1e-4 * edge_radius_)
-            refuse("the edge is neither straight nor an arc of one circle; only such edges are rounded so far", p,
-                   "along");
-    double longest = 0;
-    for (std::size_t k = 1; k < points.size(); ++k) longest = std::max(longest, (points[k] - points[k - 1]).norm());
-    sag_ = edge_radius_ - std::sqrt(std::max(0.0, edge_radius_ * edge_radius_ - longest * longest / 4));
-    begin_ = 0;
-    end_ = closed_ ? 2 * std::numbers::pi * edge_radius_ : place(points.back()).s;
+FilletPath::FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex,
+                       double radius)
+    : convex_(convex), normal_3d_(normal), radius_(radius) {
+    pieces_.push_back({corner, normal, 0, 0, 0});
+    normal_3d_ = faces[0];
+    const Vec3 x = right(pieces_[0]);
+    along_face_ = {Vec2(faces[0].dot(x), 1), Vec2(faces[1].dot(x), faces[1].dot(faces[0]))};
+    // The material is on the left of the first face.
+    set_faces({faces[0].cross(normal).dot(x), 0});
 }
 
-void FilletPath::fit_circle(const std::vector<Vec3>& points) {
-    const std::size_t n = points.size();
-    const Vec3 &a = points[0], &b = points[n / 3], &c = points[closed_ ? 2 * n / 3 : n - 1];
+void FilletPath::fit(const std::vector<Vec3>& points) {
+    for (std::size_t k = 1; k < points.size(); ++k) mean_edge_ += (points[k] - points[k - 1]).norm();
+    mean_edge_ /= static_cast<double>(points.size() - 1);
+    find_plane(points);
+    for (std::size_t k = 0; k + 1 < points.size();) k = add_piece(points, k);
+    end_ = pieces_.back().begin + pieces_.back().length;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+        const Piece& piece = *std::ranges::find_if(pieces_, [&](const Piece& q) {
+            return place((points[k] + points[k - 1]) / 2).s <= q.begin + q.length + 1e-9 * end_;
+        });
+        sag_ = std::max(sag_, (points[k] - points[k - 1]).squaredNorm() * std::abs(piece.curvature) / 7);
+    }
+}
+
+/// Throws if the edge is not plane.
+void FilletPath::find_plane(const std::vector<Vec3>& points) {
+    const Vec3& a = points.front();
+    const Vec3& b = *std::ranges::max_element(points, {}, [&](const Vec3& p) { return (p - a).squaredNorm(); });
+    const Vec3 along = (b - a).normalized();
+    const auto off = [&](const Vec3& p) { return (p - a).cross(along).norm(); };
+    const Vec3& c = *std::ranges::max_element(points, {}, off);
+    const double size = (b - a).norm();
+    normal_3d_ = off(c) <= 1e-6 * size ? along.unitOrthogonal() : along.cross(c - a).normalized();
+    for (const Vec3& p : points)
+        if (std::abs(normal_3d_.dot(p - a)) > 1e-6 * size)
+            refuse(
+                "the edge does not lie in a plane; only straight edges, arcs of circles and smooth sequences of these "
+                "in one plane are rounded so far",
+                p, "along");
+}
+
+/// The arc from a over b to c, up to its length.
+FilletPath::Piece FilletPath::arc_through(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const Vec3 u = b - a, v = c - a, w = u.cross(v);
-    if (w.norm() < 1e-9 * u.norm() * v.norm()) refuse("the edge bends in an unknown way", a, "along");
-    origin_ = a + (v.squaredNorm() * w.cross(u) + u.squaredNorm() * v.cross(w)) / (2 * w.squaredNorm());
-    direction_ = w.normalized();
-    edge_radius_ = (a - origin_).norm();
-    x_ = (a - origin_).normalized();
-    y_ = direction_.cross(x_);
+    const Vec3 centre = a + (v.squaredNorm() * w.cross(u) + u.squaredNorm() * v.cross(w)) / (2 * w.squaredNorm());
+    const double sign = w.dot(normal_3d_) > 0 ? 1 : -1, radius = (a - centre).norm();
+    const Vec3 to_right = sign * (a - centre) / radius;
+    return {a, normal_3d_.cross(to_right), sign / radius, 0, 0};
+}
+
+/// Adds the longest straight piece or arc from a point on; returns the place of its last point.
+std::size_t FilletPath::add_piece(const std::vector<Vec3>& points, std::size_t first) {
+    const Vec3& a = points[first];
+    std::size_t straight = first + 1, arc = first;
+    while (straight + 1 < points.size() && (points[straight + 1] - a).dot(points[straight] - a) > 0 &&
+           (points[straight] - a).cross(points[straight + 1] - a).norm() <=
+               1e-6 * (points[straight] - a).norm() * (points[straight + 1] - a).norm())
+        ++straight;
+    Piece piece{a, (points[straight] - a).normalized(), 0, end_, (points[straight] - a).norm()};
+    if (straight == first + 1 && first + 2 < points.size()) {
+        const Piece wanted = arc_through(a, points[first + 1], points[first + 2]);
+        const Vec3 centre = a - right(wanted) / wanted.curvature;
+        const double radius = 1 / std::abs(wanted.curvature);
+        for (arc = first + 2; arc + 1 < points.size(); ++arc)
+            if (std::abs((points[arc + 1] - centre).norm() - radius) > 1e-4 * radius) break;
+        // More exactly from points far apart.
+        const bool whole = closed_ && first == 0 && arc + 1 == points.size();
+        const std::size_t count = arc - first;
+        piece = whole ? arc_through(a, points[count / 3], points[2 * count / 3])
+                      : arc_through(a, points[first + count / 2], points[arc]);
+        piece.begin = end_;
+        for (std::size_t k = first; k < arc; ++k) {
+            const double half = (points[k + 1] - points[k]).norm() * std::abs(piece.curvature) / 2;
+            piece.length += 2 * std::asin(std::min(1.0, half)) / std::abs(piece.curvature);
+        }
+        if (whole) piece.length = 2 * std::numbers::pi / std::abs(piece.curvature);
+    }
+    if (!pieces_.empty()) {
+        const Piece& last = pieces_.back();
+        const double turned = last.curvature * last.length;
+        const Vec3 tangent = std::cos(turned) * last.tangent - std::sin(turned) * right(last);
+        if ((tangent - piece.tangent).norm() > 0.02)
+            refuse("the edge bends in another way than arcs of circles and straight pieces that join smoothly do", a,
+                   "along");
+    }
+    pieces_.push_back(piece);
+    end_ = piece.begin + piece.length;
+    return std::max(straight, arc);
+}
+
+FilletPath::Place FilletPath::place_by(const Piece& piece, const Vec3& x) const {
+    const Vec3 to_right = right(piece);
+    const double k = piece.curvature;
+    if (k == 0) {
+        const Vec3 d = x - piece.start;
+        return {piece.begin + d.dot(piece.tangent), {d.dot(to_right), d.dot(normal_3d_)}};
+    }
+    const Vec3 d = x - piece.start + to_right / k;
+    const double sign = k > 0 ? 1 : -1, u = sign * d.dot(to_right), v = sign * d.dot(piece.tangent);
+    double angle = std::atan2(v, u);
+    const double middle = k * piece.length / 2;
+    while (angle < middle - std::numbers::pi) angle += 2 * std::numbers::pi;
+    while (angle >= middle + std::numbers::pi) angle -= 2 * std::numbers::pi;
+    return {piece.begin + angle / k, {sign * std::hypot(u, v) - 1 / k, d.dot(normal_3d_)}};
+}
+
+Vec3 FilletPath::at(const Piece& piece, double s, const Vec2& p) const {
+    const Vec3 to_right = right(piece);
+    const double k = piece.curvature, u = s - piece.begin;
+    if (k == 0) return piece.start + u * piece.tangent + p.x() * to_right + p.y() * normal_3d_;
+    const Vec3 out = std::cos(k * u) * to_right + std::sin(k * u) * piece.tangent;
+    return piece.start - to_right / k + (1 / k + p.x()) * out + p.y() * normal_3d_;
 }
 
 FilletPath::Place FilletPath::place(const Vec3& x) const {
-    const Vec3 d = x - origin_;
-    if (edge_radius_ == 0) return {d.dot(direction_), {d.dot(x_), d.dot(y_)}};
-    const double u = d.dot(x_), v = d.dot(y_);
-    double angle = std::atan2(v, u);
-    // An open arc's parameter must not jump near its beginning or end.
-    const double middle = closed_ ? std::numbers::pi : (begin_ + end_) / 2 / edge_radius_;
-    while (angle < middle - std::numbers::pi) angle += 2 * std::numbers::pi;
-    while (angle >= middle + std::numbers::pi) angle -= 2 * std::numbers::pi;
-    if (!closed_ && end_ == 0 && angle < 0) angle += 2 * std::numbers::pi;  // while it is being fitted
-    return {angle * edge_radius_, {std::hypot(u, v) - edge_radius_, d.dot(direction_)}};
+    if (pieces_.size() == 1) return place_by(pieces_[0], x);
+    Place best{};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Piece& piece : pieces_) {
+        const Place here = place_by(piece, x);
+        const double low = &piece == &pieces_.front() && !closed_ ? -std::numeric_limits<double>::max() : piece.begin,
+                     high = &piece == &pieces_.back() && !closed_ ? std::numeric_limits<double>::max()
+                                                                  : piece.begin + piece.length;
+        const double off = (x - at(piece, std::clamp(here.s, low, high), Vec2::Zero())).squaredNorm();
+        if (off >= nearest) continue;
+        nearest = off;
+        best = here;
+    }
+    return best;
 }
 
 Vec3 FilletPath::at(double s, const Vec2& p) const {
-    if (edge_radius_ == 0) return origin_ + s * direction_ + p.x() * x_ + p.y() * y_;
-    const double angle = s / edge_radius_;
-    return origin_ + (edge_radius_ + p.x()) * (std::cos(angle) * x_ + std::sin(angle) * y_) + p.y() * direction_;
+    const auto after = std::ranges::find_if(pieces_, [&](const Piece& piece) { return piece.begin > s; });
+    if (!closed_ || s < end_) return at(after == pieces_.begin() ? *after : *(after - 1), s, p);
+    return at(s - end_, p);
 }
 
 double FilletPath::distance(const Vec3& x, double beyond) const {
@@ -165,8 +245,15 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     const auto [s, p] = place(middle);
     const Vec2 turned(-d.y(), d.x());
     const Vec3 turned_3d = at(s, p + turned) - at(s, p);
-    normal_[0] = turned_3d.dot(n) > 0 ? turned : Vec2(-turned);
-    convex_ = normal_[0].dot(e) < 0;
+    const Vec2 outwards = turned_3d.dot(n) > 0 ? turned : Vec2(-turned);
+    convex_ = outwards.dot(e) < 0;
+    set_faces(outwards);
+}
+
+/// What follows from where the faces are, and the first one's normal out of the material.
+void FilletPath::set_faces(const Vec2& normal) {
+    const Vec2 &d = along_face_[0], &e = along_face_[1];
+    normal_[0] = normal;
     normal_[1] = Vec2(-e.y(), e.x());
     if ((normal_[1].dot(d) < 0) != convex_) normal_[1] = -normal_[1];
 
@@ -177,6 +264,8 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     across_ = Vec2(-to_first_.y(), to_first_.x());
     if (across_.dot(tangent_point(1) - centre_) < 0) across_ = -across_;
     arc_angle_ = std::numbers::pi - angle;
+    for (const int face : {0, 1}) walls_[face] = std::make_unique<Wall>(*this, face);
+    ball_ = std::make_unique<Ball>(*this);
 }
 
 void FilletPath::check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const {
@@ -185,7 +274,7 @@ void FilletPath::check_room(const Mesh& mesh, const std::vector<std::array<Index
     const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
     const auto sample = [&](int k) { return begin_ + length() * (k + 0.5) / places; };
     for (int k = 0; k < places; ++k)
-        for (const int side : {0, 1}) box.extend(at(sample(k), tangent_point(side)));
+        for (const int side : {0, 1}) box.extend(at(sample(k), 1.02 * tangent_point(side)));
     const double margin = 2 * sag_ + 1e-3 * tangent_length_;
     box.min().array() -= 2 * margin;
     box.max().array() += 2 * margin;
@@ -202,7 +291,9 @@ void FilletPath::check_room(const Mesh& mesh, const std::vector<std::array<Index
             // Seen a little beyond the tangent line: a face must not end at it.
             const Vec3 x = at(s, 1.02 * tangent_point(side)),
                        n = (at(s, tangent_point(side) + normal_[side]) - at(s, tangent_point(side))).normalized();
-            if (!is_straight() && edge_radius_ + 1.02 * tangent_point(side).x() <= 0)
+            const bool past_axis = std::ranges::any_of(
+                pieces_, [&](const Piece& q) { return 1 + q.curvature * 1.02 * tangent_point(side).x() <= 0; });
+            if (past_axis)
                 refuse("too large for a face beside the edge: the tangent line passes the axis", at(s, Vec2::Zero()),
                        "radius");
             double nearest = std::numeric_limits<double>::infinity();

@@ -12,11 +12,12 @@
 
 namespace femscalpel {
 
-/// A straight edge, or one that is an arc of a circle, and its two faces, straight in sections across it: planes, or
-/// planes, cylinders and cones about the circle's axis. A ball that rolls along touches them at the tangent lines.
+/// An edge of straight pieces and arcs of circles, smoothly joined in one plane, and its two faces, straight in
+/// sections across it and the same in all: planes, and along arcs planes, cylinders and cones about the circle's axis.
+/// A ball that rolls along touches them at the tangent lines.
 ///
-/// A point is known by its place `s` along the edge (of a circle: angle times its radius) and its section coordinates:
-/// the edge is at (0, 0).
+/// A point is known by its place `s` along the edge and its section coordinates: the edge is at (0, 0), its plane's
+/// normal is (0, 1).
 class FilletPath {
 public:
     struct Place {
@@ -27,6 +28,10 @@ public:
     /// Throws ToolError (parameter "along" or "radius") when the line is of another kind, or the ball too large for
     /// its faces: `skin` is all of the mesh's.
     FilletPath(const Mesh& mesh, const FeatureLine& line, double radius, const std::vector<std::array<Index, 3>>& skin);
+
+    /// A corner of a plane mesh, like an edge of no length across it: `faces` are unit vectors from it along the
+    /// outline, with the material on the left of the first as seen from where `normal` points to.
+    FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex, double radius);
 
     Place place(const Vec3& x) const;
     Vec3 at(double s, const Vec2& p) const;
@@ -49,10 +54,12 @@ public:
     const Vec2& normal(int face) const { return normal_[face]; }
     const Vec2& centre() const { return centre_; }
     double tangent_length() const { return tangent_length_; }
+    /// How far from the edge there is material that goes or comes.
+    double rounded_reach() const { return tangent_length_; }
 
     bool convex() const { return convex_; }
     bool closed() const { return closed_; }
-    bool is_straight() const { return edge_radius_ == 0; }
+    bool is_straight() const { return pieces_.size() == 1 && pieces_[0].curvature == 0; }
     double begin() const { return begin_; }
     double end() const { return end_; }
     double length() const { return end_ - begin_; }
@@ -66,15 +73,27 @@ public:
     const Tool& ball() const { return *ball_; }
 
 private:
-    void fit(const Mesh& mesh, const FeatureLine& line);
-    void fit_circle(const std::vector<Vec3>& points);
+    struct Piece {
+        Vec3 start, tangent;  ///< where it begins, and its direction there
+        double curvature;     ///< of an arc, positive if it turns left as seen from where the normal points to
+        double begin, length;
+    };
+
+    void fit(const std::vector<Vec3>& points);
+    void find_plane(const std::vector<Vec3>& points);
+    Piece arc_through(const Vec3& a, const Vec3& b, const Vec3& c) const;
+    std::size_t add_piece(const std::vector<Vec3>& points, std::size_t first);
+    Vec3 right(const Piece& piece) const { return piece.tangent.cross(normal_3d_); }
+    Place place_by(const Piece& piece, const Vec3& x) const;
+    Vec3 at(const Piece& piece, double s, const Vec2& p) const;
+    void set_faces(const Vec2& normal);
     void find_faces(const Mesh& mesh, const FeatureLine& line);
     void check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
 
     bool closed_ = false, convex_ = true;
-    Vec3 origin_ = Vec3::Zero(), direction_ = Vec3::Zero();  // of the edge, or of the circle's axis
-    Vec3 x_ = Vec3::Zero(), y_ = Vec3::Zero();  // of the section; of a circle: towards where s is 0, and across
-    double edge_radius_ = 0, begin_ = 0, end_ = 0, mean_edge_ = 0, sag_ = 0;
+    std::vector<Piece> pieces_;
+    Vec3 normal_3d_ = Vec3::Zero();
+    double begin_ = 0, end_ = 0, mean_edge_ = 0, sag_ = 0;
     double radius_, tangent_length_ = 0, arc_angle_ = 0;
     std::array<Vec2, 2> along_face_, normal_;
     Vec2 centre_ = Vec2::Zero(), to_first_ = Vec2::Zero(), across_ = Vec2::Zero();

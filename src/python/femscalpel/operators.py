@@ -174,15 +174,16 @@ def fillet(mesh: Mesh, along, radius: float, *, options) -> Result:
     Parameters
     ----------
     mesh : Mesh
-        Tetrahedra near the edge; anything elsewhere.
-    along : str, sequence of int, or array of shape (n, 3)
-        The edge: a group of segments or nodes, numbers of nodes, or points near feature lines of the skin. Each is
-        rounded as far as it goes on without a corner. It must be straight or an arc of a circle, between planes, or
-        cylinders and cones about the circle's axis.
+        Tetrahedra near the edge, or a plane mesh of triangles, linear or quadratic.
+    along : str, list or array of int, tuple of three numbers, or array of shape (n, 3)
+        The edge: a group of segments or nodes, numbers of nodes, or a point or points near feature lines of the skin.
+        Each is rounded as far as it goes on without a corner. It must be straight or an arc of a circle, between
+        planes, or cylinders and cones about the circle's axis. In a plane mesh of triangles, corners of its outline.
     radius : number
         Of the ball.
     name : str
-        Prefix of the new group ``name_FACE``: the triangles of the new face, normals out of the material.
+        Prefix of the new group ``name_FACE``: the triangles (segments, in a plane mesh) of the new face, normals out of
+        the material.
     method, transition, feature_angle, strict, preserve, band_only, refine, skin
         As for :func:`crack`; `feature_angle` also says what is an edge.
 
@@ -217,7 +218,8 @@ def _along(along) -> tuple:
         values = np.asarray(along)
     except (TypeError, ValueError):
         raise _arguments.about("along", TypeError(message)) from None
-    if values.ndim == 1 and values.size and np.issubdtype(values.dtype, np.integer):
+    is_point = isinstance(along, tuple) and values.shape == (3,)  # also one of integers
+    if values.ndim == 1 and values.size and np.issubdtype(values.dtype, np.integer) and not is_point:
         return "", [int(n) for n in values], none
     try:
         points = np.array(along, dtype=np.float64)
