@@ -50,6 +50,7 @@ SHAPES = HERE.parent / "python" / "shapes"
 sys.path.insert(0, str(HERE.parent / "python"))
 
 import femscalpel as fs  # noqa: E402
+import merge_parts as parts  # noqa: E402
 import rounding_cases  # noqa: E402
 import test_calculix_decks as ccx  # noqa: E402
 import test_decks_after_removal as removal  # noqa: E402
@@ -841,6 +842,18 @@ SPECIAL = [
     ("group_box", "refined_many", _call(lambda m: fs.drill(m, fs.Cylinder((2.1, 1.4, 0), Z, 0.12)))),
     ("group_box", "rounded_edge", _call(lambda m: fs.fillet(m, (3.0, 0.0, 0.0), 0.8))),
     ("group_box", "rounded_too_much", _call(lambda m: tried(lambda: fs.fillet(m, (3.0, 0.0, 0.0), 6)))),
+    (
+        "group_box",
+        "boss_on",
+        _call(lambda m: fs.merge(m, parts.block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "BOSS"))),
+    ),
+    (
+        "group_box",
+        "boss_into",
+        _call(lambda m: fs.merge(m, parts.block((3, 2.6, 3.3), (2, 1.7, 2.2), (3, 3, 3), "BOSS"), keep="addition")),
+    ),
+    ("group_box", "plate_on", _call(lambda m: fs.merge(m, parts.plate((1, 1.3, 4), (3, 1, 0), Z, (5, 2), "FIN")))),
+    ("group_box", "apart", _call(lambda m: tried(lambda: fs.merge(m, parts.block((9, 9, 9), 1, (1, 1, 1), "B"))))),
     ("group_box", "nothing_to_refine", _call(lambda m: fs.refine(m, (0, 0, 0), 5))),
     ("group_box", "broken_files", _broken),
     ("brick", "hole_near_brick", _call(lambda m: fs.drill(m, fs.Cylinder((1.6, 2.5, 0), Z, 1.2)))),

@@ -53,9 +53,8 @@ TEST(Imprint, MakesALineEdgesOfTheSkin) {
         EXPECT_NEAR(block.ribbons[0]->distance(x), 0, 1e-9);
         if (k > 0) {
             const int a = line.nodes[k - 1], b = line.nodes[k];
-            EXPECT_TRUE(std::ranges::any_of(band.skin.around(a), [&](int s) {
-                return std::ranges::find(band.skin[s], b) != band.skin[s].end();
-            }));
+            EXPECT_TRUE(std::ranges::any_of(
+                band.skin.around(a), [&](int s) { return std::ranges::find(band.skin[s], b) != band.skin[s].end(); }));
             EXPECT_GE(band.cut_edges.find({a, b}), 0);
         }
     }

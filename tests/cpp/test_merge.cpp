@@ -7,6 +7,7 @@
 #include "cutting/covered_faces.h"
 #include "cutting/refill.h"
 #include "mesh/quality.h"
+#include "operators/joint.h"
 #include "operators/seam.h"
 #include "operators/unite.h"
 #include "simple_meshes.h"
@@ -24,8 +25,7 @@ double volume(const Mesh& mesh) {
     const CellBlock& b = mesh.block(CellType::tetra);
     for (Index c = 0; c < b.size(); ++c) {
         const auto n = b.nodes(c);
-        const double v =
-            signed_volume(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]);
+        const double v = signed_volume(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]);
         EXPECT_GT(v, 0);
         sum += v;
     }
@@ -103,9 +103,8 @@ TEST(Refill, FitsASolidToTheSkinOfAnother) {
     std::vector<Index> partner(tower.points.size(), -1);
     for (Index n = 0; n < tower.node_count(); ++n)
         if (tower.points[n][2] == 1) partner[n] = checks::number_near(both.block, tower.points[n]);
-    const Refilled out =
-        refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9),
-               covered_faces(both.block, tower, both.outline(both.block), 1e-9));
+    const Refilled out = refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9),
+                                covered_faces(both.block, tower, both.outline(both.block), 1e-9));
     out.mesh.validate();
     EXPECT_GT(out.taken, 0);
     EXPECT_LT(out.taken, 24);
@@ -114,8 +113,7 @@ TEST(Refill, FitsASolidToTheSkinOfAnother) {
     EXPECT_EQ(std::ranges::count_if(out.partner, [](Index n) { return n >= 0; }), 4);
     // The elements of the top keep their numbers.
     const auto& ids = out.mesh.block(CellType::tetra).ids;
-    for (Index c = 18; c < 24; ++c)
-        EXPECT_NE(std::ranges::find(ids, tower.block(CellType::tetra).ids[c]), ids.end());
+    for (Index c = 18; c < 24; ++c) EXPECT_NE(std::ranges::find(ids, tower.block(CellType::tetra).ids[c]), ids.end());
 }
 
 TEST(Seam, IsEdgesOfTheResult) {
@@ -127,8 +125,7 @@ TEST(Seam, IsEdgesOfTheResult) {
     const Seamed seamed = imprint_seam(mesh, {line}, false, options, {});
     ASSERT_EQ(seamed.lines.size(), 1u);
     ASSERT_EQ(seamed.lines[0].at_stop.size(), 2u);
-    for (const Index n : seamed.lines[0].nodes)
-        EXPECT_NEAR(ribbon.distance(seamed.result.mesh.points[n]), 0, 1e-9);
+    for (const Index n : seamed.lines[0].nodes) EXPECT_NEAR(ribbon.distance(seamed.result.mesh.points[n]), 0, 1e-9);
     EXPECT_NEAR(volume(seamed.result.mesh), 16, 1e-12);
     EXPECT_TRUE(seamed.result.mesh.groups.empty());
 }

@@ -14,9 +14,7 @@ using Eigen::Vector3d;
 /// Along x, then along y, in the plane z = 0.
 Ribbon corner() { return {{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}}, {3, Vector3d::UnitZ()}, false}; }
 
-Ribbon square() {
-    return {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {4, Vector3d::UnitZ()}, true};
-}
+Ribbon square() { return {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {4, Vector3d::UnitZ()}, true}; }
 
 TEST(Ribbon, MeasuresAlongTheSurface) {
     const Ribbon line = corner();
@@ -29,7 +27,8 @@ TEST(Ribbon, MeasuresAlongTheSurface) {
 
 TEST(Ribbon, ItsNormalIsTheGradientOfTheDistance) {
     const Ribbon line = corner();
-    for (const Vector3d& x : {Vector3d(0.7, 0.3, 0.1), Vector3d(0.7, -0.3, 0), Vector3d(2.3, 1, 0), Vector3d(2.2, -0.3, 0)}) {
+    for (const Vector3d& x :
+         {Vector3d(0.7, 0.3, 0.1), Vector3d(0.7, -0.3, 0), Vector3d(2.3, 1, 0), Vector3d(2.2, -0.3, 0)}) {
         const Vector3d n = line.normal(x);
         EXPECT_NEAR(n.norm(), 1, 1e-12);
         for (int k = 0; k < 3; ++k) {

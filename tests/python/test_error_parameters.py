@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
-from meshes import box_with_groups
+from meshes import box_with_groups, grid_box
 
 SHAPES = pathlib.Path(__file__).parent / "shapes"
 O, X, Z = (0, 0, 0), (1, 0, 0), (0, 0, 1)
@@ -51,6 +51,10 @@ def fillet(**options):
 
 def refine(**options):
     return lambda: fs.refine(box_with_groups(), **{"near": PLANE, "size": 0.5, **options})
+
+
+def merge(**options):
+    return lambda: fs.merge(box_with_groups(), **{"other": grid_box((1, 1, 1), (1.0, 1.0, 1.0)), **options})
 
 
 def reshape(**options):
@@ -119,6 +123,12 @@ IN_THE_ENGINE = [
     (fillet(radius=0), "radius"),
     (fillet(radius=50), "radius"),
     (fillet(method="deform"), "method"),
+    (merge(other=fs.Mesh([(9, 9, 9), (10, 9, 9), (9, 10, 9), (9, 9, 10)], {"tetra": [(0, 1, 2, 3)]})), "other"),
+    (merge(other=3), "other"),
+    (merge(name=""), "name"),
+    (merge(keep="none"), "keep"),
+    (merge(tolerance=-1), "tolerance"),
+    (merge(feature_angle=0), "feature_angle"),
     (refine(near=np.empty((0, 3))), "near"),
     (refine(near=[(0, 0, float("nan"))]), "near"),
     (refine(size=0), "size"),

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/joint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace femscalpel {
+namespace {
+
+/// A node of the one nearer to a node of the other than this, in the shortest edge of the line there, is the same.
+constexpr double same_node = 0.25;
+/// Cosine of the angle by which a line bends where it is to have a node.
+const double bend = std::cos(6 * M_PI / 180);
+/// How often the two may be divided where the other was.
+constexpr int most_rounds = 4;
+
+/// Whether a point is an end of a line, or where a closed one begins.
+bool is_end(const MeetingLine& line, std::size_t point) {
+    return point == 0 || (!line.closed && point + 1 == line.points.size());
+}
+
+/// Whether a line bends at a point.
+bool is_bend(const MeetingLine& line, std::size_t point) {
+    const std::size_t n = line.points.size();
+    if (is_end(line, point)) return false;
+    const Vec3 in = line.points[point].at - line.points[(point + n - 1) % n].at,
+               out = line.points[(point + 1) % n].at - line.points[point].at;
+    return in.normalized().dot(out.normalized()) < bend;
+}
+
+/// The places of a meeting where nodes are to be: its ends, where it bends, and where one of the meshes has one; of
+/// places that are nearer to each other than edges there should be, one.
+std::vector<JointLine::Stop> stops_of(const MeetingLine& line, const Mesh& mesh) {
+    std::vector<std::size_t> points;
+    for (std::size_t k = 0; k < line.points.size(); ++k)
+        if (is_end(line, k) || is_bend(line, k) || line.points[k].node[0] >= 0 || line.points[k].node[1] >= 0)
+            points.push_back(k);
+    // How far it is to the next node of the same mesh.
+    const auto room = [&](std::size_t i, std::size_t mesh) {
+        double out = std::numeric_limits<double>::infinity();
+        for (const std::size_t k : points)
+            if (k != points[i] && line.points[k].node[mesh] >= 0)
+                out = std::min(out, (line.points[k].at - line.points[points[i]].at).norm());
+        return out;
+    };
+    std::vector<JointLine::Stop> stops;
+    std::vector<double> rooms;
+    std::vector<char> fixed;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const MeetingLine::Point& p = line.points[points[i]];
+        double own = std::min(p.size[0], p.size[1]);
+        for (const std::size_t m : {0U, 1U})
+            if (p.node[m] >= 0) own = std::min(own, room(i, m));
+        // The mesh stays as it is.
+        const JointLine::Stop stop{p.node[0] >= 0 ? mesh.points[p.node[0]] : p.at, p.node};
+        const bool end = is_end(line, points[i]);
+        if (!stops.empty()) {
+            JointLine::Stop& last = stops.back();
+            const bool different = (last.node[0] < 0 || stop.node[0] < 0) && (last.node[1] < 0 || stop.node[1] < 0);
+            if (different && !(fixed.back() && end) &&
+                (last.at - stop.at).norm() < same_node * std::min(rooms.back(), own)) {
+                // The end stays where it is, else the mesh's node, and the addition's goes there. What node of the mesh
+                // goes to an end is seen later.
+                const bool stay = fixed.back() || (!end && last.node[0] >= 0);
+                if (!stay) last.at = stop.at;
+                last.node = {fixed.back() ? last.node[0]
+                             : end        ? stop.node[0]
+                                          : std::max(last.node[0], stop.node[0]),
+                             std::max(last.node[1], stop.node[1])};
+                fixed.back() = fixed.back() || end;
+                continue;
+            }
+        }
+        stops.push_back(stop);
+        rooms.push_back(own);
+        fixed.push_back(end);
+    }
+    return stops;
+}
+
+/// Mid-side nodes go half as far as each end of their edge did.
+void drag_middles(const Mesh& before, Mesh& after) {
+    std::vector<char> dragged(after.points.size(), 0);
+    for (const CellBlock& b : after.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (!t.quadratic) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (std::size_t k = 0; k < t.edges.size(); ++k) {
+                const Index i = n[t.edges[k][0]], j = n[t.edges[k][1]], middle = n[t.corners + k];
+                if (dragged[middle] || (after.points[i] == before.points[i] && after.points[j] == before.points[j]))
+                    continue;
+                dragged[middle] = 1;
+                after.points[middle] += (after.points[i] - before.points[i] + after.points[j] - before.points[j]) / 2;
+            }
+        }
+    }
+}
+
+std::vector<double> lengths(const Ribbon& ribbon, const JointLine& line) {
+    std::vector<double> out;
+    for (const JointLine::Stop& stop : line.stops) out.push_back(ribbon.foot(stop.at).arc);
+    out.front() = 0;
+    if (!line.closed) out.back() = ribbon.length();
+    return out;
+}
+
+/// The line's stops are the nodes that mesh m has there now.
+bool take(JointLine& line, std::size_t m, const SeamLine& seam, const Mesh& mesh) {
+    std::vector<JointLine::Stop> stops;
+    for (const Index n : seam.nodes) {
+        JointLine::Stop& stop = stops.emplace_back(JointLine::Stop{mesh.points[n], {-1, -1}});
+        stop.node[m] = n;
+    }
+    for (std::size_t s = 0; s < seam.at_stop.size(); ++s) {
+        JointLine::Stop& stop = stops[seam.at_stop[s]];
+        stop.node[1 - m] = std::max(stop.node[1 - m], line.stops[s].node[1 - m]);
+    }
+    const bool more = std::ranges::any_of(stops, [&](const JointLine::Stop& s) { return s.node[1 - m] < 0; });
+    line.stops = std::move(stops);
+    return more;
+}
+
+Report joined(const Report& before, Report after) {
+    after.quality_before = before.quality_before;
+    after.nodes_added += before.nodes_added;
+    after.nodes_split += before.nodes_split;
+    after.nodes_moved = std::max(after.nodes_moved, before.nodes_moved);
+    after.elements_added += before.elements_added;
+    after.warnings.insert(after.warnings.begin(), before.warnings.begin(), before.warnings.end());
+    return after;
+}
+
+}  // namespace
+
+std::string point_text(const Vec3& x) {
+    std::ostringstream out;
+    out << "(" << x.transpose() << ")";
+    return out.str();
+}
+
+std::unique_ptr<Ribbon> ribbon_of(const MeetingLine& meeting, std::size_t m) {
+    std::vector<Vec3> points, normals;
+    for (const MeetingLine::Point& p : meeting.points) {
+        points.push_back(p.at);
+        normals.push_back(p.normal[m]);
+    }
+    return std::make_unique<Ribbon>(std::move(points), std::move(normals), meeting.closed);
+}
+
+JointLine line_of(const MeetingLine& meeting, const Mesh& mesh) {
+    JointLine out;
+    out.closed = meeting.closed;
+    for (const std::size_t m : {0U, 1U}) out.standing[m] = ribbon_of(meeting, m);
+    out.stops = stops_of(meeting, mesh);
+    return out;
+}
+
+Joint::Joint(const Mesh& mesh, const Mesh& addition, std::vector<JointLine> lines, const OperatorOptions& options)
+    : mesh_{&mesh, &addition}, lines_(std::move(lines)), options_(options) {}
+
+void Joint::run(const Prepared& known) {
+    imprint(0, known);
+    for (int round = 0; round < most_rounds; ++round)
+        if (!imprint((round + 1) % 2, {})) return put_together();
+    throw QualityError(
+        "the two meshes cannot be given the same nodes where they meet: their elements there differ too much in "
+        "size. Refine the coarser one there first");
+}
+
+/// Makes the lines edges of mesh m, with nodes at all stops. Whether that needs nodes which the other has not.
+bool Joint::imprint(std::size_t m, const Prepared& known) {
+    const bool first = ribbons_.empty();
+    std::vector<ImprintLine> wanted;
+    for (JointLine& line : lines_) {
+        ImprintLine& out = wanted.emplace_back();
+        out.ribbon = first ? line.standing[m].get() : ribbon_through_stops(line, m);
+        for (const JointLine::Stop& stop : line.stops) {
+            out.places.push_back(stop.at);
+            out.known.push_back(stop.node[m]);
+        }
+        out.stops = lengths(*out.ribbon, line);
+    }
+    if (first) ribbons_.emplace_back();
+    const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
+    // The mesh's nodes stay on its surface, the addition's come to the mesh's.
+    Seamed seamed = imprint_seam(input, std::move(wanted), m == 1, options_, known);
+    bool more = false;
+    for (std::size_t k = 0; k < lines_.size(); ++k)
+        more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
+    if (done_[m]) seamed.result.report = joined(results_[m].report, std::move(seamed.result.report));
+    results_[m] = std::move(seamed.result);
+    done_[m] = true;
+    return more || !done_[1 - m];
+}
+
+/// The addition's nodes go to where the mesh's are.
+void Joint::put_together() {
+    const Mesh before = results_[1].mesh;
+    for (const JointLine& line : lines_)
+        for (const JointLine::Stop& stop : line.stops) mesh(1).points[stop.node[1]] = mesh(0).points[stop.node[0]];
+    drag_middles(before, mesh(1));
+}
+
+/// The mesh with the nodes it has at stops there, and mid-side nodes half as far.
+Mesh Joint::with_nodes_in_place(const Mesh& mesh, std::size_t m) const {
+    Mesh out = mesh;
+    bool any = false;
+    for (const JointLine& line : lines_)
+        for (const JointLine::Stop& stop : line.stops)
+            if (stop.node[m] >= 0 && out.points[stop.node[m]] != stop.at) {
+                out.points[stop.node[m]] = stop.at;
+                any = true;
+            }
+    if (any) drag_middles(mesh, out);
+    return out;
+}
+
+const Ribbon* Joint::ribbon_through_stops(const JointLine& line, std::size_t m) {
+    if (line.stops.size() < (line.closed ? 3U : 2U))
+        throw QualityError(
+            "the two meet at " + point_text(line.stops.front().at) +
+            " in a loop that is smaller than the elements there. Move the addition so that it meets the mesh "
+            "properly, or refine the mesh there first");
+    std::vector<Vec3> points, standing;
+    for (const JointLine::Stop& stop : line.stops) {
+        points.push_back(stop.at);
+        standing.push_back(line.standing[m]->foot(stop.at).standing);
+    }
+    ribbons_.push_back(std::make_unique<Ribbon>(std::move(points), std::move(standing), line.closed));
+    return ribbons_.back().get();
+}
+
+}  // namespace femscalpel
