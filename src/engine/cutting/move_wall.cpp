@@ -34,7 +34,6 @@ public:
           band_(f.d.band),
           wall_(wall),
           motion_(motion),
-          mesh_(mesh),
           goals_(f, wall, motion, mesh),
           remesher_(f, mesh, [this](int v) { return slides(v); }) {}
 
@@ -201,7 +200,6 @@ private:
     BandMesh& band_;
     const Wall& wall_;
     const WallMotion& motion_;
-    const Mesh& mesh_;
     WallGoals goals_;
     Remesher remesher_;
     bool arrived_ = false;

@@ -145,6 +145,7 @@ private:
 
     void find_same(Beside& out) {
         std::vector<std::pair<int, const Tool*>> front;
+        front.reserve(wall_.size());
         for (const int k : wall_) front.emplace_back(k, tool_of(shape(k)));
         for (std::size_t i = 0; i < front.size(); ++i) {
             check_cancelled();

@@ -101,7 +101,8 @@ Workpiece workpiece(const Edit& edit, const ReshapeOptions& options, const std::
     Workpiece f{.d = Deformable(extract_band(mesh, level, edit.adjacency()), mesh, constraints), .tool = options.onto};
     f.tolerance = 1e-10 * f.d.constraints.geometry().size;
     f.d.tolerance = f.tolerance;
-    f.bandwidth = *std::ranges::max_element(level);
+    for (const std::int8_t l : level)
+        f.bandwidth = std::max<int>(f.bandwidth, static_cast<unsigned char>(std::max<std::int8_t>(l, 0)));
     f.distance.assign(static_cast<std::size_t>(f.d.band.size()), 0);
     check_input_shape(f, mesh);
     return f;
@@ -234,7 +235,7 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     go_on_beside(f, wall);
     find_tools(f, wall, motion);
     watch.lap("constraints");
-    const MovedWall moved = move_wall(f, wall, motion, mesh);
+    move_wall(f, wall, motion, mesh);
     check_shape(f, mesh);
     check_contacts(f);
     watch.lap("move");
@@ -248,7 +249,6 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     add_middles(f, wall, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
     recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
     Result result{{}, report_of(edit, options, f, edited)};
-    (void)moved;
     result.mesh = std::move(edited.rebuilt.mesh);
     remove_marks(result.mesh);
     watch.lap("report");
