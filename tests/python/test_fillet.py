@@ -61,10 +61,21 @@ def test_convex_edge(radius):
     assert volume(mesh) - volume(result.mesh) == pytest.approx(removed, rel=0.03)
     assert quality(result.mesh).min() >= 0.15
     check_conforming(result.mesh)
-    # Away from the edge nothing is touched.
-    far = np.linalg.norm(mesh.points[:, 1:], axis=1) > 6
-    kept = {n: p for n, p in zip(result.mesh.node_ids.tolist(), result.mesh.points.tolist())}
+
+
+def test_away_from_the_edge_nothing_is_touched():
+    mesh = grid_box((4, 12, 12), (4.0, 12.0, 12.0))
+    result = fs.fillet(mesh, (2, 0, 0), 1.0)
+    far = np.linalg.norm(mesh.points[:, 1:], axis=1) > 7
+    kept = dict(zip(result.mesh.node_ids.tolist(), result.mesh.points.tolist()))
     assert all(kept[n] == p for n, p in zip(mesh.node_ids[far].tolist(), mesh.points[far].tolist()))
+    cells = dict(zip(result.mesh.cell_ids["tetra"].tolist(), result.mesh.node_ids[result.mesh.cells["tetra"]].tolist()))
+    whole = far[mesh.cells["tetra"]].all(axis=1)
+    assert whole.sum() > 1000
+    for number, nodes in zip(
+        mesh.cell_ids["tetra"][whole].tolist(), mesh.node_ids[mesh.cells["tetra"]][whole].tolist()
+    ):
+        assert cells[number] == nodes
 
 
 @pytest.mark.parametrize("radius", [0.5, 1.0, 2.0, 3.0])

@@ -22,8 +22,8 @@
 namespace femscalpel {
 namespace {
 
-/// Elements over the arc, at least.
-constexpr double fewest_over_arc = 5;
+/// Longest edges over the arc's length; most are shorter by a third after bisection, so that there are four and more.
+constexpr double longest_over_arc = 1 / 3.2;
 constexpr int fillet_attempts = 8;
 
 /// Zero within some distance of an edge, so that everything there is in the band.
@@ -87,7 +87,7 @@ public:
                              },
                              options_.refine.when == RefineFirst::When::to_size
                                  ? options_.refine.size
-                                 : r.path->arc_length() / fewest_over_arc});
+                                 : r.path->arc_length() * longest_over_arc});
         return zones;
     }
 

@@ -252,7 +252,12 @@ FilletCavity::Section FilletCavity::section_at(int corner, std::vector<Face>& fa
     const double step = path_.mean_edge() / 4;
     const double along = section.normal.dot(
         (path_.at(section.s + step, Vec2::Zero()) - path_.at(section.s - step, Vec2::Zero())).normalized());
-    if (std::abs(along) < 0.3) refuse("it meets a face or border at too small an angle", tip);
+    if (std::abs(along) < 0.3)
+        refuse(border
+                   ? "a border of groups, or another surface that is kept, runs along it: to which side new material "
+                     "belongs is open. Round the edge before the groups are made"
+                   : "it runs into the face where it ends at too small an angle",
+               tip);
     if (along < 0) section.normal = -section.normal;
     section.offset = section.normal.dot(tip);
     const double off = 1e-7 * (path_.radius() + path_.length());

@@ -78,6 +78,7 @@ private:
     void add_arc_triangles(const std::vector<int>& node_of, const std::vector<Vec2>& outline,
                            const std::vector<Vec2>& inner, int domain);
     std::vector<Vec2> inner_points(const std::function<double(int)>& from, const std::function<double(int)>& to) const;
+    double spacing_along() const;
     void fill();
     void bend_row_edges();
     void write_section(const Section& section);

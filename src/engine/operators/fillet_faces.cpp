@@ -101,12 +101,17 @@ void FilletCavity::mesh_arcs() {
     if (path_.closed()) mesh_arc(sections_.back(), sections_.front());
 }
 
+/// About that of the nodes on the tangent lines.
+double FilletCavity::spacing_along() const {
+    const double step = path_.arc_length() / divisions_,
+                 mean = path_.length() / (0.5 * static_cast<double>(rows_[0].size() + rows_[1].size() - 2) + 1e-9);
+    return std::clamp(mean, step, 2.5 * step);
+}
+
 /// Points inside an arc's unrolled face, in rows from one side to the other.
 std::vector<Vec2> FilletCavity::inner_points(const std::function<double(int)>& from,
                                              const std::function<double(int)>& to) const {
-    const double step = path_.arc_length() / divisions_;
-    const double mean = path_.length() / (0.5 * static_cast<double>(rows_[0].size() + rows_[1].size() - 2) + 1e-9),
-                 spacing = std::clamp(mean, step, 2 * step);
+    const double step = path_.arc_length() / divisions_, spacing = spacing_along();
     std::vector<Vec2> inner;
     for (int k = 1; k < divisions_; ++k) {
         const double length = to(k) - from(k);
@@ -210,7 +215,14 @@ void FilletCavity::add_arc_triangles(const std::vector<int>& node_of, const std:
     }
     double outwards = 0;
     const std::size_t first = arc_.size();
-    for (const Triangle& t : triangulate(outline, inner)) {
+    // As if nodes were as far apart along the edge as across: then no triangle reaches over several rows, whose chords
+    // would be far off the arc.
+    const double scale = path_.arc_length() / divisions_ / spacing_along();
+    const auto squeezed = [&](std::vector<Vec2> all) {
+        for (Vec2& p : all) p.x() *= scale;
+        return all;
+    };
+    for (const Triangle& t : triangulate(squeezed(outline), squeezed(inner))) {
         const Triangle face{nodes[t[0]], nodes[t[1]], nodes[t[2]]};
         arc_.push_back({face, domain});
         const Vec3 normal = (at(face[1]) - at(face[0])).cross(at(face[2]) - at(face[0]));

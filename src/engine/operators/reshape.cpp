@@ -208,7 +208,7 @@ Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, 
     describe_motion(f, before, edit.numbering().node, rebuilt, false, report);
     warn_of_emptied_groups(before, edit.meaningless(), report);
     report.warnings.insert(report.warnings.end(), f.warnings.begin(), f.warnings.end());
-    report.warnings.insert(report.warnings.end(), edited.deck_warnings.begin(), edited.deck_warnings.end());
+    std::ranges::move(warnings_of(edited.deck, options.strict), std::back_inserter(report.warnings));
     return report;
 }
 
@@ -244,7 +244,7 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     opening.removes = true;
     for (int v = 0; v < f.d.band.size(); ++v)
         if (f.d.band.in_use(v) && leads(f, wall, v)) opening.front_nodes.push_back(v);
-    Edited edited = edit.finish(f, opening, naming, options.strict, watch);
+    Edited edited = edit.finish(f, opening, naming, watch);
     check_crossing(f, wall, edited.rebuilt, motion.parameter);
     add_middles(f, wall, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
     recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
