@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cutting/surface_line.h"
 #include "mesh/quality.h"
 #include "whole_workpiece.h"
 
@@ -92,6 +93,15 @@ TEST(Imprint, FollowsAClosedLineThatTurns) {
 TEST(Imprint, WhatIsOnNoSurfaceIsAnError) {
     Block block;
     EXPECT_THROW(block.imprint({{0.6, 0.7, 9}, {3.3, 2.9, 9}}), QualityError);
+}
+
+TEST(SurfaceLine, BordersInsideTheMaterialAreNoSurface) {
+    const Mesh mesh = checks::two_halves();
+    const Workpiece f = checks::whole_workpiece(mesh, checks::away);
+    int surface = 0;
+    for (int s = 0; s < f.d.band.skin.size(); ++s) surface += is_surface_face(f.d, s);
+    EXPECT_EQ(surface, 6 * 8);
+    EXPECT_EQ(f.d.band.skin.size(), 6 * 8 + 8);
 }
 
 }  // namespace

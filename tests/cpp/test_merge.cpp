@@ -130,6 +130,28 @@ TEST(Seam, IsEdgesOfTheResult) {
     EXPECT_TRUE(seamed.result.mesh.groups.empty());
 }
 
+TEST(Joint, StopsAreAtEndsBendsAndNodes) {
+    MeetingLine line;
+    const std::array<Vec3, 2> normals{Vec3::UnitZ(), Vec3::UnitY()};
+    const auto add = [&](double x, double y, Index mine, Index others) {
+        line.points.push_back({Vec3(x, y, 0), normals, {mine, others}, {1, 1}});
+    };
+    add(0, 0, -1, 3);     // an end
+    add(1, 0, -1, -1);    // a crossing of edges
+    add(2, 0, 4, -1);     // a node of the mesh
+    add(2.1, 0, -1, 5);   // of the addition, near it
+    add(3, 0, -1, -1);    // a bend
+    add(4, 0.3, -1, -1);  // an end
+    Mesh mesh;
+    for (int k = 0; k < 5; ++k) mesh.add_node({k == 4 ? 2.0 : 9.0, 0, 0}, k + 1);
+    const JointLine joint = line_of(line, mesh);
+    ASSERT_EQ(joint.stops.size(), 4u);
+    EXPECT_EQ(joint.stops[1].node, (std::array<Index, 2>{4, 5}));
+    EXPECT_EQ(joint.stops[1].at, Vec3(2, 0, 0));
+    EXPECT_EQ(joint.stops[2].node, (std::array<Index, 2>{-1, -1}));
+    EXPECT_NEAR(ribbon_of(line, 0)->length(), 3 + std::hypot(1, 0.3), 1e-12);
+}
+
 TEST(Merge, ATowerOnABlock) {
     MergeOptions options;
     options.name = "TOWER";

@@ -13,6 +13,7 @@
 #include "cutting/move_wall.h"
 #include "cutting/opening.h"
 #include "cutting/tangent.h"
+#include "deck/carry_over.h"
 #include "groups/opened_areas.h"
 #include "groups/preserve.h"
 #include "mesh/rounding.h"

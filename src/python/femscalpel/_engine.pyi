@@ -310,6 +310,27 @@ def fillet(
 
 def formats() -> list: ...
 
+@overload
+def merge(
+    mesh: Mesh,
+    addition: Mesh,
+    options: Options,
+    keep_addition: bool,
+    tolerance: float | None,
+    prefix: str,
+    join_groups: bool,
+) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def merge(
+    session: Scalpel,
+    addition: Mesh,
+    options: Options,
+    keep_addition: bool,
+    tolerance: float | None,
+    prefix: str,
+    join_groups: bool,
+) -> tuple[Mesh, dict[str, Any]]: ...
+
 def read(path: str | os.PathLike[str]) -> Mesh: ...
 
 def refine(
