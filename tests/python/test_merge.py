@@ -265,6 +265,30 @@ def test_groups_of_both(floor):
     assert min(set(together.cell_ids["triangle"]) - set(floor.cell_ids["triangle"])) > max(floor.cell_ids["triangle"])
 
 
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+def test_a_deck_stays_and_says_what_the_addition_needs(tmp_path, keep):
+    box = grid_box((6, 5, 4), (6.0, 5.0, 4.0))
+    box.add_group("ALL", "element", box.cell_ids["tetra"])
+    box.add_group("FIX", "node", box.node_ids[box.points[:, 2] == 0])
+    fs.write(box, tmp_path / "box.inp")
+    top = box.node_ids[np.linalg.norm(box.points - [3, 3, 4], axis=1).argmin()]
+    with (tmp_path / "box.inp").open("a") as deck:
+        deck.write("*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n")
+        deck.write(f"*STEP\n*STATIC\n*BOUNDARY\nFIX, 1, 3\n*CLOAD\n{top}, 3, 1.\n*END STEP\n")
+    part = SOLIDS["block into"][0]
+    result = fs.merge(fs.read(tmp_path / "box.inp"), part, name="BOSS", keep=keep)
+    words = "\n".join(result.report.warnings)
+    assert "*SOLID SECTION, ELSET=BOSS_ADDED" in words
+    fs.write(result.mesh, tmp_path / "out.inp")
+    text = (tmp_path / "out.inp").read_text()
+    if keep == "mesh":
+        assert f"{top}, 3, 1." in text
+    else:  # the loaded node was inside of what came
+        assert f"node {top}" in words and f"{top}, 3, 1." not in text
+    again = fs.read(tmp_path / "out.inp")
+    assert len(again.groups["BOSS_ADDED"]) == len(result.mesh.groups["BOSS_ADDED"])
+
+
 def test_a_session_and_a_mesh_give_the_same(floor):
     rib = standing((1, 3.3, 0), (8, 0, 0))
     once, session = fs.merge(floor, rib).mesh, fs.Scalpel(floor).merge(rib).mesh

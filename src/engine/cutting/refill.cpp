@@ -269,6 +269,7 @@ private:
     void add_elements(const Filled& filled) {
         std::vector<Vec3> centres;
         std::vector<FamilyIndex> families;
+        std::vector<Index> parents;
         bool second_order = false;
         for (int type = 0; type < cell_type_count; ++type)
             for (const Index c : taken_[type]) {
@@ -276,6 +277,7 @@ private:
                 centres.emplace_back(
                     (mesh_.points[n[0]] + mesh_.points[n[1]] + mesh_.points[n[2]] + mesh_.points[n[3]]) / 4);
                 families.push_back(mesh_.blocks()[type].families[c]);
+                parents.push_back(mesh_.blocks()[type].ids[c]);
                 second_order = second_order || traits(mesh_.blocks()[type].type).quadratic;
             }
         std::vector<int> objects(centres.size());
@@ -298,7 +300,9 @@ private:
             if (second_order)
                 for (const auto& e : traits(CellType::tetra10).edges) nodes.push_back(middle(nodes[e[0]], nodes[e[1]]));
             const CellType type = second_order ? CellType::tetra10 : CellType::tetra;
+            out_.changes.parts.push_back({number_.cell, parents[nearest.best]});
             const Index cell = out_.mesh.add_cell(type, nodes, number_.cell++, families[nearest.best]);
+            out_.added.push_back({type, cell});
             for (int f = 0; f < 4; ++f) {
                 const auto& o = outward_faces[f];
                 filled_faces_[sorted({nodes[o[0]], nodes[o[1]], nodes[o[2]]})] = {type, cell};

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mesh/changes.h"
 #include "mesh/surface.h"
 
 namespace femscalpel {
@@ -14,6 +15,8 @@ struct Refilled {
     Index taken = 0;             ///< tetrahedra that were taken out
     Index filled = 0;            ///< tetrahedra that were filled in
     double worst = 1;            ///< smallest mean ratio of these
+    std::vector<CellRef> added;  ///< these
+    Changes changes;             ///< which element taken out was nearest to each
 };
 
 /// Fits a solid to a part of the skin of another: takes out its tetrahedra that reach there, or inside the other, and

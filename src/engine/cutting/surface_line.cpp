@@ -67,17 +67,11 @@ std::vector<int> line_nodes(const Workpiece& f, const ImprintLine& line, const s
     return out;
 }
 
-bool SurfaceLine::is_surface(int skin) const {
-    return is_surface_face(d_, skin);
-}
+bool SurfaceLine::is_surface(int skin) const { return is_surface_face(d_, skin); }
 
-const Vec3& SurfaceLine::at(int v) const {
-    return band_.nodes[v].at;
-}
+const Vec3& SurfaceLine::at(int v) const { return band_.nodes[v].at; }
 
-double SurfaceLine::length(int a, int b) const {
-    return (at(a) - at(b)).norm();
-}
+double SurfaceLine::length(int a, int b) const { return (at(a) - at(b)).norm(); }
 
 double SurfaceLine::surface_edge(int v) const {
     double sum = 0;
@@ -93,9 +87,7 @@ double SurfaceLine::surface_edge(int v) const {
     return count ? sum / count : band_.mean_edge_length(v);
 }
 
-const Vec3& SurfaceLine::wanted(std::size_t stop) const {
-    return line_.places[stop];
-}
+const Vec3& SurfaceLine::wanted(std::size_t stop) const { return line_.places[stop]; }
 
 void SurfaceLine::hold(int v, std::size_t stop) {
     const Ribbon::Foot foot = ribbon_.foot(wanted(stop));
@@ -108,9 +100,7 @@ void SurfaceLine::hold(int v, std::size_t stop) {
     if (static_cast<std::size_t>(v) < value_.size()) value_[v] = 0;
 }
 
-bool SurfaceLine::is_held(int v) const {
-    return d_.constraints[v].freedom == NodeFreedom::fixed;
-}
+bool SurfaceLine::is_held(int v) const { return d_.constraints[v].freedom == NodeFreedom::fixed; }
 
 bool SurfaceLine::move(int v, Vec3 target, double enough, double close) {
     BandNode& node = band_.nodes[v];
@@ -120,8 +110,7 @@ bool SurfaceLine::move(int v, Vec3 target, double enough, double close) {
     if (exact_) target = asked;
     if ((target - node.start).norm() > d_.constraints.leash(v)) return false;
     const double before = quality_around(d_, v, node.at), after = quality_around(d_, v, target);
-    if (!(after >= std::min(enough, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target))
-        return false;
+    if (!(after >= std::min(enough, before / 4)) || !(after > 0) || !keeps_curved_shape(d_, v, target)) return false;
     node.at = target;
     return true;
 }
@@ -184,8 +173,7 @@ bool SurfaceLine::carries_line(int s) const {
 
 bool SurfaceLine::lies_there(int s) const {
     const auto& n = band_.skin[s];
-    const Vec3 middle = (at(n[0]) + at(n[1]) + at(n[2])) / 3,
-               normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
+    const Vec3 middle = (at(n[0]) + at(n[1]) + at(n[2])) / 3, normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
     const double size = std::sqrt(normal.norm());
     const Ribbon::Foot foot = ribbon_.foot(middle);
     if (std::abs(normal.dot(foot.standing)) < lying * normal.norm()) return false;
@@ -239,8 +227,8 @@ std::vector<std::pair<int, int>> SurfaceLine::crossing_edges() const {
 
 Vec3 SurfaceLine::crossing(int a, int b) const {
     const auto point = [&](double t) { return d_.along_edge(a, b, t); };
-    return point(root_between(value_[a], value_[b], 1e-3 * f_.tolerance,
-                              [&](double t) { return ribbon_.distance(point(t)); }));
+    return point(
+        root_between(value_[a], value_[b], 1e-3 * f_.tolerance, [&](double t) { return ribbon_.distance(point(t)); }));
 }
 
 }  // namespace femscalpel

@@ -12,8 +12,8 @@ namespace femscalpel {
 /// Whether a face of BandMesh::skin is one of the surface, not of a border inside the material.
 bool is_surface_face(const Deformable& d, int skin);
 
-/// The nodes on a line, along it; `at_stop` as Workpiece::at_stop. Throws QualityError when two in a row are not joined by
-/// an edge of the surface.
+/// The nodes on a line, along it; `at_stop` as Workpiece::at_stop. Throws QualityError when two in a row are not joined
+/// by an edge of the surface.
 std::vector<int> line_nodes(const Workpiece& f, const ImprintLine& line, const std::vector<int>& at_stop);
 
 /// A line on the surface of a workpiece, as far as it has become nodes: what Imprint works with.

@@ -33,8 +33,8 @@ struct JointLine {
 /// The ribbon through a meeting's points, on the surface of mesh m (0 or 1).
 std::unique_ptr<Ribbon> ribbon_of(const MeetingLine& meeting, std::size_t m);
 
-/// A line of a meeting, with stops at its ends, where it bends, and where one of the meshes has a node; of places that are
-/// nearer to each other than edges there should be, one. `mesh`: the first.
+/// A line of a meeting, with stops at its ends, where it bends, and where one of the meshes has a node; of places that
+/// are nearer to each other than edges there should be, one. `mesh`: the first.
 JointLine line_of(const MeetingLine& meeting, const Mesh& mesh);
 
 /// Two meshes that are given the same edges and nodes along lines: each by turns, with the nodes the other has there.
@@ -43,8 +43,8 @@ public:
     /// All must outlive this.
     Joint(const Mesh& mesh, const Mesh& addition, std::vector<JointLine> lines, const OperatorOptions& options);
 
-    /// Does it. `known` is what is known of the mesh. Throws as imprint_seam() does, and QualityError when the two come to
-    /// no end.
+    /// Does it. `known` is what is known of the mesh. Throws as imprint_seam() does, and QualityError when the two come
+    /// to no end.
     void run(const Prepared& known);
 
     /// The mesh (0) and the addition (1), once done.

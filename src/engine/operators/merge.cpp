@@ -11,6 +11,9 @@
 #include "cutting/covered_faces.h"
 #include "cutting/meeting.h"
 #include "cutting/refill.h"
+#include "deck/carry_over.h"
+#include "deck/mark_deck.h"
+#include "deck/solver_input.h"
 #include "mesh/band_mesh.h"
 #include "mesh/order.h"
 #include "mesh/surface.h"
@@ -141,10 +144,10 @@ Report report_of(const Mesh& input, Joint& joint, const Mesh& result, Index shar
     return out;
 }
 
-/// The two as one mesh, and the nodes of it that both had.
+/// The two as one mesh.
 struct United {
     Mesh mesh;
-    std::vector<Index> seam;
+    std::vector<std::string> warnings;  ///< of the solver's input
 };
 
 UniteNames names_of(const MergeOptions& options) {
@@ -162,10 +165,7 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
     United out{std::move(joint.mesh(0)), {}};
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (const JointLine& line : joint.lines())
-        for (const JointLine::Stop& stop : line.stops) {
-            shared[stop.node[1]] = stop.node[0];
-            out.seam.push_back(stop.node[0]);
-        }
+        for (const JointLine::Stop& stop : line.stops) shared[stop.node[1]] = stop.node[0];
     unite(out.mesh, joint.mesh(1), shared, add_group_added(out.mesh, options), names_of(options));
     return out;
 }
@@ -188,21 +188,67 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         return covered_faces(joint.mesh(m), joint.mesh(1 - m), outline[m], close);
     };
     const std::vector<SurfaceFace> cover = covered(base);
-    Refilled refilled = refill(joint.mesh(fitted), joint.mesh(base), partner, covered(fitted), cover);
     United out;
     if (fitted == 1) {
+        const Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
         out.mesh = std::move(joint.mesh(0));
         unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
-        for (const SurfaceFace& f : cover) out.seam.insert(out.seam.end(), f.nodes.begin(), f.nodes.end());
         return out;
     }
+    const DeckMarks marks = mark_deck(joint.mesh(0));
+    const Mesh& input = marks.mesh ? *marks.mesh : joint.mesh(0);
+    Refilled refilled = refill(input, joint.mesh(1), partner, covered(0), cover);
+    if (!marks.surface_sets.empty())
+        renew_surface_sets(refilled.mesh, marks.surface_sets, *solver_input(input), refilled.added);
+    out.warnings = warnings_of(carry_deck(input, refilled.mesh, refilled.changes), options.strict);
+    remove_marks(refilled.mesh);
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (Index n = 0; n < refilled.mesh.node_count(); ++n)
         if (refilled.partner[n] >= 0) shared[refilled.partner[n]] = n;
     out.mesh = std::move(refilled.mesh);
     unite(out.mesh, joint.mesh(1), shared, add_group_added(out.mesh, options), names_of(options));
-    for (const SurfaceFace& f : cover)
-        for (const Index n : f.nodes) out.seam.push_back(shared[n]);
+    return out;
+}
+
+/// What a deck needs for the addition, unless all its elements joined groups that the mesh had.
+void warn_of_sections(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report) {
+    if (!solver_input(mesh)) return;
+    const GroupIndex group = *result.find_group(added, GroupKind::element);
+    int dimension = 0;
+    Index without = 0;
+    for (const CellBlock& b : result.blocks())
+        for (const FamilyIndex f : b.families) {
+            const auto groups = result.families.groups(f);
+            if (traits(b.type).dimension < 2 || std::ranges::find(groups, group) == groups.end()) continue;
+            dimension = std::max(dimension, traits(b.type).dimension);
+            without += std::ranges::none_of(groups, [&](GroupIndex g) {
+                return static_cast<std::size_t>(g) < mesh.groups.size() && !result.groups[g].hidden;
+            });
+        }
+    if (without == 0) return;
+    report.warnings.push_back(
+        "the deck has no section for the " + std::to_string(without) + " elements of '" + added + "': add the card" +
+        (dimension == 3
+             ? " *SOLID SECTION, ELSET=" + added + ", MATERIAL=(its material)"
+             : " *SHELL SECTION, ELSET=" + added + ", MATERIAL=(its material), and a line with the thickness") +
+        ", after the material's");
+}
+
+/// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
+std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
+    const GroupIndex added = *mesh.find_group(name, GroupKind::element);
+    std::vector<char> in_added(mesh.points.size(), 0), in_others(mesh.points.size(), 0);
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension < 2) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto groups = mesh.families.groups(b.families[c]);
+            std::vector<char>& in = std::ranges::find(groups, added) != groups.end() ? in_added : in_others;
+            for (const Index n : b.nodes(c)) in[n] = 1;
+        }
+    }
+    std::vector<Index> out;
+    for (Index n = 0; n < mesh.node_count(); ++n)
+        if (in_added[n] && in_others[n]) out.push_back(n);
     return out;
 }
 
@@ -224,14 +270,6 @@ void check_seam(const Mesh& mesh, const std::vector<Index>& seam) {
             }
         }
     }
-}
-
-void name_seam(Mesh& mesh, std::vector<Index>& seam, const std::string& name) {
-    std::ranges::sort(seam);
-    const auto [rest, end] = std::ranges::unique(seam);
-    seam.erase(rest, end);
-    const GroupIndex group = mesh.add_group(name, GroupKind::node);
-    for (const Index n : seam) mesh.node_families[n] = mesh.families.with(mesh.node_families[n], group);
 }
 
 }  // namespace
@@ -259,9 +297,13 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     United united = solids ? unite_solids(joint, meeting.tolerance, options) : unite_shells(joint, options);
     Result out;
     out.mesh = std::move(united.mesh);
-    name_seam(out.mesh, united.seam, options.name + "_SEAM");
-    if (solids) check_seam(out.mesh, united.seam);
-    out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(united.seam.size()));
+    const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
+    if (solids) check_seam(out.mesh, seam);
+    const GroupIndex group = out.mesh.add_group(options.name + "_SEAM", GroupKind::node);
+    for (const Index n : seam) out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], group);
+    out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
+    std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
+    warn_of_sections(mesh, out.mesh, options.name + "_ADDED", out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
 }
