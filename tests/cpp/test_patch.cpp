@@ -123,7 +123,7 @@ TEST(CylinderPart, EndsAlongTheAxisAndAround) {
         for (const int side : c.sides) EXPECT_NEAR(part.sides[side]->distance(c.at), 0, 1e-12);
     }
     expect_error([] { CylinderPart(0, 1).on(plane); }, "a cylinder part lies on a cylinder, but the tool is a plane");
-    expect_error([] { CylinderPart(1, 1); }, "low must be less than high");
+    expect_error([] { CylinderPart(1, 1); }, "along must go from one place to another");
     expect_error([] { CylinderPart(0, 1, CylinderPart::Angles{0, 360, {1, 0, 0}}); }, "less than 360 degrees");
 }
 

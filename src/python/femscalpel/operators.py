@@ -162,7 +162,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], depth: Optional[float]
 
 
 @takes_options("FILLET", after={"radius": "along"})
-def fillet(mesh: Mesh, along, radius: float, *, options) -> Result:
+def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *, options) -> Result:
     """Rounds edges of a part.
 
     The new face is that of a ball which rolls along the edge and touches the faces on both sides: convex edges lose
