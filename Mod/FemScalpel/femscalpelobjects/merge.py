@@ -11,6 +11,11 @@ from .mesh_parts import nodes_in_box, without_skin_elements
 KEEPS = ("mesh", "addition")
 
 
+def as_added(addition, source):
+    """What of a femscalpel.Mesh is added to a Fem.FemMesh; see Merge."""
+    return without_skin_elements(addition) if source.VolumeCount and not source.FaceCount else addition
+
+
 class Merge(MeshOperation):
     """Proxy of a Fem::FemMeshObjectPython that holds its Source's mesh and its Addition's, joined where they meet.
 
@@ -45,7 +50,10 @@ class Merge(MeshOperation):
         *operator_options.inputs(
             "feature_angle",
             "group_name",
-            GroupName=("Prefix of the new groups: NAME_SEAM, the nodes both share, and NAME_ADDED, the elements", "ADD"),
+            GroupName=(
+                "Prefix of the new groups: NAME_SEAM, the nodes both share, and NAME_ADDED, the elements",
+                "ADD",
+            ),
         ),
     )
 
@@ -59,9 +67,7 @@ class Merge(MeshOperation):
     def operate(self, obj, mesh, tools):
         if obj.Addition == obj.Source:
             raise ValueError("Addition and Source are the same mesh; choose another mesh to add")
-        addition = femmesh_bridge.from_femmesh(self.mesh_of(obj, "Addition"))
-        if obj.Source.FemMesh.VolumeCount and not obj.Source.FemMesh.FaceCount:
-            addition = without_skin_elements(addition)
+        addition = as_added(femmesh_bridge.from_femmesh(self.mesh_of(obj, "Addition")), obj.Source.FemMesh)
         return femscalpel.merge(
             mesh,
             addition,

@@ -140,7 +140,9 @@ class Merge(MaterialTest):
     def test_addition_of_another_object_of_ours(self):
         holed = ObjectsFemScalpel.makeDrill(self.doc, self.addition, origin=(3, 2.5, 6), axis=(0, 0, -1), radius=0.4)
         merge = ObjectsFemScalpel.makeMerge(self.doc, self.source, holed)
-        drill = ObjectsFemScalpel.makeDrill(self.doc, merge, origin=(1, 1, 4), axis=(0, 0, -1), radius=0.5, group_name="BORE")
+        drill = ObjectsFemScalpel.makeDrill(
+            self.doc, merge, origin=(1, 1, 4), axis=(0, 0, -1), radius=0.5, group_name="BORE"
+        )
         through = 120 - volume(self.made(drill))
         self.assertIn("HOLE_WALL", self.made(merge).groups)
         holed.Radius = 0.6
@@ -391,9 +393,7 @@ class Reshape(MaterialTest):
         by = ObjectsFemScalpel.makeReshape(
             self.doc, self.source, "END", by=(-0.4, 0, 0), group_name="WALL", feature_angle=25, preserve=["LEFT"]
         )
-        self.check(
-            by, fs.reshape(self.mesh, "END", by=(-0.4, 0, 0), name="WALL", feature_angle=25, preserve=["LEFT"])
-        )
+        self.check(by, fs.reshape(self.mesh, "END", by=(-0.4, 0, 0), name="WALL", feature_angle=25, preserve=["LEFT"]))
         scale = ObjectsFemScalpel.makeReshape(self.doc, self.source, "END", scale=(1.1, (0, 0, 0)))
         self.check(scale, fs.reshape(self.mesh, "END", scale=(1.1, (0, 0, 0))))
         scale.Motion, scale.MoveBy = "By", (0.3, 0, 0)
