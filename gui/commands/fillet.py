@@ -14,8 +14,7 @@ class Fillet(Command):
         "FemScalpel",
         "Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the "
         "edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The "
-        "faces of the "
-        "rounding become a group, and the groups beside it keep to their sides.",
+        "faces of the rounding become a group, and the groups beside it keep to their sides.",
     )
     ACCEL = "S, F"
     PANEL = FilletPanel

@@ -18,8 +18,7 @@ class Merge(Command):
         "Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two "
         "touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one "
         "of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both "
-        "stay, and what was added "
-        "and where it is joined become groups.",
+        "stay, and what was added and where it is joined become groups.",
     )
     ACCEL = "S, M"
 

@@ -14,8 +14,8 @@ class Reshape(Command):
         "FemScalpel",
         "Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, "
         "or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The "
-        "elements around "
-        "follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.",
+        "elements around follow as far as needed and are divided or merged where they would get poor. All groups "
+        "keep their meaning.",
     )
     ACCEL = "S, W"
     PANEL = ReshapePanel

@@ -7,7 +7,8 @@ import numpy as np
 
 from femscalpel.mesh import CELL_TYPES
 
-_CLOSE = 1e-3  # how far nodes may be off a surface that is taken for theirs, as a part of its size
+# How far nodes may be off a plane that is taken for theirs, and off a round surface, as a part of its size.
+_CLOSE, _FAR = 1e-3, 0.03
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,7 @@ class Fit:
     def __post_init__(self):
         for name in ("origin", "direction"):
             object.__setattr__(self, name, np.round(getattr(self, name), 12) + 0.0)  # no -0
+        object.__setattr__(self, "radius", round(float(self.radius), 12))
 
 
 def walls(mesh):
@@ -105,20 +107,24 @@ def _centre(points):
 
 
 def _cylinder(points, axis):
-    """The cylinder nearest to points, from a first guess of its axis on: Gauss-Newton's method."""
+    """The cylinder nearest to points, from a first guess of its axis on: Gauss-Newton's method, in the end with the
+    nearer points only."""
     across = np.linalg.svd(axis[None, :])[2][1:]
     centre = _centre(points @ across.T) @ across + axis * (points @ axis).mean()
-    for _ in range(20):
+    near = np.ones(len(points), bool)
+    for turn in range(30):
         x, y = ((points - centre) @ across.T).T
         z, distance = (points - centre) @ axis, np.hypot(x, y)
-        radius = distance.mean()
+        radius = distance[near].mean()
+        if turn > 10:
+            near = _nearer(distance, radius)
         slopes = np.column_stack([-x, -y, -x * z, -y * z, -distance]) / distance[:, None]
-        step = np.linalg.lstsq(slopes, radius - distance, rcond=None)[0]
+        step = np.linalg.lstsq(slopes[near], (radius - distance)[near], rcond=None)[0]
         centre = centre + step[:2] @ across
         axis = axis + step[2:4] @ across
         axis = axis / np.linalg.norm(axis)
         across = np.linalg.svd(axis[None, :])[2][1:]
-    if np.abs(distance - radius).max() > _CLOSE * radius:
+    if np.abs(distance - radius).max() > _FAR * min(radius, np.ptp(points, axis=0).max()):
         return None
     axis = _upright(axis)
     along = (points - centre) @ axis
@@ -126,12 +132,22 @@ def _cylinder(points, axis):
 
 
 def _sphere(points):
-    centre = _centre(points)
-    distance = np.linalg.norm(points - centre, axis=1)
-    radius = distance.mean()
-    if np.abs(distance - radius).max() > _CLOSE * radius:
+    near = np.ones(len(points), bool)
+    for _ in range(10):
+        centre = _centre(points[near])
+        distance = np.linalg.norm(points - centre, axis=1)
+        radius = distance[near].mean()
+        near = _nearer(distance, radius)
+    if np.abs(distance - radius).max() > _FAR * min(radius, np.ptp(points, axis=0).max()):
         return None
     return Fit("Sphere", centre, np.array((0.0, 0.0, 1.0)), radius)
+
+
+def _nearer(distance, radius):
+    """Boolean array: points that are not off the surface by much more than most; operators may have moved a few on the
+    skin's triangles, which are inside or outside it."""
+    off = np.abs(distance - radius)
+    return off <= max(3 * np.median(off), 1e-9 * radius)
 
 
 def _upright(axis):
