@@ -176,8 +176,8 @@ class Fillet(MaterialTest):
 
     def source(self):
         mesh = super().source()
-        for name in ("LEFT", "RIGHT", "CORE"):  # an edge between groups is not rounded
-            mesh.remove_group(name, "element")
+        for group in list(mesh.groups.all()):  # an edge between groups is not rounded
+            mesh.remove_group(group.name, group.kind)
         points = mesh.points
         mesh.add_group("SPOT", "node", mesh.node_ids[(points == (7, 2.5, 4)).all(axis=1)])
         mesh.add_group("EDGE", "node", mesh.node_ids[(points[:, 0] == 14) & (points[:, 2] == 4)])
