@@ -220,6 +220,27 @@ class Merge(MaterialTest):
         mesh = self.made(merge)
         self.assertAlmostEqual(volume(mesh), 123, places=7)
         self.assertEqual(set(mesh.cells), {"tetra"})  # the source's order, and its lack of face elements
+        top = next(face for face in part.Shape.Faces if face.CenterOfMass.z == 5)
+        there = mesh.node_ids[np.abs(mesh.points[:, 2] - 5) < 1e-9].tolist()
+        self.assertGreater(len(there), 4)
+        self.assertEqual(set(merge.FemMesh.getNodesByFace(top)), set(there))
+
+    def test_geometry_is_still_found(self):
+        part = self.doc.addObject("Part::Box", "Block")
+        part.Length, part.Width, part.Height = 6, 5, 4
+        self.doc.recompute()
+        self.source.addProperty("App::PropertyLink", "Part")
+        self.source.Part = part
+        self.addition.Placement = place(1.2, 1.4, 4)
+        merge = ObjectsFemScalpel.makeMerge(self.doc, self.source, self.addition)
+        mesh = self.made(merge)
+        self.assertEqual((merge.Part, merge.OffShape), (part, []))
+        self.assertFalse(any("FemScalpel:" in name for name in mesh.groups))
+        for face in part.Shape.Faces:
+            normal, middle = face.normalAt(0, 0), face.CenterOfMass
+            there = np.abs((mesh.points - np.array(middle)) @ np.array(normal)) < 1e-9
+            there &= (mesh.points > -1e-9).all(axis=1) & (mesh.points < (6 + 1e-9, 5 + 1e-9, 4 + 1e-9)).all(axis=1)
+            self.assertEqual(set(merge.FemMesh.getNodesByFace(face)), set(mesh.node_ids[there].tolist()))
 
     def test_impossible_additions_are_told(self):
         merge = ObjectsFemScalpel.makeMerge(self.doc, self.source, self.addition)
