@@ -23,10 +23,9 @@ from femscalpelobjects.cylindrical_crack import CylindricalCrack
 from femscalpelobjects.drill import Drill
 from femscalpelobjects.example import open_example
 from femscalpelobjects.group_names import rename_group
+from femscalpelobjects.make_material import makeFillet, makeMerge, makeReshape  # noqa: F401
+from femscalpelobjects.making import check_source, make, make_along_tool, placement_of
 from femscalpelobjects.refine import Refine
-
-if FreeCAD.GuiUp:
-    from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
 
 
 @takes(
@@ -86,14 +85,14 @@ def makeCrack(
         `source` is not a FEM mesh object of `doc`, the plane is given twice or has a zero normal, or an option is
         not one the property takes. Nothing is added then.
     """
-    _check_source(doc, source)
-    return _make(
+    check_source(doc, source)
+    return make(
         doc,
         Crack,
         source,
         name,
         options,
-        PlanePlacement=_placement(source, placement, origin, normal, "normal"),
+        PlanePlacement=placement_of(source, placement, origin, normal, "normal"),
         Patch=patch,
         PatchRadius=patch_radius,
         PatchSecondRadius=patch_second_radius,
@@ -140,10 +139,10 @@ def makeCylindricalCrack(
 
     Returns and raises as makeCrack().
     """
-    _check_source(doc, source)
-    placement = _placement(source, placement, origin, axis, "axis")
+    check_source(doc, source)
+    placement = placement_of(source, placement, origin, axis, "axis")
     low, high = (0, 1) if along is None else along
-    return _make(
+    return make(
         doc,
         CylindricalCrack,
         source,
@@ -186,7 +185,7 @@ def makeCurvedCrack(
 
     Returns and raises as makeCrack().
     """
-    return _make_along_tool(doc, CurvedCrack, source, name, tool, (placement, origin, axis), inputs, options)
+    return make_along_tool(doc, CurvedCrack, source, name, tool, (placement, origin, axis), inputs, options)
 
 
 @takes(options=operator_options.arguments(group_name="HOLE"))
@@ -225,14 +224,14 @@ def makeDrill(
 
     Returns and raises as makeCrack().
     """
-    _check_source(doc, source)
-    return _make(
+    check_source(doc, source)
+    return make(
         doc,
         Drill,
         source,
         name,
         options,
-        AxisPlacement=_placement(source, placement, origin, axis, "axis"),
+        AxisPlacement=placement_of(source, placement, origin, axis, "axis"),
         Radius=radius,
         Positions=[FreeCAD.Vector(*p) for p in positions],
         Through=depth is None,
@@ -274,14 +273,14 @@ def makeCut(
 
     Returns and raises as makeCrack().
     """
-    _check_source(doc, source)
-    return _make(
+    check_source(doc, source)
+    return make(
         doc,
         Cut,
         source,
         name,
         options,
-        PlanePlacement=_placement(source, placement, origin, normal, "normal"),
+        PlanePlacement=placement_of(source, placement, origin, normal, "normal"),
         Width=width,
         Through=bottom is None,
         BottomPlacement=bottom or FreeCAD.Placement(),
@@ -330,7 +329,7 @@ def makeRefine(
 
     Returns and raises as makeCrack().
     """
-    return _make_along_tool(
+    return make_along_tool(
         doc,
         Refine,
         source,
@@ -350,8 +349,8 @@ def putIntoAnalysis(obj, strict=True):
 
     A FreeCAD analysis solves the one mesh it contains. Loads, supports and materials need no change: FreeCAD finds
     their nodes by mesh group, or by geometry, on which FemScalpel keeps the nodes. For a crack of a crack, the last
-    mesh of the chain that is in an analysis is replaced. Results of the old mesh are removed, or, if FreeCAD's
-    preference is to keep results, renamed. All this is one step to undo.
+    mesh of the chain that is in an analysis is replaced; meshes that were added to it leave the analysis, too. Results
+    of the old mesh are removed, or, if FreeCAD's preference is to keep results, renamed. All this is one step to undo.
 
     Raises ValueError, and changes nothing, when there is no such analysis, when `obj` has an error, and, with `strict`,
     when FreeCAD would not find all nodes a load, support or material is meant for; the message says where. With
@@ -394,57 +393,3 @@ def openExample():
     Raises FileNotFoundError when the workbench was built without it.
     """
     return open_example()
-
-
-def _check_source(doc, source):
-    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
-        raise TypeError("source must be a FEM mesh object (Fem::FemMeshObject)")
-    if source.Document != doc:
-        raise ValueError(f"source '{source.Label}' is in another document")
-
-
-def _make_along_tool(doc, operation, source, name, tool, place, inputs, options, **properties):
-    """As _make(), of an operation with any tool: `tool` at the `place` (placement, origin, axis) with `inputs`."""
-    _check_source(doc, source)
-    return _make(
-        doc,
-        operation,
-        source,
-        name,
-        options,
-        ToolShape=tool,
-        AxisPlacement=_placement(source, *place, "axis"),
-        **tool_properties.to_properties(inputs),
-        **properties,
-    )
-
-
-def _make(doc, operation, source, name, options, **properties):
-    """The new object; nothing is left behind when a property does not take its value."""
-    properties = {**properties, **operator_options.to_properties(options)}
-    obj = doc.addObject("Fem::FemMeshObjectPython", name)
-    try:
-        operation(obj)
-        for key, value in properties.items():
-            setattr(obj, key, value)
-        obj.Source = source
-    except Exception:
-        doc.removeObject(obj.Name)
-        raise
-    if FreeCAD.GuiUp:
-        ViewProviderMeshOperation(obj.ViewObject)
-    return obj
-
-
-def _placement(source, placement, origin, direction, name):
-    """`placement`, or one whose z axis is `direction` through `origin`; `name` is what the caller calls the
-    direction."""
-    if placement is not None:
-        if origin is not None or direction is not None:
-            raise ValueError(f"give placement, or origin and {name}, not both")
-        return FreeCAD.Placement(placement)
-    base = source.FemMesh.BoundBox.Center if origin is None else FreeCAD.Vector(*origin)
-    direction = FreeCAD.Vector(0, 0, 1) if direction is None else FreeCAD.Vector(*direction)
-    if not direction.Length > 0:
-        raise ValueError(f"{name} is the zero vector; give a direction")
-    return FreeCAD.Placement(base, FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), direction))

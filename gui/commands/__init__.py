@@ -8,13 +8,29 @@ from .cylindrical_crack import CylindricalCrack
 from .drill import Drill
 from .example import Example
 from .export import Export
+from .fillet import Fillet
 from .group_inspector import GroupInspector
 from .incision import Incision
+from .merge import Merge
 from .mesh_quality import MeshQuality
 from .refine import Refine
+from .reshape import Reshape
 
 #: In the order of menu and toolbar; None is a separator.
-COMMANDS = (Crack, CylindricalCrack, Drill, Incision, Refine, None, GroupInspector, MeshQuality, Export)
+COMMANDS = (
+    Crack,
+    CylindricalCrack,
+    Drill,
+    Incision,
+    Merge,
+    Fillet,
+    Reshape,
+    Refine,
+    None,
+    GroupInspector,
+    MeshQuality,
+    Export,
+)
 #: In the menu alone, after the others.
 IN_MENU = (None, Example)
 

@@ -5,6 +5,8 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
+from femscalpelobjects.ours import made_of
+
 from ..translate import icon, translate
 
 
@@ -17,10 +19,10 @@ def is_mesh(obj):
     return obj.isDerivedFrom("Fem::FemMeshObject")
 
 
-def find_mesh():
+def find_mesh(selected=None):
     """The mesh object the user means: the selected one, that of the selected or active analysis, or the only one.
 
-    Raises Unusable.
+    `selected`: in place of what is selected. Raises Unusable.
     """
     document = FreeCAD.ActiveDocument
     if document is None:
@@ -32,7 +34,8 @@ def find_mesh():
                 "FemScalpel", "The document has no FEM mesh. Make one in the FEM workbench, or import a mesh file."
             )
         )
-    selected = FreeCADGui.Selection.getSelection(document.Name)
+    if selected is None:
+        selected = FreeCADGui.Selection.getSelection(document.Name)
     chosen = [o for o in selected if is_mesh(o)]
     for analysis in (o for o in selected if o.isDerivedFrom("Fem::FemAnalysis")):
         chosen += [o for o in analysis.Group if is_mesh(o)]
@@ -46,7 +49,7 @@ def find_mesh():
         )
     if not chosen and len(meshes) > 1:
         # A chain of operations counts as its last link.
-        ends = [m for m in meshes if not any(getattr(o, "Source", None) == m for o in meshes)]
+        ends = [m for m in meshes if not any(m in made_of(o) for o in meshes)]
         if len(ends) > 1:
             raise Unusable(
                 translate("FemScalpel", "The document has %1 FEM meshes. Select the one you mean in the tree.").replace(

@@ -5,7 +5,7 @@ from ..translate import translate
 from ..view import picking
 from ..view.handles import AxisHandles
 from . import fields
-from .geometry_input import GeometryInput, _round_step
+from .geometry_input import GeometryInput
 
 
 class AxisInput(GeometryInput):
@@ -17,8 +17,8 @@ class AxisInput(GeometryInput):
     def __init__(self, source_object):
         self._radius = None
         super().__init__(source_object)
-        step = _round_step(self.size / 50)
-        self._radius = fields.Number(self.form.radius, self._tell, _round_step(self.size / 10), step)
+        step = fields.round_step(self.size / 50)
+        self._radius = fields.Number(self.form.radius, self._tell, fields.round_step(self.size / 10), step)
 
     def radius(self):
         return self._radius.value if self._radius is not None else 0.0

@@ -37,3 +37,11 @@ def show_error(label, text):
     """Shows `text` in a message label, or hides it when there is none."""
     label.setText(text or "")
     label.setVisible(bool(text))
+
+
+def round_step(length):
+    """1, 2 or 5 times a power of ten, at most `length`."""
+    power = 10.0 ** len(str(int(length))) / 10 if length >= 1 else 1.0
+    while power > length > 0:
+        power /= 10
+    return next((k * power for k in (5, 2, 1) if k * power <= length), power)

@@ -5,39 +5,28 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore
 
-from ..translate import form, translate
+from ..translate import translate
 from ..view import picking
 from . import fields
+from .panel_input import PanelInput
 
 
-class GeometryInput(QtCore.QObject):
-    """A form with a point and a direction. `changed` comes with every new position, also while a handle is dragged;
-    `picked(Picked)` after it when the position was picked; `picking_changed(bool)` when clicks in the 3-D view begin or
-    stop to mean something."""
+class GeometryInput(PanelInput):
+    """A form with a point and a direction. `changed` comes also while a handle is dragged; `picked(Picked)` after it
+    when the position was picked."""
 
-    changed = QtCore.Signal()
     picked = QtCore.Signal(object)
-    picking_changed = QtCore.Signal(bool)
 
-    UI = ""
     NODES = 3  # how many mesh nodes say the geometry
 
     def __init__(self, source_object):
-        super().__init__()
-        self.form = FreeCADGui.PySideUic.loadUi(form(self.UI))
-        self.source_object = source_object
-        self.source = None  # PreviewSource, once it is there
+        super().__init__(source_object)
         self.handles = None
-        self._observer = None
-        box = source_object.FemMesh.BoundBox
-        self.centre = box.Center
-        self.size = box.DiagonalLength
-        self.form.hint.hide()
-        step = _round_step(self.size / 50)
+        self.buttons = {"nodes": self.form.pickNodes, "geometry": self.form.pickGeometry}
+        step = fields.round_step(self.size / 50)
         self._point = [fields.Number(getattr(self.form, "origin" + n), self._tell, step=step) for n in "XYZ"]
         self._direction = [fields.Number(getattr(self.form, "normal" + n), self._tell, step=0.1) for n in "XYZ"]
-        self.form.pickNodes.clicked.connect(lambda on: self._start("nodes") if on else self.stop_picking())
-        self.form.pickGeometry.clicked.connect(lambda on: self._start("geometry") if on else self.stop_picking())
+        self._connect_buttons()
         self.form.pickView.clicked.connect(self._take_view)
         self.form.centre.clicked.connect(lambda: self.set_pose(self.centre, self.direction()))
         self.set_pose(self.centre, FreeCAD.Vector(1, 0, 0))
@@ -90,10 +79,6 @@ class GeometryInput(QtCore.QObject):
             return translate("FemScalpel", "The direction is zero. Give one, or pick it from the 3-D view.")
         return ""
 
-    def show_error(self, text):
-        """Shows a message under the numbers."""
-        fields.show_error(self.form.geometryError, text)
-
     # Handles.
 
     def add_handles(self, view):
@@ -110,34 +95,10 @@ class GeometryInput(QtCore.QObject):
     # Picking.
 
     def _start(self, kind):
-        self.stop_picking()
-        (self.form.pickNodes if kind == "nodes" else self.form.pickGeometry).setChecked(True)
-        FreeCADGui.Selection.clearSelection()
         self._nodes = {}
-        self._observer = _Observer(kind, self._clicked)
-        FreeCADGui.Selection.addObserver(self._observer)
-        self._hint(self._ask(kind, 0))
-        self.picking_changed.emit(True)
+        super()._start(kind)
 
-    def stop_picking(self):
-        """Clicks mean nothing any more."""
-        if self.form is None:
-            return
-        for button in (self.form.pickNodes, self.form.pickGeometry):
-            button.setChecked(False)
-        if self._observer is not None:
-            FreeCADGui.Selection.removeObserver(self._observer)
-            self._observer = None
-            FreeCADGui.Selection.clearSelection()
-            self._mark([])
-            self.picking_changed.emit(False)
-        self._hint("")
-
-    def is_picking(self):
-        """Whether the next click in the 3-D view is for this input."""
-        return self._observer is not None
-
-    def _ask(self, kind, found):
+    def _ask(self, kind, found=0):
         if kind == "nodes":
             return (
                 translate("FemScalpel", "Click node %1 of %2 on the mesh. Escape stops.")
@@ -149,36 +110,20 @@ class GeometryInput(QtCore.QObject):
     def _ask_geometry(self):
         raise NotImplementedError
 
-    def _hint(self, text):
-        self.form.hint.setText(text)
-        self.form.hint.setVisible(bool(text))
-
-    def _clicked(self, click):
-        if self._observer is None:
-            return
-        try:
-            if self._observer.kind == "nodes":
-                node = picking.node_at(click, self.source)
-                if node is None:
-                    raise picking.PickError(translate("FemScalpel", "That is not the mesh. Click a node of the mesh."))
-                self._nodes[node[0]] = node[1]
-                self._mark(self._nodes.values())
-                if len(self._nodes) < self.NODES:
-                    self._hint(self._ask("nodes", len(self._nodes)))
-                    return
-                points = list(self._nodes.values())
-                self._nodes = {}
-                picked = self._from_nodes(points)
-            else:
-                picked = self._from_click(click)
-        except picking.PickError as error:
-            self._hint(str(error))
-            self._mark([])
-            # Not from within Selection's own notification.
-            QtCore.QTimer.singleShot(0, FreeCADGui.Selection.clearSelection)
-            return
-        QtCore.QTimer.singleShot(0, self.stop_picking)
-        self.take(picked)
+    def _picked(self, kind, click):
+        if kind == "nodes":
+            node = picking.node_at(click, self.source)
+            if node is None:
+                raise picking.PickError(translate("FemScalpel", "That is not the mesh. Click a node of the mesh."))
+            self._nodes[node[0]] = node[1]
+            self._mark(self._nodes.values())
+            if len(self._nodes) < self.NODES:
+                self._hint(self._ask("nodes", len(self._nodes)))
+                return None
+            points = list(self._nodes.values())
+            self._nodes = {}
+            return self._from_nodes(points)
+        return self._from_click(click)
 
     def _mark(self, points):
         if self.handles is not None:
@@ -200,30 +145,8 @@ class GeometryInput(QtCore.QObject):
         self.set_pose(self.base(), FreeCAD.Vector(*(round(x, 12) + 0.0 for x in direction)))
 
     def close(self):
-        """Ends picking and takes the handles away."""
-        self.stop_picking()
         if self.handles is not None:
-            self.handles.close()
-            self.handles = None
-        self.form, self._point, self._direction = None, [], []
-
-
-class _Observer:
-    """Tells what is added to FreeCAD's selection."""
-
-    def __init__(self, kind, function):
-        self.kind = kind
-        self._function = function
-
-    def addSelection(self, document, obj, sub, point):
-        obj = FreeCAD.getDocument(document).getObject(obj)
-        if obj is not None:
-            self._function(picking.Click(obj, sub, FreeCAD.Vector(*point)))
-
-
-def _round_step(length):
-    """1, 2 or 5 times a power of ten, at most `length`."""
-    power = 10.0 ** len(str(int(length))) / 10 if length >= 1 else 1.0
-    while power > length > 0:
-        power /= 10
-    return next((k * power for k in (5, 2, 1) if k * power <= length), power)
+            handles, self.handles = self.handles, None
+            handles.close()
+        super().close()
+        self._point, self._direction = [], []

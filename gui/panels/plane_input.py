@@ -5,7 +5,7 @@ from ..translate import translate
 from ..view import picking
 from ..view.handles import PlaneHandles
 from . import fields
-from .geometry_input import GeometryInput, _round_step
+from .geometry_input import GeometryInput
 
 
 class PlaneInput(GeometryInput):
@@ -18,7 +18,7 @@ class PlaneInput(GeometryInput):
         self._offset = self._part_radius = None
         self._part_movable, self._part_turn = False, None
         super().__init__(source_object)
-        self._offset = fields.Number(self.form.offset, self._tell, step=_round_step(self.size / 100))
+        self._offset = fields.Number(self.form.offset, self._tell, step=fields.round_step(self.size / 100))
         self.form.flip.clicked.connect(self._flip)
 
     def origin(self):

@@ -32,6 +32,7 @@ class RefinePanel(CylinderPanel):
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Refine")
     ICON = "FemScalpel_Refine"
     GROUP_NAME, OBJECT_NAME, MAKE = "REFINED", "Refine", "makeRefine"
+    OFFERED = ("feature_angle",)  # refining makes no groups and knows one method
 
     def add_inputs(self):
         self.sizes = self.insert_form("refine.ui")
@@ -42,11 +43,6 @@ class RefinePanel(CylinderPanel):
         self._reach = fields.Number(self.sizes.reach, self.update, 0)
         self.sizes.gradation.valueChanged.connect(lambda *_: self.update())
         self.sizes.toolShape.currentIndexChanged.connect(lambda *_: self.update())
-        # Refining makes no groups and knows one method.
-        for name in ("groupName", "nameError", "method", "transition", "refine"):
-            getattr(self.options, name).hide()
-        for row in (0, 2, 4, 6):
-            self.options.grid.itemAtPosition(row, 0).widget().hide()
 
     def _shape(self):
         return self.sizes.toolShape.currentData()

@@ -26,6 +26,8 @@ OPTION_ERRORS = {
     "feature_angle": "methodError",
     "refine": "refineError",
 }
+#: Rows of the options in their form.
+OPTION_ROWS = {"group_name": 0, "method": 2, "transition": 4, "feature_angle": 5, "refine": 6}
 
 
 class ToolPanel(ViewPanel):
@@ -36,6 +38,12 @@ class ToolPanel(ViewPanel):
 
     #: Set by subclasses.
     TITLE = ICON = GROUP_NAME = OBJECT_NAME = MAKE = ""
+    #: The options that the operator has, as the functions of ObjectsFemScalpel call them.
+    OFFERED = tuple(OPTION_ROWS)
+    #: Whether the operator's surface has two sides, one of which can be cut away to look at it.
+    TWO_SIDES = True
+    #: Whether operation() gives the whole mesh, not just the band.
+    WHOLE = False
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object)
@@ -46,7 +54,7 @@ class ToolPanel(ViewPanel):
         self.geometry = self.make_geometry()
         self.options = FreeCADGui.PySideUic.loadUi(form("options.ui"))
         self.result = FreeCADGui.PySideUic.loadUi(form("result.ui"))
-        self.form = [self.geometry.form, self.options, self.result]
+        self.form = [self.geometry.window, self.options, self.result]
         self._set_up_options()
         self._set_up_result()
         self.add_inputs()
@@ -59,6 +67,7 @@ class ToolPanel(ViewPanel):
         # The handles first: the label of the worst element is drawn over them.
         self.geometry.add_handles(self.view)
         self.scene = preview_scene.PreviewScene(self.view)
+        self.scene.look = self.result.look.currentData()
         self.geometry.changed.connect(self.update)
         self.geometry.picking_changed.connect(self._picking)
         self._status(translate("FemScalpel", "Reading the mesh…"))
@@ -84,7 +93,8 @@ class ToolPanel(ViewPanel):
         raise NotImplementedError
 
     def surface(self, tool):
-        """Something whose distance(points) is zero on what the operator makes: lips, walls."""
+        """Something whose distance(points) is zero on what the operator makes: lips, walls. Or a function that returns
+        such of a Result; called on another thread."""
         return tool
 
     def removed_region(self, tool):
@@ -99,13 +109,18 @@ class ToolPanel(ViewPanel):
 
     def read(self, obj):
         """Enters what a document object holds."""
-        self.options.groupName.setText(obj.GroupName)
-        self.options.method.setCurrentIndex(self.options.method.findData(obj.Method))
-        self.options.transition.setValue(obj.Transition)
+        o = self.options
+        if "group_name" in self.OFFERED:
+            o.groupName.setText(obj.GroupName)
+        if "method" in self.OFFERED:
+            o.method.setCurrentIndex(o.method.findData(obj.Method))
+        if "transition" in self.OFFERED:
+            o.transition.setValue(obj.Transition)
         self._feature_angle.set(obj.FeatureAngle.Value)
-        self.options.refine.setCurrentIndex(self.options.refine.findData(obj.Refine))
-        if obj.Refine == "Size":
-            self._refine_size.set(obj.RefineSize.Value)
+        if "refine" in self.OFFERED:
+            o.refine.setCurrentIndex(o.refine.findData(obj.Refine))
+            if obj.Refine == "Size":
+                self._refine_size.set(obj.RefineSize.Value)
 
     def arguments(self):
         """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
@@ -118,13 +133,14 @@ class ToolPanel(ViewPanel):
     def _given(self):
         """What the options say, as ObjectsFemScalpel's functions take it."""
         options = self.entered()
-        return {
+        given = {
             "method": options["method"],
             "transition": options["transition"] or 0,
             "group_name": options["name"],
             "feature_angle": options["feature_angle"],
             "refine": options["refine"],
         }
+        return {name: value for name, value in given.items() if name in self.OFFERED}
 
     def placement(self):
         """The tool as the document object holds it."""
@@ -162,6 +178,9 @@ class ToolPanel(ViewPanel):
         o.groupName.textChanged.connect(lambda *_: self.update())
         o.method.currentIndexChanged.connect(lambda *_: self.update())
         o.transition.valueChanged.connect(lambda *_: self.update())
+        for row in (row for name, row in OPTION_ROWS.items() if name not in self.OFFERED):
+            for column in (0, 1):
+                o.grid.itemAtPosition(row, column).widget().hide()
         analysis = self._analysis()
         o.intoAnalysis.setVisible(analysis is not None and self.edited is None)
         o.intoAnalysis.setChecked(analysis is not None and self.edited is None and preferences.put_into_analysis())
@@ -195,7 +214,7 @@ class ToolPanel(ViewPanel):
             translate("FemScalpel", "Whole part"),
             translate("FemScalpel", "Changed part"),
         )
-        for text, data in zip(looks, preview_scene.LOOKS):
+        for text, data in list(zip(looks, preview_scene.LOOKS))[0 if self.TWO_SIDES else 1 :]:
             r.look.addItem(text, data)
         colourings = (translate("FemScalpel", "By quality"), translate("FemScalpel", "By group"))
         for text, data in zip(colourings, preview_scene.COLOURINGS):
@@ -250,8 +269,8 @@ class ToolPanel(ViewPanel):
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        surface, region = self.surface(tool), self.removed_region(tool)
-        self._ticket = self.worker.request(lambda: make_preview(source, operate(source.scalpel), surface, region))
+        surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
+        self._ticket = self.worker.request(lambda: _preview(source, operate, surface, region, whole))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
@@ -277,28 +296,39 @@ class ToolPanel(ViewPanel):
     def _no_result(self, status):
         self.shown = None
         if self.source is not None:
-            self.scene.show_whole(self.source.whole())
+            self.scene.show_whole(self.source.whole(), self.beside())
         self.scene.highlight(None)
         self.histogram.clear()
         self.result.groups.setRowCount(0)
         self._status(status)
 
+    def beside(self):
+        """A Surface that is shown as a ghost while there is no result, None for none."""
+        return None
+
+    def own_errors(self):
+        """Labels for messages about the panel's own fields, by the operator's parameter."""
+        return {}
+
     def _clear_errors(self):
         self.geometry.show_error("")
         for label in set(OPTION_ERRORS.values()):
             fields.show_error(getattr(self.options, label), "")
-        fields.show_error(self.result.resultError, "")
+        for label in (*self.own_errors().values(), self.result.resultError):
+            fields.show_error(label, "")
 
     def _place_error(self, error):
         """Shows an error at the field that caused it."""
         self._clear_errors()
-        text = _sentence(str(error))
-        label = OPTION_ERRORS.get(getattr(error, "parameter", None))
-        if label is None and isinstance(error, femscalpel.QualityError):
+        text, parameter = _sentence(str(error)), getattr(error, "parameter", None)
+        label = OPTION_ERRORS.get(parameter)
+        if label is None and isinstance(error, femscalpel.QualityError) and "method" in self.OFFERED:
             label = "methodError"
-        if label is not None:
+        if parameter in self.own_errors():
+            fields.show_error(self.own_errors()[parameter], text)
+        elif label is not None:
             fields.show_error(getattr(self.options, label), text)
-        elif isinstance(error, (femscalpel.ToolError, femscalpel.UnsupportedElementError)):
+        elif isinstance(error, (femscalpel.ToolError, femscalpel.UnsupportedElementError, femscalpel.QualityError)):
             self.geometry.show_error(text)
         else:
             fields.show_error(self.result.resultError, text)
@@ -322,10 +352,14 @@ class ToolPanel(ViewPanel):
 
     # Picking.
 
+    def pickable(self):
+        """The mesh objects that are shown while something is picked."""
+        return (self.source_object,)
+
     def _picking(self, on):
         if self._closed:
             return
-        self._meshes.pickable(on)
+        self._meshes.pickable(self.pickable() if on else ())
         switch = self.scene.root
         graph = self.view.getSceneGraph()
         if on and graph.findChild(switch) >= 0:
@@ -391,10 +425,14 @@ class ToolPanel(ViewPanel):
         FreeCADGui.doCommand(f"{document}.recompute()")
         if "Invalid" not in obj.State and self.options.intoAnalysis.isChecked():
             FreeCADGui.doCommand(f"ObjectsFemScalpel.putIntoAnalysis({self._text_of(obj)})")
-        FreeCADGui.doCommandGui(
-            f"FreeCADGui.getDocument({self.document.Name!r}).getObject({self.source_object.Name!r}).Visibility = False"
-        )
+        self.hide_object(self.source_object)
         return obj
+
+    def hide_object(self, obj):
+        """Hides an object of the document, by a recorded line."""
+        FreeCADGui.doCommandGui(
+            f"FreeCADGui.getDocument({self.document.Name!r}).getObject({obj.Name!r}).Visibility = False"
+        )
 
     def _change_object(self):
         record_import()
@@ -418,6 +456,12 @@ class ToolPanel(ViewPanel):
 
     def forget_widgets(self):
         self.options = self.result = self.histogram = self._feature_angle = self._refine_size = None
+
+
+def _preview(source, operate, surface, region, whole):
+    """The PreviewData of what operate(scalpel) makes."""
+    result = operate(source.scalpel)
+    return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)
 
 
 def _sentence(text):

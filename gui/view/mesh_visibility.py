@@ -15,21 +15,21 @@ class HiddenMeshes:
             for o in document.Objects
             if o.isDerivedFrom("Fem::FemMeshObject")
         ]
-        self._source = source.ViewObject.SwitchNode
-        self._mode = self._source.whichChild.getValue()
-        if self._mode < 0:
-            self._mode = min(_FACES_AND_WIREFRAME, self._source.getNumChildren() - 1)
+        mode = source.ViewObject.SwitchNode.whichChild.getValue()
+        if mode < 0:
+            mode = min(_FACES_AND_WIREFRAME, source.ViewObject.SwitchNode.getNumChildren() - 1)
+        self._mode = mode
         self._hide()
 
     def _hide(self):
         for _, switch, _ in self._before:
             switch.whichChild = -1
 
-    def pickable(self, on):
-        """Shows the source mesh, so that it can be clicked at, or hides it again."""
+    def pickable(self, meshes):
+        """Shows these mesh objects, so that they can be clicked at, and hides the others."""
         self._hide()
-        if on:
-            self._source.whichChild = self._mode
+        for mesh in meshes:
+            mesh.ViewObject.SwitchNode.whichChild = self._mode
 
     def restore(self):
         """Shows again what is meant to be shown."""

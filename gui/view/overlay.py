@@ -16,6 +16,12 @@ class Overlay:
         """Puts it into the view."""
         self._view.getSceneGraph().addChild(self.root)
 
+    def show(self, on):
+        """Takes it out of the view for the time being, or puts it there again."""
+        graph = self._view.getSceneGraph()
+        if on != (graph.findChild(self.root) >= 0):
+            graph.addChild(self.root) if on else graph.removeChild(self.root)
+
     def close(self):
         """Takes it out of the view."""
         try:

@@ -165,6 +165,29 @@ class PreviewSource:
         return Surface.make(self.points, self.skin, self.skin_quality, self.skin_family)
 
 
+class MadeNodes:
+    """In place of a tool for make_preview(), where there is none: the nodes of a group, which an operator has made."""
+
+    def __init__(self, mesh, name, kind):
+        if kind == "node":
+            rows = np.isin(mesh.node_ids, mesh.groups[name, kind].ids)
+        else:
+            ids = mesh.groups[name, kind].ids
+            found = [mesh.cells[t][np.isin(of_type, ids)].ravel() for t, of_type in mesh.cell_ids.items()]
+            rows = np.unique(np.concatenate(found))
+        self._places = set(map(tuple, mesh.points[rows].tolist()))
+
+    def distance(self, points):
+        """Zero at these nodes, and negative elsewhere: nothing is on the positive side."""
+        out = np.full(len(points), -1.0)
+        likely = np.ones(len(points), bool)
+        for axis in range(3):
+            likely &= np.isin(points[:, axis], [place[axis] for place in self._places])
+        for row in np.flatnonzero(likely):
+            out[row] = 0.0 if tuple(points[row].tolist()) in self._places else -1.0
+        return out
+
+
 def centres(faces, points):
     """Mean of the corners of faces."""
     triangle = faces[:, 3] < 0
@@ -173,7 +196,7 @@ def centres(faces, points):
     return total / np.where(triangle, 3.0, 4.0)[:, None]
 
 
-def make_preview(source, result, tool, removed_region=None):
+def make_preview(source, result, tool, removed_region=None, whole=False):
     """The PreviewData of a result.
 
     Parameters
@@ -185,6 +208,8 @@ def make_preview(source, result, tool, removed_region=None):
         Whose distance(points) is zero on what the operator made.
     removed_region : object, optional
         Its distance(points) is negative where the operator removes material.
+    whole : bool
+        The result is of the whole mesh: elements that it lacks are gone.
     """
     mesh, report = result.mesh, result.report
     node_count = source.mesh.node_count
@@ -216,6 +241,8 @@ def make_preview(source, result, tool, removed_region=None):
         gone = source.cells.per_cell(lambda nodes: inside[nodes].all(axis=1)).astype(bool)
         replaced |= gone
         removed = _removed(source, gone)
+    if whole:
+        replaced |= ~np.isin(source.cells.ids, np.concatenate(list(mesh.cell_ids.values())))
 
     families = cells.families(mesh, source.families)
     faces, owner, family = cells.surface(total, families)
@@ -244,16 +271,16 @@ def make_preview(source, result, tool, removed_region=None):
         for side in (stays & ~beyond, stays & beyond)
     )
 
-    outline, front = _outline(
-        mesh, report, points, number, faces, lip, positive, on_tool=np.abs(distance) <= 1e-7 * source.size
-    )
+    on_tool = np.abs(distance) <= 1e-7 * source.size
+    outline, front = _outline(mesh, report, points, number, faces, lip, positive, on_tool)
+    drawn = np.zeros(total, bool) if lip.any() else on_tool
     worst, centre, ratio = _worst(report, mesh)
     return PreviewData(
         result=result,
         rest=rest,
         band=band,
         families=list(source.families.names),
-        borders=np.concatenate([_kept_borders(source, stays), _band_borders(points, faces, family, lip, total)]),
+        borders=np.concatenate([_kept_borders(source, stays), _band_borders(points, faces, family, lip, drawn)]),
         outline=outline,
         front=front,
         moved=mesh.points[moved].astype(np.float32),
@@ -311,11 +338,12 @@ def _kept_borders(source, stays):
     return source.points[source.borders[kept]].astype(np.float32)
 
 
-def _band_borders(points, faces, family, lip, total):
+def _band_borders(points, faces, family, lip, drawn):
+    """Borders between groups on the band; none between nodes that are `drawn` as the outline."""
     skin = ~lip
-    edges, sides = mesh_faces.border_edges(faces[skin], family[skin], total)
+    edges, sides = mesh_faces.border_edges(faces[skin], family[skin], len(points))
     # Where a face ends alone it meets the rest, or the lip, which has its own line.
-    return points[edges[sides[:, 1] >= 0]].astype(np.float32)
+    return points[edges[(sides[:, 1] >= 0) & ~drawn[edges].all(axis=1)]].astype(np.float32)
 
 
 def _outline(mesh, report, points, number, faces, lip, positive, on_tool):

@@ -63,8 +63,8 @@ class PreviewScene(Picture):
         self.root.addChild(self.worst_label.root)
         self.open()
 
-    def show_whole(self, surface):
-        """Shows an unchanged mesh, while there is no result."""
+    def show_whole(self, surface, beside=None):
+        """Shows an unchanged mesh, while there is no result; of what is `beside` it, a ghost."""
         self._data = None
         for part in (
             self.band,
@@ -79,6 +79,8 @@ class PreviewScene(Picture):
         ):
             part.hide()
         self.rest.show(surface.points, surface.faces)
+        if beside is not None:
+            self.ghost.show(beside.points, beside.faces)
 
     def show(self, data):
         """Shows a PreviewData."""

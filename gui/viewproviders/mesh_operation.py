@@ -14,6 +14,9 @@ PANELS = {
     "FemScalpel::CylindricalCrack": ("FemScalpel_CylindricalCrack", "cylindrical_crack", "CylindricalCrackPanel"),
     "FemScalpel::Drill": ("FemScalpel_Drill", "drill", "DrillPanel"),
     "FemScalpel::Cut": ("FemScalpel_Incision", "incision", "IncisionPanel"),
+    "FemScalpel::Merge": ("FemScalpel_Merge", "merge", "MergePanel"),
+    "FemScalpel::Fillet": ("FemScalpel_Fillet", "fillet", "FilletPanel"),
+    "FemScalpel::Reshape": ("FemScalpel_Reshape", "reshape", "ReshapePanel"),
     "FemScalpel::Refine": ("FemScalpel_Refine", "refine", "RefinePanel"),
 }
 

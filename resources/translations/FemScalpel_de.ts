@@ -2,6 +2,29 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de" sourcelanguage="en">
   <context>
+    <name>AdditionInput</name>
+    <message>
+      <source>Addition</source>
+      <translation>Zusatz</translation>
+    </message>
+    <message>
+      <source>Click the mesh in the 3-D view or in the tree</source>
+      <translation>Klicken Sie in der 3D-Ansicht oder im Baum auf das Netz</translation>
+    </message>
+    <message>
+      <source>Mesh to add</source>
+      <translation>Neues Netz</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Wählen</translation>
+    </message>
+    <message>
+      <source>The FEM mesh that is added, where its placement puts it: also one that FreeCAD has made of a part</source>
+      <translation>Das FEM-Netz, das hinzukommt, dort, wo seine Platzierung es hinstellt: auch eines, das FreeCAD aus einem Teil gemacht hat</translation>
+    </message>
+  </context>
+  <context>
     <name>AxisInput</name>
     <message>
       <source>2 nodes</source>
@@ -124,7 +147,38 @@
     </message>
   </context>
   <context>
+    <name>EdgeInput</name>
+    <message>
+      <source>Clear</source>
+      <translation>Leeren</translation>
+    </message>
+    <message>
+      <source>Click near an edge of the mesh in the 3-D view; it is rounded as far as it goes on without a corner</source>
+      <translation>Klicken Sie in der 3D-Ansicht nahe an eine Kante des Netzes; sie wird so weit gerundet, wie sie ohne Ecke weiterläuft</translation>
+    </message>
+    <message>
+      <source>Edge</source>
+      <translation>Kante</translation>
+    </message>
+    <message>
+      <source>Forgets what was picked</source>
+      <translation>Vergisst, was gewählt wurde</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Wählen</translation>
+    </message>
+    <message>
+      <source>What is rounded: what was picked, or a group of segments or nodes on an edge</source>
+      <translation>Was gerundet wird: was gewählt wurde oder eine Gruppe von Strecken oder Knoten auf einer Kante</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
+    <message>
+      <source>%1 cannot be added. Click another FEM mesh.</source>
+      <translation>%1 kann nicht hinzukommen. Klicken Sie auf ein anderes FEM-Netz.</translation>
+    </message>
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 Elemente; kleinster Wert %2, Mittel %3.</translation>
@@ -158,6 +212,14 @@
       <translation>%1 Knoten verschoben; Rand höchstens %2 mm von seiner alten Lage</translation>
     </message>
     <message>
+      <source>%1 picked places</source>
+      <translation>%1 gewählte Stellen</translation>
+    </message>
+    <message>
+      <source>1 picked place</source>
+      <translation>1 gewählte Stelle</translation>
+    </message>
+    <message>
       <source>A disk</source>
       <translation>Eine Kreisscheibe</translation>
     </message>
@@ -168,6 +230,14 @@
     <message>
       <source>A polygon</source>
       <translation>Ein Polygon</translation>
+    </message>
+    <message>
+      <source>Adds another FEM mesh to the FEM mesh and keeps the groups of both</source>
+      <translation>Fügt dem FEM-Netz ein anderes hinzu und erhält die Gruppen beider</translation>
+    </message>
+    <message>
+      <source>Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both stay, and what was added and where it is joined become groups.</source>
+      <translation>Fügt ein anderes FEM-Netz hinzu, etwa eine Steife oder ein Auge, in FreeCAD gezeichnet und vernetzt. Wo sich beide berühren oder kreuzen, bekommen sie dieselben Knoten und Kanten; wo sich zwei Volumen überdecken, wird die Überdeckung von einem abgeschnitten. Wählen Sie erst das Netz, dann das, was hinzukommt, oder wählen Sie dieses im Dialog. Die Gruppen beider bleiben; was hinzukam und wo es anschließt, wird zu Gruppen.</translation>
     </message>
     <message>
       <source>After</source>
@@ -202,6 +272,10 @@
       <translation>Nach Güte</translation>
     </message>
     <message>
+      <source>Centre</source>
+      <translation>Mitte</translation>
+    </message>
+    <message>
       <source>Change</source>
       <translation>Änderung</translation>
     </message>
@@ -210,8 +284,16 @@
       <translation>Geänderter Teil</translation>
     </message>
     <message>
+      <source>Choose the mesh to add, or pick it.</source>
+      <translation>Wählen Sie das Netz, das hinzukommt, in der Liste oder durch einen Klick.</translation>
+    </message>
+    <message>
       <source>Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face (the axis is normal to it). Escape stops.</source>
       <translation>Klicken Sie auf eine Zylinderfläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche (die Achse steht senkrecht darauf). Escape bricht ab.</translation>
+    </message>
+    <message>
+      <source>Click a face of the mesh. Escape stops.</source>
+      <translation>Klicken Sie auf eine Fläche des Netzes. Escape beendet.</translation>
     </message>
     <message>
       <source>Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.</source>
@@ -220,6 +302,18 @@
     <message>
       <source>Click node %1 of %2 on the mesh. Escape stops.</source>
       <translation>Klicken Sie auf Knoten %1 von %2 des Netzes. Escape bricht ab.</translation>
+    </message>
+    <message>
+      <source>Click the mesh itself, near the edge.</source>
+      <translation>Klicken Sie auf das Netz selbst, nahe an der Kante.</translation>
+    </message>
+    <message>
+      <source>Click the mesh near the edge to round. Escape stops.</source>
+      <translation>Klicken Sie auf das Netz nahe an der Kante, die gerundet wird. Escape beendet.</translation>
+    </message>
+    <message>
+      <source>Click the mesh to add, here or in the tree. Escape stops.</source>
+      <translation>Klicken Sie auf das Netz, das hinzukommt, hier oder im Baum. Escape beendet.</translation>
     </message>
     <message>
       <source>Colour of %1</source>
@@ -314,6 +408,10 @@
       <translation>Netz exportieren…</translation>
     </message>
     <message>
+      <source>Fillet</source>
+      <translation>Rundung</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Gruppe</translation>
     </message>
@@ -358,8 +456,20 @@
       <translation>Mitglieder</translation>
     </message>
     <message>
+      <source>Merge</source>
+      <translation>Anfügen</translation>
+    </message>
+    <message>
       <source>Mesh quality</source>
       <translation>Netzgüte</translation>
+    </message>
+    <message>
+      <source>Moves a wall of the FEM mesh and keeps its groups</source>
+      <translation>Verschiebt eine Wand des FEM-Netzes und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The elements around follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.</source>
+      <translation>Verschiebt, was eine Gruppe bedeckt: die Wand einer Bohrung auf einen anderen Radius, eine Fläche auf eine andere Ebene, um einen Vektor oder um einen Punkt skaliert. Der Dialog beginnt mit der Ebene, dem Zylinder oder der Kugel, auf der die Wand liegt. Die Elemente ringsum folgen so weit wie nötig und werden geteilt oder vereinigt, wo sie schlecht würden. Alle Gruppen behalten ihren Sinn.</translation>
     </message>
     <message>
       <source>No preview.</source>
@@ -414,6 +524,10 @@
       <translation>Ebene</translation>
     </message>
     <message>
+      <source>Press Pick and click near the edge, or choose a group.</source>
+      <translation>Drücken Sie Wählen und klicken Sie nahe an die Kante, oder wählen Sie eine Gruppe.</translation>
+    </message>
+    <message>
       <source>Reading the mesh…</source>
       <translation>Netz wird gelesen…</translation>
     </message>
@@ -424,6 +538,18 @@
     <message>
       <source>Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups</source>
       <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder Ebene und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Reshape</source>
+      <translation>Umformen</translation>
+    </message>
+    <message>
+      <source>Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The faces of the rounding become a group, and the groups beside it keep to their sides.</source>
+      <translation>Rundet eine Kante, konvex oder konkav, wie eine Kugel des Radius, die an ihr entlangrollt. Klicken Sie in der 3D-Ansicht nahe an die Kante, oder wählen Sie eine Gruppe auf ihr; sie wird so weit gerundet, wie sie ohne Ecke weiterläuft. Die Flächen der Rundung werden eine Gruppe, und die Gruppen daneben bleiben auf ihrer Seite.</translation>
+    </message>
+    <message>
+      <source>Rounds edges of the FEM mesh and keeps its groups</source>
+      <translation>Rundet Kanten des FEM-Netzes und erhält seine Gruppen</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -466,6 +592,14 @@
       <translation>Diese Fläche ist gekrümmt. Wählen Sie eine ebene Fläche.</translation>
     </message>
     <message>
+      <source>That face is in no group. Click another one, or make a group of it first.</source>
+      <translation>Diese Fläche ist in keiner Gruppe. Klicken Sie auf eine andere, oder machen Sie zuerst eine Gruppe daraus.</translation>
+    </message>
+    <message>
+      <source>That is not the mesh. Click a face of the mesh.</source>
+      <translation>Das ist nicht das Netz. Klicken Sie auf eine Fläche des Netzes.</translation>
+    </message>
+    <message>
       <source>That is not the mesh. Click a node of the mesh.</source>
       <translation>Das ist nicht das Netz. Klicken Sie auf einen Knoten des Netzes.</translation>
     </message>
@@ -482,8 +616,16 @@
       <translation>Das Dokument hat kein FEM-Netz. Erzeugen Sie eines im Arbeitsbereich FEM oder importieren Sie eine Netzdatei.</translation>
     </message>
     <message>
+      <source>The document has no other FEM mesh. Draw the part to add, and mesh it in the FEM workbench, or import a mesh file.</source>
+      <translation>Das Dokument hat kein anderes FEM-Netz. Zeichnen Sie das Teil, das hinzukommt, und vernetzen Sie es im Arbeitsbereich FEM, oder importieren Sie eine Netzdatei.</translation>
+    </message>
+    <message>
       <source>The mesh has neither faces nor volumes.</source>
       <translation>Das Netz hat weder Flächen noch Volumen.</translation>
+    </message>
+    <message>
+      <source>The mesh has no group of faces or nodes. Make one first.</source>
+      <translation>Das Netz hat keine Gruppe von Flächen oder Knoten. Machen Sie zuerst eine.</translation>
     </message>
     <message>
       <source>The object could not be computed; see the report view.</source>
@@ -522,6 +664,10 @@
       <translation>Wert</translation>
     </message>
     <message>
+      <source>Vector</source>
+      <translation>Vektor</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Ganzes Teil</translation>
     </message>
@@ -542,8 +688,20 @@
       <translation>leer geworden</translation>
     </message>
     <message>
+      <source>by a vector</source>
+      <translation>um einen Vektor</translation>
+    </message>
+    <message>
       <source>changed</source>
       <translation>geändert</translation>
+    </message>
+    <message>
+      <source>cut off the addition</source>
+      <translation>vom Zusatz abschneiden</translation>
+    </message>
+    <message>
+      <source>cut off the mesh</source>
+      <translation>vom Netz abschneiden</translation>
     </message>
     <message>
       <source>deform: only move nodes</source>
@@ -586,12 +744,32 @@
       <translation>Knoten</translation>
     </message>
     <message>
+      <source>none</source>
+      <translation>keines</translation>
+    </message>
+    <message>
+      <source>none picked yet</source>
+      <translation>noch nichts gewählt</translation>
+    </message>
+    <message>
+      <source>none yet</source>
+      <translation>noch keines</translation>
+    </message>
+    <message>
+      <source>onto a surface</source>
+      <translation>auf eine Fläche</translation>
+    </message>
+    <message>
       <source>points</source>
       <translation>Punkte</translation>
     </message>
     <message>
       <source>reduced</source>
       <translation>verkleinert</translation>
+    </message>
+    <message>
+      <source>scaled about a point</source>
+      <translation>um einen Punkt skaliert</translation>
     </message>
     <message>
       <source>snap: move and split</source>
@@ -749,6 +927,45 @@
     <message>
       <source>Where the bottom of the hole is: from the point, along the axis</source>
       <translation>Wo der Grund des Loches ist: vom Punkt aus, entlang der Achse</translation>
+    </message>
+  </context>
+  <context>
+    <name>Merging</name>
+    <message>
+      <source>Join groups of one name</source>
+      <translation>Gruppen gleichen Namens vereinen</translation>
+    </message>
+    <message>
+      <source>Merge</source>
+      <translation>Anfügen</translation>
+    </message>
+    <message>
+      <source>Of groups of the addition whose name the mesh has for others; the name of the new groups when empty</source>
+      <translation>Für Gruppen des Zusatzes, deren Name im Netz andere haben; leer: der Name der neuen Gruppen</translation>
+    </message>
+    <message>
+      <source>Overlap</source>
+      <translation>Überdeckung</translation>
+    </message>
+    <message>
+      <source>Prefix</source>
+      <translation>Vorsilbe</translation>
+    </message>
+    <message>
+      <source>Tolerance</source>
+      <translation>Toleranz</translation>
+    </message>
+    <message>
+      <source>What is nearer than this to the other's surface touches it; 0: automatic</source>
+      <translation>Was der Oberfläche des anderen näher ist, berührt sie; 0: automatisch</translation>
+    </message>
+    <message>
+      <source>Where two solids overlap: what the overlap is cut off</source>
+      <translation>Wo sich zwei Volumen überdecken: wovon die Überdeckung abgeschnitten wird</translation>
+    </message>
+    <message>
+      <source>Whether groups of one name and kind become one; otherwise those of the addition are renamed</source>
+      <translation>Ob Gruppen eines Namens und einer Art zu einer werden; sonst werden die des Zusatzes umbenannt</translation>
     </message>
   </context>
   <context>
@@ -1058,6 +1275,21 @@
     </message>
   </context>
   <context>
+    <name>Rounding</name>
+    <message>
+      <source>Fillet</source>
+      <translation>Rundung</translation>
+    </message>
+    <message>
+      <source>Of the ball that rolls along the edge</source>
+      <translation>Der Kugel, die an der Kante entlangrollt</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Radius</translation>
+    </message>
+  </context>
+  <context>
     <name>Slot</name>
     <message>
       <source>Between the two walls; the plane is in the middle</source>
@@ -1082,6 +1314,84 @@
     <message>
       <source>Width</source>
       <translation>Breite</translation>
+    </message>
+  </context>
+  <context>
+    <name>WallInput</name>
+    <message>
+      <source>Click a face of the mesh in the 3-D view: the smallest group it is in</source>
+      <translation>Klicken Sie in der 3D-Ansicht auf eine Fläche des Netzes: die kleinste Gruppe, in der sie ist</translation>
+    </message>
+    <message>
+      <source>Move it</source>
+      <translation>Verschieben</translation>
+    </message>
+    <message>
+      <source>Onto a surface, by a vector, or scaled about a point</source>
+      <translation>Auf eine Fläche, um einen Vektor oder um einen Punkt skaliert</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Wählen</translation>
+    </message>
+    <message>
+      <source>Surface</source>
+      <translation>Fläche</translation>
+    </message>
+    <message>
+      <source>The group of faces (of a shell: edges) or nodes that is moved</source>
+      <translation>Die Gruppe von Flächen (einer Schale: Kanten) oder Knoten, die verschoben wird</translation>
+    </message>
+    <message>
+      <source>Wall</source>
+      <translation>Wand</translation>
+    </message>
+    <message>
+      <source>What it is moved onto; a plane has the axis as its normal</source>
+      <translation>Worauf sie verschoben wird; eine Ebene hat die Achse als Normale</translation>
+    </message>
+  </context>
+  <context>
+    <name>WallMotion</name>
+    <message>
+      <source>Along x</source>
+      <translation>Entlang x</translation>
+    </message>
+    <message>
+      <source>Along y</source>
+      <translation>Entlang y</translation>
+    </message>
+    <message>
+      <source>Along z</source>
+      <translation>Entlang z</translation>
+    </message>
+    <message>
+      <source>Factor</source>
+      <translation>Faktor</translation>
+    </message>
+    <message>
+      <source>Motion</source>
+      <translation>Bewegung</translation>
+    </message>
+    <message>
+      <source>Vector</source>
+      <translation>Vektor</translation>
+    </message>
+    <message>
+      <source>What distances from the centre are multiplied by</source>
+      <translation>Womit Abstände von der Mitte malgenommen werden</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>z</source>
+      <translation>z</translation>
     </message>
   </context>
 </TS>

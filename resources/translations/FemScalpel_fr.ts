@@ -2,6 +2,29 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="fr" sourcelanguage="en">
   <context>
+    <name>AdditionInput</name>
+    <message>
+      <source>Addition</source>
+      <translation>Ajout</translation>
+    </message>
+    <message>
+      <source>Click the mesh in the 3-D view or in the tree</source>
+      <translation>Cliquez sur le maillage dans la vue 3D ou dans l'arborescence</translation>
+    </message>
+    <message>
+      <source>Mesh to add</source>
+      <translation>À ajouter</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Choisir</translation>
+    </message>
+    <message>
+      <source>The FEM mesh that is added, where its placement puts it: also one that FreeCAD has made of a part</source>
+      <translation>Le maillage EF à ajouter, là où son placement le met : aussi celui que FreeCAD a fait d'une pièce</translation>
+    </message>
+  </context>
+  <context>
     <name>AxisInput</name>
     <message>
       <source>2 nodes</source>
@@ -124,7 +147,38 @@
     </message>
   </context>
   <context>
+    <name>EdgeInput</name>
+    <message>
+      <source>Clear</source>
+      <translation>Effacer</translation>
+    </message>
+    <message>
+      <source>Click near an edge of the mesh in the 3-D view; it is rounded as far as it goes on without a corner</source>
+      <translation>Cliquez près d'une arête du maillage dans la vue 3D ; elle est arrondie aussi loin qu'elle continue sans coin</translation>
+    </message>
+    <message>
+      <source>Edge</source>
+      <translation>Arête</translation>
+    </message>
+    <message>
+      <source>Forgets what was picked</source>
+      <translation>Oublie ce qui a été choisi</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Choisir</translation>
+    </message>
+    <message>
+      <source>What is rounded: what was picked, or a group of segments or nodes on an edge</source>
+      <translation>Ce qui est arrondi : ce qui a été choisi, ou un groupe de segments ou de nœuds sur une arête</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
+    <message>
+      <source>%1 cannot be added. Click another FEM mesh.</source>
+      <translation>%1 ne peut pas être ajouté. Cliquez sur un autre maillage EF.</translation>
+    </message>
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 éléments ; minimum %2, moyenne %3.</translation>
@@ -158,6 +212,14 @@
       <translation>%1 nœuds déplacés ; bord à %2 mm au plus de sa position d'origine</translation>
     </message>
     <message>
+      <source>%1 picked places</source>
+      <translation>%1 endroits choisis</translation>
+    </message>
+    <message>
+      <source>1 picked place</source>
+      <translation>1 endroit choisi</translation>
+    </message>
+    <message>
       <source>A disk</source>
       <translation>Un disque</translation>
     </message>
@@ -168,6 +230,14 @@
     <message>
       <source>A polygon</source>
       <translation>Un polygone</translation>
+    </message>
+    <message>
+      <source>Adds another FEM mesh to the FEM mesh and keeps the groups of both</source>
+      <translation>Ajoute un autre maillage EF au maillage EF et garde les groupes des deux</translation>
+    </message>
+    <message>
+      <source>Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both stay, and what was added and where it is joined become groups.</source>
+      <translation>Ajoute un autre maillage EF, tel qu'un raidisseur ou un bossage dessiné et maillé dans FreeCAD. Là où les deux se touchent ou se croisent, ils reçoivent les mêmes nœuds et arêtes ; là où deux solides se recouvrent, le recouvrement est ôté de l'un d'eux. Sélectionnez d'abord le maillage, puis celui à ajouter, ou choisissez celui-ci dans le panneau. Les groupes des deux restent ; ce qui est ajouté et son raccord deviennent des groupes.</translation>
     </message>
     <message>
       <source>After</source>
@@ -202,6 +272,10 @@
       <translation>Par qualité</translation>
     </message>
     <message>
+      <source>Centre</source>
+      <translation>Centre</translation>
+    </message>
+    <message>
       <source>Change</source>
       <translation>Variation</translation>
     </message>
@@ -210,8 +284,16 @@
       <translation>Partie modifiée</translation>
     </message>
     <message>
+      <source>Choose the mesh to add, or pick it.</source>
+      <translation>Choisissez le maillage à ajouter, dans la liste ou d'un clic.</translation>
+    </message>
+    <message>
       <source>Click a cylindrical face, a straight or circular edge, a datum line, or a point on a face (the axis is normal to it). Escape stops.</source>
       <translation>Cliquez sur une face cylindrique, une arête droite ou circulaire, une ligne de référence ou un point d'une face (l'axe lui est normal). Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Click a face of the mesh. Escape stops.</source>
+      <translation>Cliquez sur une face du maillage. Échap arrête.</translation>
     </message>
     <message>
       <source>Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.</source>
@@ -220,6 +302,18 @@
     <message>
       <source>Click node %1 of %2 on the mesh. Escape stops.</source>
       <translation>Cliquez sur le nœud %1 sur %2 du maillage. Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Click the mesh itself, near the edge.</source>
+      <translation>Cliquez sur le maillage même, près de l'arête.</translation>
+    </message>
+    <message>
+      <source>Click the mesh near the edge to round. Escape stops.</source>
+      <translation>Cliquez sur le maillage près de l'arête à arrondir. Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Click the mesh to add, here or in the tree. Escape stops.</source>
+      <translation>Cliquez sur le maillage à ajouter, ici ou dans l'arborescence. Échap arrête.</translation>
     </message>
     <message>
       <source>Colour of %1</source>
@@ -314,6 +408,10 @@
       <translation>Exporter le maillage…</translation>
     </message>
     <message>
+      <source>Fillet</source>
+      <translation>Congé</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Groupe</translation>
     </message>
@@ -358,8 +456,20 @@
       <translation>Membres</translation>
     </message>
     <message>
+      <source>Merge</source>
+      <translation>Fusion</translation>
+    </message>
+    <message>
       <source>Mesh quality</source>
       <translation>Qualité du maillage</translation>
+    </message>
+    <message>
+      <source>Moves a wall of the FEM mesh and keeps its groups</source>
+      <translation>Déplace une paroi du maillage EF et garde ses groupes</translation>
+    </message>
+    <message>
+      <source>Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The elements around follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.</source>
+      <translation>Déplace ce qu'un groupe couvre : la paroi d'un trou à un autre rayon, une face sur un autre plan, d'un vecteur, ou à l'échelle autour d'un point. Le panneau commence par le plan, le cylindre ou la sphère où se trouve la paroi. Les éléments voisins suivent autant qu'il faut et sont divisés ou réunis là où ils deviendraient mauvais. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>No preview.</source>
@@ -414,6 +524,10 @@
       <translation>Plan</translation>
     </message>
     <message>
+      <source>Press Pick and click near the edge, or choose a group.</source>
+      <translation>Pressez Choisir et cliquez près de l'arête, ou choisissez un groupe.</translation>
+    </message>
+    <message>
       <source>Reading the mesh…</source>
       <translation>Lecture du maillage…</translation>
     </message>
@@ -424,6 +538,18 @@
     <message>
       <source>Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups</source>
       <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un plan en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Reshape</source>
+      <translation>Reformer</translation>
+    </message>
+    <message>
+      <source>Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The faces of the rounding become a group, and the groups beside it keep to their sides.</source>
+      <translation>Arrondit une arête, convexe ou concave, comme une bille de ce rayon qui roule le long d'elle. Cliquez près de l'arête dans la vue 3D, ou choisissez un groupe sur elle ; elle est arrondie aussi loin qu'elle continue sans coin. Les faces du congé deviennent un groupe, et les groupes voisins restent de leur côté.</translation>
+    </message>
+    <message>
+      <source>Rounds edges of the FEM mesh and keeps its groups</source>
+      <translation>Arrondit des arêtes du maillage EF et garde ses groupes</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -466,6 +592,14 @@
       <translation>Cette face est courbe. Choisissez une face plane.</translation>
     </message>
     <message>
+      <source>That face is in no group. Click another one, or make a group of it first.</source>
+      <translation>Cette face n'est dans aucun groupe. Cliquez sur une autre, ou faites-en d'abord un groupe.</translation>
+    </message>
+    <message>
+      <source>That is not the mesh. Click a face of the mesh.</source>
+      <translation>Ce n'est pas le maillage. Cliquez sur une face du maillage.</translation>
+    </message>
+    <message>
       <source>That is not the mesh. Click a node of the mesh.</source>
       <translation>Ce n'est pas le maillage. Cliquez sur un nœud du maillage.</translation>
     </message>
@@ -482,8 +616,16 @@
       <translation>Le document n'a pas de maillage EF. Créez-en un dans l'atelier FEM ou importez un fichier de maillage.</translation>
     </message>
     <message>
+      <source>The document has no other FEM mesh. Draw the part to add, and mesh it in the FEM workbench, or import a mesh file.</source>
+      <translation>Le document n'a pas d'autre maillage EF. Dessinez la pièce à ajouter et maillez-la dans l'atelier FEM, ou importez un fichier de maillage.</translation>
+    </message>
+    <message>
       <source>The mesh has neither faces nor volumes.</source>
       <translation>Le maillage n'a ni faces ni volumes.</translation>
+    </message>
+    <message>
+      <source>The mesh has no group of faces or nodes. Make one first.</source>
+      <translation>Le maillage n'a aucun groupe de faces ou de nœuds. Faites-en un d'abord.</translation>
     </message>
     <message>
       <source>The object could not be computed; see the report view.</source>
@@ -522,6 +664,10 @@
       <translation>Valeur</translation>
     </message>
     <message>
+      <source>Vector</source>
+      <translation>Vecteur</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Pièce entière</translation>
     </message>
@@ -542,8 +688,20 @@
       <translation>devenu vide</translation>
     </message>
     <message>
+      <source>by a vector</source>
+      <translation>d'un vecteur</translation>
+    </message>
+    <message>
       <source>changed</source>
       <translation>modifié</translation>
+    </message>
+    <message>
+      <source>cut off the addition</source>
+      <translation>ôter de l'ajout</translation>
+    </message>
+    <message>
+      <source>cut off the mesh</source>
+      <translation>ôter du maillage</translation>
     </message>
     <message>
       <source>deform: only move nodes</source>
@@ -586,12 +744,32 @@
       <translation>nœuds</translation>
     </message>
     <message>
+      <source>none</source>
+      <translation>aucun</translation>
+    </message>
+    <message>
+      <source>none picked yet</source>
+      <translation>rien de choisi encore</translation>
+    </message>
+    <message>
+      <source>none yet</source>
+      <translation>aucun encore</translation>
+    </message>
+    <message>
+      <source>onto a surface</source>
+      <translation>sur une surface</translation>
+    </message>
+    <message>
       <source>points</source>
       <translation>points</translation>
     </message>
     <message>
       <source>reduced</source>
       <translation>réduit</translation>
+    </message>
+    <message>
+      <source>scaled about a point</source>
+      <translation>à l'échelle</translation>
     </message>
     <message>
       <source>snap: move and split</source>
@@ -749,6 +927,45 @@
     <message>
       <source>Where the bottom of the hole is: from the point, along the axis</source>
       <translation>Où est le fond du trou : depuis le point, le long de l'axe</translation>
+    </message>
+  </context>
+  <context>
+    <name>Merging</name>
+    <message>
+      <source>Join groups of one name</source>
+      <translation>Réunir les groupes de même nom</translation>
+    </message>
+    <message>
+      <source>Merge</source>
+      <translation>Fusion</translation>
+    </message>
+    <message>
+      <source>Of groups of the addition whose name the mesh has for others; the name of the new groups when empty</source>
+      <translation>Des groupes de l'ajout dont le maillage a déjà le nom pour d'autres ; vide : le nom des nouveaux groupes</translation>
+    </message>
+    <message>
+      <source>Overlap</source>
+      <translation>Recouvrement</translation>
+    </message>
+    <message>
+      <source>Prefix</source>
+      <translation>Préfixe</translation>
+    </message>
+    <message>
+      <source>Tolerance</source>
+      <translation>Tolérance</translation>
+    </message>
+    <message>
+      <source>What is nearer than this to the other's surface touches it; 0: automatic</source>
+      <translation>Ce qui est plus près de la surface de l'autre la touche ; 0 : automatique</translation>
+    </message>
+    <message>
+      <source>Where two solids overlap: what the overlap is cut off</source>
+      <translation>Là où deux solides se recouvrent : ce dont on ôte le recouvrement</translation>
+    </message>
+    <message>
+      <source>Whether groups of one name and kind become one; otherwise those of the addition are renamed</source>
+      <translation>Si les groupes de même nom et de même genre n'en font qu'un ; sinon ceux de l'ajout sont renommés</translation>
     </message>
   </context>
   <context>
@@ -1058,6 +1275,21 @@
     </message>
   </context>
   <context>
+    <name>Rounding</name>
+    <message>
+      <source>Fillet</source>
+      <translation>Congé</translation>
+    </message>
+    <message>
+      <source>Of the ball that rolls along the edge</source>
+      <translation>De la bille qui roule le long de l'arête</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Rayon</translation>
+    </message>
+  </context>
+  <context>
     <name>Slot</name>
     <message>
       <source>Between the two walls; the plane is in the middle</source>
@@ -1082,6 +1314,84 @@
     <message>
       <source>Width</source>
       <translation>Largeur</translation>
+    </message>
+  </context>
+  <context>
+    <name>WallInput</name>
+    <message>
+      <source>Click a face of the mesh in the 3-D view: the smallest group it is in</source>
+      <translation>Cliquez sur une face du maillage dans la vue 3D : le plus petit groupe où elle est</translation>
+    </message>
+    <message>
+      <source>Move it</source>
+      <translation>Déplacer</translation>
+    </message>
+    <message>
+      <source>Onto a surface, by a vector, or scaled about a point</source>
+      <translation>Sur une surface, d'un vecteur, ou à l'échelle autour d'un point</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Choisir</translation>
+    </message>
+    <message>
+      <source>Surface</source>
+      <translation>Surface</translation>
+    </message>
+    <message>
+      <source>The group of faces (of a shell: edges) or nodes that is moved</source>
+      <translation>Le groupe de faces (d'une coque : d'arêtes) ou de nœuds qui est déplacé</translation>
+    </message>
+    <message>
+      <source>Wall</source>
+      <translation>Paroi</translation>
+    </message>
+    <message>
+      <source>What it is moved onto; a plane has the axis as its normal</source>
+      <translation>Ce sur quoi elle est mise ; un plan a l'axe pour normale</translation>
+    </message>
+  </context>
+  <context>
+    <name>WallMotion</name>
+    <message>
+      <source>Along x</source>
+      <translation>Selon x</translation>
+    </message>
+    <message>
+      <source>Along y</source>
+      <translation>Selon y</translation>
+    </message>
+    <message>
+      <source>Along z</source>
+      <translation>Selon z</translation>
+    </message>
+    <message>
+      <source>Factor</source>
+      <translation>Facteur</translation>
+    </message>
+    <message>
+      <source>Motion</source>
+      <translation>Mouvement</translation>
+    </message>
+    <message>
+      <source>Vector</source>
+      <translation>Vecteur</translation>
+    </message>
+    <message>
+      <source>What distances from the centre are multiplied by</source>
+      <translation>Ce par quoi les distances au centre sont multipliées</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>z</source>
+      <translation>z</translation>
     </message>
   </context>
 </TS>

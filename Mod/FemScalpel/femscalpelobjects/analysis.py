@@ -9,7 +9,8 @@ import numpy as np
 import femmesh_bridge
 from femscalpel.mesh import CELL_TYPES
 
-from .geometry import element_of
+from .geometry import element_of, geometry_of
+from .ours import made_of
 
 
 def put_into_analysis(obj, strict=True):
@@ -29,8 +30,9 @@ def put_into_analysis(obj, strict=True):
     for problem in problems:
         FreeCAD.Console.PrintWarning(f"{obj.Label}: {problem}\n")
     with transaction(obj.Document, f"Put {obj.Label} into {analysis.Label}"):
-        _exchange(analysis, replaced, obj)
-        obj.Replaced = replaced
+        additions = [mesh for mesh in _all_made_of(obj) if mesh != replaced and mesh in analysis.Group]
+        _exchange(analysis, [replaced, *additions], [obj])
+        obj.Replaced, obj.ReplacedAdditions = replaced, additions
     return analysis
 
 
@@ -39,15 +41,15 @@ def take_out_of_analysis(obj):
     for analysis in _analyses(obj.Document):
         if obj in analysis.Group:
             with transaction(obj.Document, f"Take {obj.Label} out of {analysis.Label}"):
-                _exchange(analysis, obj, obj.Replaced or obj.Source)
-                obj.Replaced = None
+                _exchange(analysis, [obj], [obj.Replaced or obj.Source, *obj.ReplacedAdditions])
+                obj.Replaced, obj.ReplacedAdditions = None, []
             return analysis
     raise ValueError(f"'{obj.Label}' is in no analysis")
 
 
 def lost_references(obj, source, analysis):
     """What FreeCAD's search by geometry would not, or wrongly, find on the mesh of `obj`; sentences, none if all is
-    well.
+    well. Faces that an operator has moved on purpose matter where a member of the analysis refers to them.
 
     Only what an operator of FemScalpel can cause: nodes that could not be put back on the geometry, a vertex that has
     lost its node, and a force on a vertex or an edge that a crack has doubled (FreeCAD drops the one and counts the
@@ -56,7 +58,10 @@ def lost_references(obj, source, analysis):
     problems = []
     mesh = obj
     while mesh is not None and mesh != source:
-        problems += [f"{line} (from '{mesh.Label}')" for line in getattr(mesh, "OffShape", ())]
+        lines = getattr(mesh, "OffShape", ())
+        if getattr(getattr(mesh, "Proxy", None), "MOVES_WALLS", False):
+            lines = [line for line in lines if _is_referred_to(line.split(":")[0], analysis, geometry_of(mesh))]
+        problems += [f"{line} (from '{mesh.Label}')" for line in lines]
         mesh = getattr(mesh, "Source", None)
     for member in analysis.Group:
         for part, names in getattr(member, "References", ()):
@@ -71,6 +76,17 @@ def lost_references(obj, source, analysis):
                 elif member.isDerivedFrom("Fem::ConstraintForce") and _is_doubled(obj.FemMesh, shape):
                     problems.append(f"the tool doubles {part.Label}.{name}, which '{member.Label}' loads")
     return problems
+
+
+def _is_referred_to(name, analysis, geometry):
+    """Whether a member of an analysis refers to a face or edge, called as in OffShape, or to a whole solid."""
+    for member in analysis.Group:
+        for part, elements in getattr(member, "References", ()):
+            for element in elements:
+                called = element if part == geometry else f"{part.Name}.{element}"
+                if called == name or element.startswith("Solid"):
+                    return True
+    return False
 
 
 def _is_doubled(femmesh, shape):
@@ -121,11 +137,18 @@ def _place_of_source(obj):
     raise ValueError(f"the mesh that '{obj.Label}' is made from is in no analysis")
 
 
+def _all_made_of(obj):
+    """All meshes that go into that of `obj`, its sources' sources and additions among them."""
+    return [mesh for link in made_of(obj) for mesh in (link, *_all_made_of(link))]
+
+
 def _exchange(analysis, old, new):
-    analysis.removeObject(old)
-    if new is not None and new not in analysis.Group:
-        analysis.addObject(new)
-    _retire_results(analysis, old)
+    for mesh in old:
+        analysis.removeObject(mesh)
+    for mesh in new:
+        if mesh is not None and mesh not in analysis.Group:
+            analysis.addObject(mesh)
+    _retire_results(analysis, old[0])
 
 
 def _retire_results(analysis, mesh):

@@ -14,6 +14,7 @@ from .geometry import shapes_of
 from .mesh_parts import nodes_around
 from .on_shape import OnShape
 from .operator_options import KEEP_TO_SHAPE
+from .ours import made_of
 from .reason import Reason
 
 # Attribute bits of addProperty.
@@ -69,6 +70,10 @@ class MeshOperation:
     #: Properties (type, name, text, values) of the operator, in addition to Source; shown under the class's name. When
     #: they are added they are set to the values, one after the other: of an enumeration, first its list.
     INPUTS = ()
+    #: Whether the operator takes the geometry as `skin`: the property KeepToShape.
+    TAKES_SKIN = True
+    #: Whether the operator moves walls off the geometry on purpose.
+    MOVES_WALLS = False
 
     def __init__(self, obj):
         self.report = None
@@ -90,6 +95,10 @@ class MeshOperation:
         """The femscalpel.Result of the operator on `mesh`."""
         raise NotImplementedError
 
+    def meant_to_leave(self, report):
+        """Numbers of the nodes that the operator has moved off the geometry on purpose."""
+        return ()
+
     # --- properties
 
     def add_properties(self, obj):
@@ -99,7 +108,7 @@ class MeshOperation:
         for kind, name, text, *values in (
             ("App::PropertyLink", "Source", "FEM mesh object to work on; it is not changed"),
             *self.INPUTS,
-            KEEP_TO_SHAPE,
+            *((KEEP_TO_SHAPE,) if self.TAKES_SKIN else ()),
         ):
             if name in present:
                 continue
@@ -110,15 +119,13 @@ class MeshOperation:
             if name not in present:
                 obj.addProperty(kind, name, "Result", text, OUTPUT)
             obj.setEditorMode(name, 1)
-        if "Replaced" not in present:
-            obj.addProperty(
-                "App::PropertyLinkHidden",
-                "Replaced",
-                section,
-                "Mesh whose place in an analysis this one has taken",
-                OUTPUT,
-            )
-        obj.setEditorMode("Replaced", 2)
+        for kind, name, text in (
+            ("App::PropertyLinkHidden", "Replaced", "Mesh whose place in an analysis this one has taken"),
+            ("App::PropertyLinkListHidden", "ReplacedAdditions", "Meshes added to it that were in that analysis, too"),
+        ):
+            if name not in present:
+                obj.addProperty(kind, name, section, text, OUTPUT)
+            obj.setEditorMode(name, 2)
         obj.setEditorMode("Placement", 2)
 
     def onDocumentRestored(self, obj):
@@ -151,11 +158,11 @@ class MeshOperation:
         """Makes the mesh anew from Source. Raises Reason, a RuntimeError, when it cannot."""
         self._link_geometry(obj)
         try:
-            source = self._source_mesh(obj)
+            source = self.mesh_of(obj, "Source")
             mesh = femmesh_bridge.from_femmesh(source)
             tools = self.tools(obj)
             result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
-            points = on_shape.put_back(result.mesh, tools)
+            points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
             report = self._completed(result.report, on_shape)
             self._check_names(obj, report)
             femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
@@ -178,17 +185,18 @@ class MeshOperation:
         return result, on_shape
 
     @staticmethod
-    def _source_mesh(obj):
-        source = obj.Source
-        if source is None:
-            raise ValueError("Source is not set; choose the FEM mesh to work on")
-        if not source.isDerivedFrom("Fem::FemMeshObject"):
-            raise ValueError(f"Source '{source.Label}' is not a FEM mesh")
-        if "Invalid" in source.State:
-            raise ValueError(f"Source '{source.Label}' has an error; mend it first")
-        if source.FemMesh.NodeCount == 0:
-            raise ValueError(f"Source '{source.Label}' has no mesh; make it first")
-        return source.FemMesh
+    def mesh_of(obj, link):
+        """The FemMesh that the property `link`, Source or Addition, leads to; ValueError where there is none."""
+        other = getattr(obj, link)
+        if other is None:
+            raise ValueError(f"{link} is not set; choose the FEM mesh to {'add' if link == 'Addition' else 'work on'}")
+        if not other.isDerivedFrom("Fem::FemMeshObject"):
+            raise ValueError(f"{link} '{other.Label}' is not a FEM mesh")
+        if "Invalid" in other.State:
+            raise ValueError(f"{link} '{other.Label}' has an error; mend it first")
+        if other.FemMesh.NodeCount == 0:
+            raise ValueError(f"{link} '{other.Label}' has no mesh; make it first")
+        return other.FemMesh
 
     @staticmethod
     def _completed(report, on_shape):
@@ -218,8 +226,7 @@ class MeshOperation:
                         "choose another GroupName"
                     )
 
-    @staticmethod
-    def _node_groups(source, report):
+    def _node_groups(self, source, report):
         """Names of the new groups that must be node groups.
 
         Once a solid mesh has any face elements, FreeCAD's solver writers look for loaded faces among them only, and
@@ -250,7 +257,7 @@ class MeshOperation:
     def _clear(self, obj):
         # FreeCAD does not recompute what depends on a failed object, so it would keep showing its outdated mesh.
         for dependent in obj.InList:
-            if isinstance(getattr(dependent, "Proxy", None), MeshOperation) and dependent.Source == obj:
+            if isinstance(getattr(dependent, "Proxy", None), MeshOperation) and obj in made_of(dependent):
                 dependent.Proxy._clear(dependent)
         self.report = None
         obj.FemMesh = Fem.FemMesh()

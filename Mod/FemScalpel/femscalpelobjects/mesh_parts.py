@@ -3,6 +3,7 @@
 
 import numpy as np
 
+import femscalpel
 from femscalpel.mesh import CELL_TYPES
 
 #: Faces of a tetrahedron as CalculiX numbers them: corners, then the places of the mid-side nodes among all ten.
@@ -34,6 +35,17 @@ def nodes_of_long_edges(mesh, tools, size, gradation, reach, rings):
         corners = mesh.points[nodes[:, : CELL_TYPES[name][2]]]
         width = np.linalg.norm(np.ptp(corners, axis=1), axis=1)  # no edge is longer
         near[nodes[width > allowed[nodes].min(axis=1)]] = True
+    return _with_rings(mesh, near, rings)
+
+
+def nodes_in_box(mesh, low, high, rings):
+    """Boolean array: nodes of the elements that reach into a box with sides along the axes, and of `rings` layers of
+    elements around them."""
+    near = np.zeros(mesh.node_count, bool)
+    for name, nodes in mesh.cells.items():
+        corners = mesh.points[nodes[:, : CELL_TYPES[name][2]]]
+        reach_in = (corners.max(axis=1) >= low) & (corners.min(axis=1) <= high)
+        near[nodes[reach_in.all(axis=1)]] = True
     return _with_rings(mesh, near, rings)
 
 
@@ -91,3 +103,45 @@ def border_nodes(mesh):
     border[edges[single].ravel()] = True
     border[mids[single]] = True
     return border
+
+
+def without_skin_elements(mesh):
+    """`mesh` without the triangle and segment elements that are faces or edges of its tetrahedra; groups of nothing
+    else become groups of their nodes."""
+    tetrahedra = [mesh.cells[name][:, :4] for name in TETRAS if name in mesh.cells]
+    if not tetrahedra:
+        return mesh
+    tetrahedra = np.concatenate(tetrahedra)
+    parts = {
+        1: np.unique(_keys(tetrahedra[:, MID_SIDES["tetra10"]].reshape(-1, 2), mesh.node_count)),
+        2: np.unique(_keys(tetrahedra[:, TETRA_FACES[:, :3]].reshape(-1, 3), mesh.node_count)),
+    }
+    cells, cell_ids, gone, nodes_gone = {}, {}, [], []
+    for name, nodes in mesh.cells.items():
+        dimension, _, corners = CELL_TYPES[name]
+        on = np.zeros(len(nodes), bool)
+        if dimension in parts and corners == dimension + 1:
+            on = np.isin(_keys(nodes[:, :corners], mesh.node_count), parts[dimension])
+        gone += mesh.cell_ids[name][on].tolist()
+        nodes_gone += nodes[on].tolist()
+        if not on.all():
+            cells[name], cell_ids[name] = nodes[~on], mesh.cell_ids[name][~on]
+    nodes_of = dict(zip(gone, nodes_gone))
+    groups = {}
+    for group in mesh.groups.all("node") + mesh.groups.all("element"):
+        kind, ids = group.kind, group.ids
+        if kind == "element" and np.isin(ids, gone).any():
+            ids = np.setdiff1d(group.ids, gone)
+            if not len(ids):
+                kind, ids = "node", mesh.node_ids[np.unique([n for i in group.ids.tolist() for n in nodes_of[i]])]
+        groups[group.name, kind] = np.union1d(groups.get((group.name, kind), ids), ids)
+    groups = [(name, kind, ids) for (name, kind), ids in groups.items()]
+    return femscalpel.Mesh(mesh.points, cells, mesh.node_ids, cell_ids, groups, name=mesh.name)
+
+
+def _keys(corners, count):
+    """A number for each edge or triangle, the same for the same corners in whatever order."""
+    key = np.zeros(len(corners), np.int64)
+    for column in np.sort(corners, axis=1).T:
+        key = key * count + column
+    return key

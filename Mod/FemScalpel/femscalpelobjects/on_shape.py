@@ -163,11 +163,11 @@ class OnShape:
         moved = known & (self._mesh.points[at] != mesh.points).any(axis=1)
         return known, moved, known & self._near[at]
 
-    def put_back(self, mesh, tools):
+    def put_back(self, mesh, tools, meant_to_leave=()):
         """Coordinates for the nodes of the operator's result: on the shapes, and on the tools, where they belong.
 
         Takes the bookkeeping groups out of `mesh`. Nodes that cannot go where they belong without spoiling an element
-        stay, and are told in `lost`.
+        stay, and so do those numbered in `meant_to_leave`; all are told in `lost`.
         """
         points = mesh.points.copy()
         if not self.group_names:
@@ -178,8 +178,12 @@ class OnShape:
 
         size = np.ptp(points, axis=0).max()
         changed = np.zeros(mesh.node_count, bool)
-        on_tool = np.array([np.abs(tool.distance(points)) < 1e-9 * size for tool in tools]).reshape(len(tools), -1)
+        on_tool = np.array([np.abs(tool.distance(points)) < 1e-9 * size for tool in tools], bool)
+        on_tool = on_tool.reshape(len(tools), mesh.node_count)
+        leaves = np.isin(mesh.node_ids, meant_to_leave)
         for nodes, places in self._off(points, entities):
+            if leaves[nodes].any():
+                continue
             kept = [tool for tool, on in zip(tools, on_tool) if on[nodes[0]]]
             place = nearest(points[nodes[0]], places, kept, size)
             if place is not None:

@@ -142,7 +142,7 @@ OPTIONS = (
     ),
 )
 
-#: Of every object, and no argument of a function.
+#: Of every object whose operator takes a skin, and no argument of a function.
 KEEP_TO_SHAPE = (
     "App::PropertyBool",
     "KeepToShape",
@@ -193,6 +193,11 @@ def to_properties(given):
     return out
 
 
+def values(obj, mesh, *names):
+    """The options of these names, or all, as keyword arguments of femscalpel's operators on `mesh`."""
+    return {o.keyword: o.read(obj, mesh) for o in _chosen(names)}
+
+
 def keywords(obj, mesh, *names):
-    """The options of these names, or all, and the skin, as keyword arguments of femscalpel's operators on `mesh`."""
-    return {**{o.keyword: o.read(obj, mesh) for o in _chosen(names)}, "skin": skin_of(obj)}
+    """As values(), and the skin."""
+    return {**values(obj, mesh, *names), "skin": skin_of(obj)}

@@ -9,19 +9,30 @@ from, it is recomputed.
 import FreeCAD
 
 from .group_names import follow_all
-from .ours import is_ours
+from .ours import is_ours, made_of
 
 # Not inputs.
-_ASIDE = {"FemMesh", "Label", "Label2", "Visibility", "ExpressionEngine", "Placement", "Proxy", "Replaced"}
+_ASIDE = {
+    "FemMesh",
+    "Label",
+    "Label2",
+    "Visibility",
+    "ExpressionEngine",
+    "Placement",
+    "Proxy",
+    "Replaced",
+    "ReplacedAdditions",
+}
 
 
 def _inputs(obj):
-    """The values of the properties the mesh depends on, comparable."""
-    return {
+    """The values of the properties the mesh depends on, and the placements of what it is made from, comparable."""
+    values = {
         name: obj.dumpPropertyContent(name)
         for name in obj.PropertiesList
         if name not in _ASIDE and obj.getGroupOfProperty(name) != "Result"
     }
+    return {**values, "placements": [mesh.dumpPropertyContent("Placement") for mesh in made_of(obj)]}
 
 
 class _Watch:

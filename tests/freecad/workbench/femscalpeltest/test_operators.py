@@ -231,6 +231,18 @@ class Operators(DocumentTest):
                 "",
                 f"name=Refine tool=Cylinder {curved} size=1.0 reach=0.0 gradation=0.5 feature_angle=30.0 face=None",
             ),
+            (
+                "makeMerge",
+                "ADD",
+                "addition name=Merge keep=mesh tolerance=0.0 prefix= join_groups=True group_name={} feature_angle=30.0",
+            ),
+            ("makeFillet", "FILLET", f"along radius=1.0 name=Fillet {common} refine=None"),
+            (
+                "makeReshape",
+                "SHAPE",
+                "group onto=None by=None scale=None name=Reshape placement=None origin=None axis=None radius=1.0 "
+                "tube_radius=0.25 half_angle=30.0 group_name={} feature_angle=30.0 preserve=None face=None",
+            ),
         ):
             with self.subTest(make=make):
                 function = getattr(ObjectsFemScalpel, make)

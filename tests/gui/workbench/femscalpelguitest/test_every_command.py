@@ -40,7 +40,7 @@ class EveryCommand(GuiTest):
                 self.assertFalse(action.icon().isNull())
 
     def test_without_a_usable_mesh(self):
-        for name in ("First", "Second"):
+        for name in ("First", "Second", "Third"):
             self.add_mesh(long_box(), name)
         self.doc.addObject("Fem::FemMeshObject", "Empty")
         self.doc.addObject("App::FeaturePython", "Thing")
@@ -49,7 +49,7 @@ class EveryCommand(GuiTest):
         for command in MESH_COMMANDS:
             for selected, text in (
                 ((), "Select the one you mean"),
-                (("First", "Second"), "Select one"),
+                (("First", "Second", "Third"), "Select one"),
                 (("Thing",), "Thing is not a FEM mesh. Select the mesh"),
                 (("Folder",), "Folder is not a FEM mesh"),
                 (("Empty",), "Empty has no mesh yet: it is empty. Make the mesh first"),
@@ -62,7 +62,7 @@ class EveryCommand(GuiTest):
                     self.assertFalse(FreeCADGui.Control.activeDialog())
         FreeCADGui.Selection.clearSelection()
         self.assertEqual(traces(self.doc), before)
-        for name in ("First", "Second", "Empty"):
+        for name in ("First", "Second", "Third", "Empty"):
             self.doc.removeObject(name)
         for command in MESH_COMMANDS:
             with self.subTest(command=command.NAME):

@@ -12,6 +12,8 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
+import femscalpel as fs
+from femscalpeltest.meshes import grid_box
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest, QTest
 from .mesh_content import content_of
@@ -119,9 +121,7 @@ class Macro(GuiTest):
 
             here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
             self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack", "Drill", "Cut", "Refine"})
-            self.assertTrue(os.path.exists(macro), os.listdir(folder))
-            with open(macro) as file:
-                text = file.read()
+            text = self.replayed(folder, macro, path, here)
             for line in (
                 "import ObjectsFemScalpel",
                 "ObjectsFemScalpel.renameGroup(",
@@ -133,22 +133,77 @@ class Macro(GuiTest):
                 ".PlanePlacement = FreeCAD.Placement(",
             ):
                 self.assertIn(line, text)
-            out = os.path.join(folder, "meshes.json")
-            script = os.path.join(folder, "replay.py")
-            with open(script, "w") as file:
-                file.write(_REPLAY.format(path=[p for p in sys.path if p], document=path, macro=macro, out=out))
-            done = subprocess.run(
-                [shutil.which("freecadcmd") or shutil.which("FreeCADCmd"), script],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                errors="replace",
-                env={**os.environ, "FREECAD_USER_HOME": folder},
-            )
-            self.assertTrue(os.path.exists(out), done.stdout)
-            with open(out) as file:
-                there = json.load(file)
-            self.assertEqual(set(there), set(here))
-            for name in here:
-                self.assertTrue(there[name] == here[name], f"{name} differs")
+
+    def test_material_replayed_without_window(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "source.FCStd")
+            holed = fs.drill(grid_box((14, 5, 4), (14.0, 5.0, 4.0)), fs.Cylinder((3.1, 2.4, 0), (0, 0, 1), 0.8)).mesh
+            self.add_mesh(holed)
+            self.add_mesh(grid_box((3, 3, 2), (3.0, 3.0, 2.0)), "Boss").Placement.Base = FreeCAD.Vector(8.2, 1.3, 4)
+            self.doc.recompute()
+            self.doc.saveAs(path)
+            FreeCAD.closeDocument(self.doc.Name)
+            self.doc = FreeCAD.openDocument(path)
+            self.look()
+            macro = os.path.join(folder, "material.FCMacro")
+            self.record(folder, "material.FCMacro")
+            for command, source, enter in (
+                ("Merge", "Mesh", lambda: type_into("mergeTolerance", "0.01")),
+                ("Fillet", "Merge", self.pick_edge),
+                ("Reshape", "Fillet", lambda: (choose("wall", "HOLE_WALL"), type_into("radius", "1.05"))),
+            ):
+                FreeCADGui.Selection.clearSelection()
+                FreeCADGui.Selection.addSelection(self.doc.Name, source)
+                self.run_command("FemScalpel_" + command)
+                wait_until(lambda: "…" not in widget("status").text(), "the panel")
+                enter()
+                self.wait_for_preview()
+                press_ok()
+            self.doc.Merge.ViewObject.doubleClicked()
+            self.wait_for_preview()
+            choose("keep", "addition")
+            self.wait_for_preview()
+            press_ok()
+            self.run_command("Std_MacroStopRecord")
+            here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
+            self.assertEqual(set(here), {"Mesh", "Boss", "Merge", "Fillet", "Reshape"})
+            text = self.replayed(folder, macro, path, here)
+            for line in (
+                "ObjectsFemScalpel.makeMerge(",
+                "addition=FreeCAD.ActiveDocument.getObject('Boss')",
+                "ObjectsFemScalpel.makeFillet(",
+                "ObjectsFemScalpel.makeReshape(",
+                ".Addition = ",
+            ):
+                self.assertIn(line, text)
+
+    def pick_edge(self):
+        click("pickEdge")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Merge", "Elem1F1", 6.123456789, 0.0, 0.0123456789)
+        spin(0.1)
+        type_into("filletRadius", "0.7")
+
+    def replayed(self, folder, macro, document, here):
+        """The text of a macro; replayed without a window on a saved document it must give the meshes `here`."""
+        self.assertTrue(os.path.exists(macro), os.listdir(folder))
+        out = os.path.join(folder, "meshes.json")
+        script = os.path.join(folder, "replay.py")
+        with open(script, "w") as file:
+            file.write(_REPLAY.format(path=[p for p in sys.path if p], document=document, macro=macro, out=out))
+        done = subprocess.run(
+            [shutil.which("freecadcmd") or shutil.which("FreeCADCmd"), script],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            env={**os.environ, "FREECAD_USER_HOME": folder},
+        )
+        self.assertTrue(os.path.exists(out), done.stdout)
+        with open(out) as file:
+            there = json.load(file)
+        self.assertEqual(set(there), set(here))
+        for name in here:
+            self.assertTrue(there[name] == here[name], f"{name} differs")
+        with open(macro) as file:
+            return file.read()

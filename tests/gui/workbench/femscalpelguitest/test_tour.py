@@ -3,7 +3,10 @@
 
 import femmesh_bridge
 import femscalpel as fs
+import FreeCAD
 import FreeCADGui
+import ObjectsFem
+from femmesh.gmshtools import GmshTools
 
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest
@@ -49,6 +52,30 @@ class Tour(GuiTest):
         press_ok()
         self.assertEqual(self.doc.Drill.Source, self.doc.Crack)
         screenshot("tour_6_drilled")
-        self.doc.undo()
-        self.doc.undo()
-        self.assertEqual([o.Name for o in self.doc.Objects], ["Bracket"])
+        self.add_rib()
+        FreeCADGui.Selection.clearSelection()
+        for name in ("Drill", "RibMesh"):
+            FreeCADGui.Selection.addSelection(self.doc.Name, name)
+        self.run_command("FemScalpel_Merge")
+        type_into("groupName", "RIB")
+        wait_until(lambda: lines_drawn("FemScalpelOutline") > 0, "the preview of the stiffener")
+        spin(0.5)
+        screenshot("tour_7_merge")
+        press_ok()
+        self.assertEqual((self.doc.Merge.Source, self.doc.Merge.Addition), (self.doc.Drill, self.doc.RibMesh))
+        screenshot("tour_8_merged")
+        for _ in range(3):
+            self.doc.undo()
+        self.assertEqual([o.Name for o in self.doc.Objects], ["Bracket", "Rib", "RibMesh"])
+
+    def add_rib(self):
+        """A stiffener on the bracket, drawn in FreeCAD and meshed there."""
+        rib = self.doc.addObject("Part::Box", "Rib")
+        rib.Length, rib.Width, rib.Height = 4.1, 0.6, 1.5
+        rib.Placement.Base = FreeCAD.Vector(0.63, 2.17, 4)
+        self.doc.recompute()
+        mesh = ObjectsFem.makeMeshGmsh(self.doc, "RibMesh")
+        mesh.Part, mesh.CharacteristicLengthMax, mesh.ElementOrder = rib, 0.6, "1st"
+        GmshTools(mesh).create_mesh()
+        rib.ViewObject.Visibility = False
+        self.doc.recompute()
