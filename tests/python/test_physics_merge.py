@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What CalculiX makes of joined meshes: across the seam a linear field is exact, and a stiffened plate bends as one that
-was meshed at once."""
+"""What CalculiX makes of joined meshes: across the seam a linear field is exact, and a stiffened plate bends as one
+that was meshed at once."""
 
 import subprocess
 
