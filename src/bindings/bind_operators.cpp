@@ -221,11 +221,14 @@ void bind_functions(py::module_& module) {
 }
 
 void bind_merge(py::module_& module) {
-    bind_operator<const Mesh&, const OperatorOptions&, bool, std::optional<double>, const std::string&, bool>(
+    bind_operator<const Mesh&, const OperatorOptions&, bool, std::optional<double>, const std::string&, bool,
+                  std::optional<std::array<double, 3>>>(
         module, "merge",
         [](const Mesh& mesh, const Prepared& known, const Mesh& addition, const OperatorOptions& options,
-           bool keep_addition, std::optional<double> tolerance, const std::string& prefix, bool join_groups) {
+           bool keep_addition, std::optional<double> tolerance, const std::string& prefix, bool join_groups,
+           std::optional<std::array<double, 3>> keep_side) {
             auto o = with<MergeOptions>(options);
+            if (keep_side) o.keep_side = Vec3(keep_side->data());
             o.keep_addition = keep_addition;
             o.tolerance = tolerance;
             o.prefix = prefix;
@@ -233,7 +236,7 @@ void bind_merge(py::module_& module) {
             return merge(mesh, addition, o, known);
         },
         py::arg("addition"), py::arg("options"), py::arg("keep_addition"), py::arg("tolerance"), py::arg("prefix"),
-        py::arg("join_groups"));
+        py::arg("join_groups"), py::arg("keep_side"));
 }
 
 void bind_refine(py::module_& module) {

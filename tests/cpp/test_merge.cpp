@@ -9,6 +9,7 @@
 #include "mesh/quality.h"
 #include "operators/joint.h"
 #include "operators/seam.h"
+#include "operators/trim.h"
 #include "operators/unite.h"
 #include "simple_meshes.h"
 
@@ -150,6 +151,22 @@ TEST(Joint, StopsAreAtEndsBendsAndNodes) {
     EXPECT_EQ(joint.stops[1].at, Vec3(2, 0, 0));
     EXPECT_EQ(joint.stops[2].node, (std::array<Index, 2>{-1, -1}));
     EXPECT_NEAR(ribbon_of(line, 0)->length(), 3 + std::hypot(1, 0.3), 1e-12);
+}
+
+TEST(Trim, LeavesWhatIsOnThePointsSide) {
+    // Four squares, two on each side of the line x = 0, the second mesh of a joint.
+    Mesh shell;
+    checks::add_plate(shell, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2);
+    JointLine line;
+    const std::vector<Vec3> points{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
+    line.standing[0] = std::make_unique<Ribbon>(points, std::vector<Vec3>(3, Vec3::UnitX()), false);
+    for (const Vec3& x : points) line.stops.push_back({x, {-1, checks::number_near(shell, x)}});
+    const std::array<JointLine, 1> lines{std::move(line)};
+    for (const double side : {1.0, -1.0}) {
+        const Crop kept = trimmed(shell, lines, {5 * side, 1, 1});
+        EXPECT_EQ(kept.mesh.block(CellType::triangle).size(), 4);
+        for (const Vec3& x : kept.mesh.points) EXPECT_GE(x[0] * side, 0);
+    }
 }
 
 TEST(Merge, ATowerOnABlock) {

@@ -94,6 +94,17 @@ def test_shells_on_a_plate(floor, name):
     )
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_what_passes_through_is_trimmed(floor, side):
+    rib = standing((1, 3.3, -2), (8, 0.3, 0), (8, 4), (0, 0, 4.3))
+    mesh = fs.merge(floor, rib, keep_side=(5, 5, 3 * side)).mesh
+    check_conforming(mesh)
+    added = np.isin(mesh.cell_ids["triangle"], mesh.groups["ADD_ADDED"].ids)
+    height = mesh.points[mesh.cells["triangle"][added]][:, :, 2] * side
+    assert height.min() > -1e-9
+    assert areas(mesh)[added].sum() == pytest.approx(np.hypot(8, 0.3) * (2.3 if side > 0 else 2), rel=1e-6)
+
+
 def test_a_node_group_gets_the_node_between_two_of_its_own(floor):
     """Figure 9 of the paper: fixed nodes along a border, a stiffener that ends on it."""
     border = floor.node_ids[floor.points[:, 1] == 0]
@@ -303,6 +314,8 @@ def test_a_session_and_a_mesh_give_the_same(floor):
         (lambda a, b: fs.merge(a, b, name="bad name"), "name", "character"),
         (lambda a, b: fs.merge(a, b, keep="both"), "keep", "'mesh' or 'addition'"),
         (lambda a, b: fs.merge(a, b, tolerance=0), "tolerance", "positive"),
+        (lambda a, b: fs.merge(a, b, keep_side=(0, 0, -9)), "keep_side", "on that side"),
+        (lambda a, b: fs.merge(a, b, keep_side=3), "keep_side", "keep_side"),
         (lambda a, b: fs.merge(a, 3), "other", "femscalpel.Mesh"),
         (lambda a, b: fs.merge(fs.merge(a, b).mesh, b), "name", "already has a group"),
     ],

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "cancel.h"
@@ -11,6 +12,7 @@
 #include "cutting/root.h"
 #include "cutting/workpiece.h"
 #include "deformation/curved_shape.h"
+#include "error.h"
 #include "mesh/quality.h"
 #include "mesh/stopwatch.h"
 
@@ -28,6 +30,13 @@ constexpr double along = 2e-3;
 constexpr double steep = 4;
 /// An edge that dips this deep through a curved tool, in its own length, gets a node in between.
 constexpr double dip = 0.15;
+
+[[noreturn]] void refuse_fourth(const Vec3& at) {
+    std::ostringstream message;
+    message << "four surfaces come together near (" << at.x() << " " << at.y() << " " << at.z()
+            << "), which no node can lie on all of: make them one after the other, or smaller";
+    throw QualityError(message.str());
+}
 
 class Snapper {
 public:
@@ -96,7 +105,7 @@ public:
 
     void split_edges() {
         for (const Edge& e : region_edges([&](int a, int b) { return value_[a] * value_[b] < 0; })) {
-            const Contact tools = d_.edge_contact(e.a, e.b).with(&tool_);
+            const Contact tools = and_tool(d_.edge_contact(e.a, e.b), e.a);
             split(e.a, e.b, crossing(e.a, e.b, tools), tools);
         }
     }
@@ -233,6 +242,12 @@ private:
         return (tangents.leftCols(count).transpose() * tool_.normal(band_.nodes[v].at)).norm() < along;
     }
 
+    /// `on` and the tool; at most three fix a node.
+    Contact and_tool(const Contact& on, int v) const {
+        if (on.full() && !on.has(&tool_)) refuse_fourth(band_.nodes[v].at);
+        return on.with(&tool_);
+    }
+
     void hold_if_beside(int v, double part) {
         const double reach = reach_beyond(v);
         if (!is_beside(value_[v], reach, part)) {
@@ -241,7 +256,7 @@ private:
                     d_.constraints[v].freedom == NodeFreedom::curve && runs_along(v) ? 0 : std::abs(value_[v]) / reach;
             return;
         }
-        d_.hold_beside(v, d_.contact[v].with(&tool_));
+        d_.hold_beside(v, and_tool(d_.contact[v], v));
         value_[v] = 0;
     }
 

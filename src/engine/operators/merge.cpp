@@ -19,6 +19,7 @@
 #include "mesh/surface.h"
 #include "operators/joint.h"
 #include "operators/refine_first.h"
+#include "operators/trim.h"
 #include "operators/unite.h"
 #include "tools/ribbon.h"
 
@@ -91,7 +92,7 @@ private:
     throw ToolError(out.str(), "other");
 }
 
-void check(const Mesh& mesh, const Mesh& addition) {
+void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {
     if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
     if (mesh.dimension() < 2 || addition.dimension() < 2 || addition.dimension() > mesh.dimension())
@@ -99,6 +100,8 @@ void check(const Mesh& mesh, const Mesh& addition) {
                             " cannot be joined to a mesh of dimension " + std::to_string(mesh.dimension()) +
                             ": shells are joined to shells and to solids, solids to solids",
                         "other");
+    if (addition.dimension() == 3 && options.keep_side)
+        throw ToolError("keep_side is for shells; of solids, keep says what is cut off", "keep_side");
 }
 
 /// Throws ToolError when a group that the operator makes has a name already.
@@ -166,6 +169,13 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (const JointLine& line : joint.lines())
         for (const JointLine::Stop& stop : line.stops) shared[stop.node[1]] = stop.node[0];
+    if (options.keep_side) {
+        Crop kept = trimmed(joint.mesh(1), joint.lines(), *options.keep_side);
+        std::vector<Index> shared_kept;
+        for (const Index n : kept.nodes) shared_kept.push_back(shared[n]);
+        joint.mesh(1) = std::move(kept.mesh);
+        shared = std::move(shared_kept);
+    }
     unite(out.mesh, joint.mesh(1), shared, add_group_added(out.mesh, options), names_of(options));
     return out;
 }
@@ -276,7 +286,7 @@ void check_seam(const Mesh& mesh, const std::vector<Index>& seam) {
 
 Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();
-    check(mesh, other);
+    check(mesh, other, options);
     check_names(mesh, other, options.name);
     const Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
     Meeting meeting = find_meeting(mesh, addition, options.tolerance);

@@ -17,6 +17,8 @@ struct MergeOptions : OperatorOptions {
         tolerance;       ///< what is nearer than this touches; a fiftieth of the shorter mean edge if absent
     std::string prefix;  ///< see UniteNames; the name and "_" if empty
     bool join_groups = true;
+    /// Of shells that pass through the mesh, what is on this point's side of it stays; all if absent.
+    std::optional<Vec3> keep_side;
 };
 
 /// Joins an addition to a mesh (paper, 2.1 and Figure 9): where their surfaces meet, both get the same nodes and edges,

@@ -320,6 +320,7 @@ def merge(
     join_groups: bool = True,
     feature_angle: float = 30.0,
     strict: bool = False,
+    keep_side: Optional[Sequence[float]] = None,
 ) -> Result:
     """Joins another mesh to a mesh: a stiffener, a doubler, a bracket.
 
@@ -350,6 +351,8 @@ def merge(
         Whether groups of one name and kind become one.
     feature_angle, strict
         As for :func:`crack`.
+    keep_side : (x, y, z), optional
+        Of shells that pass through the mesh, only what is on the side of this point stays. All of them when not given.
 
     Returns
     -------
@@ -390,6 +393,7 @@ def merge(
         tolerance,
         _arguments.text(prefix, "prefix"),
         _arguments.flag(join_groups, "join_groups"),
+        None if keep_side is None else list(_arguments.vector(keep_side, "keep_side")),
     )
 
 
