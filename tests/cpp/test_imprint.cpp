@@ -73,6 +73,17 @@ TEST(Imprint, MakesStopsNodes) {
         EXPECT_NEAR((block.f.d.band.nodes[line.at_stop[k]].at - Vec3(x[k], 1.3, 1)).norm(), 0, 1e-9);
 }
 
+TEST(Imprint, GoesThroughNodesThatAreThere) {
+    Block block;
+    const ImprintedLine line = block.imprint({{0.5, 1, 1}, {3.4, 1, 1}});
+    ASSERT_EQ(line.nodes.size(), 5u);
+    for (const int k : {1, 2, 3}) {
+        const BandNode& node = block.f.d.band.nodes[line.nodes[static_cast<std::size_t>(k)]];
+        EXPECT_EQ(node.at, node.start);
+        EXPECT_EQ(node.at, Vec3(k, 1, 1));
+    }
+}
+
 TEST(Imprint, FollowsAClosedLineThatTurns) {
     Block block;
     std::vector<Vec3> circle;

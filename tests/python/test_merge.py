@@ -254,6 +254,19 @@ def test_solids(name, keep):
     check_untouched(base, mesh, lambda x: x[:, 2] < 0.5)
 
 
+@pytest.mark.parametrize("counts", [(2, 2, 1), (4, 3, 2), (5, 4, 1)])
+@pytest.mark.parametrize("corner", [(1, 1, 4), (2, 1, 4), (1.5, 1.5, 4), (1, 1.5, 4), (0, 0, 4)])
+def test_solids_along_rows_of_nodes(corner, counts):
+    """With coordinates that are off by rounding, as meshers make them."""
+    base = grid_box((6, 5, 4), (6.0, 5.0, 4.0))
+    part = block(np.add(corner, (1, 0.75, 0)), (2, 1.5, 1), counts, "ADD")
+    off = np.random.default_rng(1).integers(-3, 4, part.points.shape) * 2.3e-16
+    part = fs.Mesh(part.points * (1 + off), part.cells)
+    mesh = fs.merge(base, part).mesh
+    check_conforming(mesh)
+    assert tetra_volumes(mesh.points, mesh.cells["tetra"]).sum() == pytest.approx(123, rel=1e-9)
+
+
 def test_solids_of_second_order():
     base = quadratic(grid_box((6, 5, 4), (6.0, 5.0, 4.0)))
     mesh = fs.merge(base, SOLIDS["block on"][0]).mesh

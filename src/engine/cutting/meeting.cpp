@@ -282,7 +282,8 @@ private:
             const auto& points = meshes_[m].points;
             for (const Crossing& c : crossings_)
                 for (const Index n : faces_[m][c.face[m]].nodes)
-                    if (points[n] == c.span[0] || points[n] == c.span[1]) nodes.insert(n);
+                    if ((points[n] - c.span[0]).norm() <= fine_ || (points[n] - c.span[1]).norm() <= fine_)
+                        nodes.insert(n);
             for (const Index n : nodes) out.add_node(points[n], m, n);
         }
         for (const Crossing& c : crossings_)

@@ -149,7 +149,8 @@ void SurfaceLine::measure() {
     const double close = std::max(f_.tolerance, d_.rounding);
     for (const int s : region())
         for (const int v : band_.skin[s])
-            if (value_[v] != 0 && std::abs(value_[v]) <= close && within_ends(at(v)) && !d_.contact[v].full()) {
+            if (!d_.contact[v].has(&ribbon_) && !d_.contact[v].full() && std::abs(value_[v]) <= close &&
+                within_ends(at(v))) {
                 d_.contact[v] = d_.contact[v].with(&ribbon_);
                 value_[v] = 0;
             }

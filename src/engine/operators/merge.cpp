@@ -295,7 +295,8 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     refined.run(meeting.lines);
     // Smaller elements do not make what is off a curved surface nearer.
     if (refined.any())
-        meeting = find_meeting(refined.mesh(0), refined.mesh(1), options.tolerance.value_or(meeting.tolerance));
+        meeting = find_meeting(refined.mesh(0), refined.mesh(1),
+                               meeting.tolerance > 0 ? meeting.tolerance : options.tolerance);
     std::vector<JointLine> lines;
     for (const MeetingLine& line : meeting.lines) lines.push_back(line_of(line, refined.mesh(0)));
     Joint joint(refined.mesh(0), refined.mesh(1), std::move(lines), options);
