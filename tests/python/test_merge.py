@@ -327,6 +327,7 @@ def test_a_session_and_a_mesh_give_the_same(floor):
         (lambda a, b: fs.merge(a, b, name="bad name"), "name", "character"),
         (lambda a, b: fs.merge(a, b, keep="both"), "keep", "'mesh' or 'addition'"),
         (lambda a, b: fs.merge(a, b, tolerance=0), "tolerance", "positive"),
+        (lambda a, b: fs.merge(a, plate((2, 2, 0), (3, 0, 0), (0, 3, 0), (3, 3), "ON")), "other", "lie on the mesh"),
         (lambda a, b: fs.merge(a, b, keep_side=(0, 0, -9)), "keep_side", "on that side"),
         (lambda a, b: fs.merge(a, b, keep_side=3), "keep_side", "keep_side"),
         (lambda a, b: fs.merge(a, 3), "other", "femscalpel.Mesh"),

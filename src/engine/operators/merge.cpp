@@ -16,7 +16,9 @@
 #include "deck/solver_input.h"
 #include "mesh/band_mesh.h"
 #include "mesh/order.h"
+#include "mesh/stopwatch.h"
 #include "mesh/surface.h"
+#include "mesh/surface_tree.h"
 #include "operators/joint.h"
 #include "operators/refine_first.h"
 #include "operators/trim.h"
@@ -26,6 +28,9 @@
 namespace femscalpel {
 namespace {
 
+/// A triangle as near to the other's surface, in its edges, and as parallel (cosine), lies on it.
+constexpr double on_each_other = 1e-3;
+constexpr double parallel = 0.99;
 /// Edges of the one at the line may be so many times longer than those of the other.
 constexpr double coarser = 2.5;
 /// And no longer than this part of a closed line.
@@ -102,6 +107,34 @@ void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) 
                         "other");
     if (addition.dimension() == 3 && options.keep_side)
         throw ToolError("keep_side is for shells; of solids, keep says what is cut off", "keep_side");
+}
+
+/// Throws ToolError when shells lie on each other over an area: they would be joined along its outline alone.
+void check_overlap(const Mesh& mesh, const Mesh& addition) {
+    Eigen::AlignedBox3d box = box_around(addition);
+    const double margin = 1e-3 * box.diagonal().norm();
+    box.min().array() -= margin;
+    box.max().array() += margin;
+    const std::vector<SurfaceFace> faces = surface_near(mesh, box), own = surface_near(addition, box);
+    const SurfaceTree tree(mesh, faces), of_addition(addition, own);
+    Index count = 0;
+    Vec3 first = Vec3::Zero();
+    SparseCheck check(64);
+    for (std::size_t f = 0; f < own.size() && !faces.empty(); ++f, check()) {
+        const auto& n = own[f].nodes;
+        const Vec3 middle = (addition.points[n[0]] + addition.points[n[1]] + addition.points[n[2]]) / 3;
+        const SurfaceTree::Foot foot = tree.closest(middle);
+        const int face = static_cast<int>(f);
+        if (foot.distance > on_each_other * of_addition.size(face) ||
+            std::abs(tree.normal(foot.piece).dot(of_addition.normal(face))) < parallel)
+            continue;
+        if (count++ == 0) first = middle;
+    }
+    if (count > 0)
+        throw ToolError(std::to_string(count) + " triangles of the addition lie on the mesh's surface, the first at " +
+                            point_text(first) +
+                            ": shells are joined along lines. Move the addition off, or leave that part of it out",
+                        "other");
 }
 
 /// Throws ToolError when a group that the operator makes has a name already.
@@ -291,6 +324,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     const Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
     Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);
+    if (addition.dimension() == 2) check_overlap(mesh, addition);
     Refining refined(mesh, addition, options);
     refined.run(meeting.lines);
     // Smaller elements do not make what is off a curved surface nearer.
