@@ -10,8 +10,9 @@
 
 namespace femscalpel {
 
-/// Three nodes of a face, and four of an element.
+/// Three nodes of a face.
 using Triangle = std::array<int, 3>;
+/// Four nodes of an element.
 using Tetra = std::array<int, 4>;
 /// An edge of a face, in its direction.
 using DirectedEdge = std::array<int, 2>;
@@ -35,6 +36,7 @@ struct SharpestEdge {
     Vec3 at = Vec3::Zero();
     double degrees = 360;
 };
+/// Of a closed surface whose normals point outwards, that edge and the angle there.
 SharpestEdge sharpest_edge(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 /// Smallest mean ratio of tetrahedra that fill what the triangles enclose. Throws QualityError that names the place

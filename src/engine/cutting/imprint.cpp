@@ -218,6 +218,7 @@ private:
     void place_stops() {
         std::vector<std::pair<double, int>> line;  // nodes of the line by length
         const std::vector<int> nodes = chain();
+        line.reserve(nodes.size());
         for (const int v : nodes) line.push_back({arc_of(v), v});
         // Near ones first, so that each node goes to the stop it is nearest to.
         std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;

@@ -8,6 +8,7 @@
 
 namespace femscalpel {
 
+/// A point or vector in a plane.
 using Vec2 = Eigen::Vector2d;
 
 /// Signed area of a polygon: positive when it runs counter-clockwise.

@@ -12,6 +12,7 @@ namespace femscalpel {
 /// A part of the skin of a band (of the border of its shells) that is to be moved. Where surfaces of the kept geometry
 /// part it, it has several patches.
 struct Wall {
+    /// What of it was one surface (curve).
     struct Patch {
         int shape;               ///< surface (of shells: curve) of the kept geometry that it was
         std::vector<int> parts;  ///< slots in BandMesh::skin (creases) of the input

@@ -8,8 +8,9 @@
 
 namespace femscalpel {
 
-/// The ends of a segment, or the corners of a triangle.
+/// The ends of a segment.
 using Span = std::array<Vec3, 2>;
+/// The corners of a triangle.
 using TriangleCorners = std::array<Vec3, 3>;
 
 /// The segment in which two triangles cross; nothing where they meet in less, or nearly lie in one plane. Vertices no

@@ -20,6 +20,7 @@ namespace femscalpel {
 /// normal is (0, 1).
 class FilletPath {
 public:
+    /// A point by where it is along the edge, and its section coordinates there.
     struct Place {
         double s;
         Vec2 p;

@@ -102,6 +102,7 @@ void drag_middles(const Mesh& before, Mesh& after) {
 
 std::vector<double> lengths(const Ribbon& ribbon, const JointLine& line) {
     std::vector<double> out;
+    out.reserve(line.stops.size());
     for (const JointLine::Stop& stop : line.stops) out.push_back(ribbon.foot(stop.at).arc);
     out.front() = 0;
     if (!line.closed) out.back() = ribbon.length();

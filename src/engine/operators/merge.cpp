@@ -205,6 +205,7 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
     if (options.keep_side) {
         Crop kept = trimmed(joint.mesh(1), joint.lines(), *options.keep_side);
         std::vector<Index> shared_kept;
+        shared_kept.reserve(kept.nodes.size());
         for (const Index n : kept.nodes) shared_kept.push_back(shared[n]);
         joint.mesh(1) = std::move(kept.mesh);
         shared = std::move(shared_kept);
@@ -332,6 +333,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         meeting = find_meeting(refined.mesh(0), refined.mesh(1),
                                meeting.tolerance > 0 ? meeting.tolerance : options.tolerance);
     std::vector<JointLine> lines;
+    lines.reserve(meeting.lines.size());
     for (const MeetingLine& line : meeting.lines) lines.push_back(line_of(line, refined.mesh(0)));
     Joint joint(refined.mesh(0), refined.mesh(1), std::move(lines), options);
     joint.run(&refined.mesh(0) == &mesh ? known : Prepared{});

@@ -31,8 +31,11 @@ struct Entity {
     std::tuple<Kind, Index, std::string> key() const { return {kind, number, deck_key(name)}; }
 };
 
+/// A node by its number.
 inline Entity the_node(Index number) { return {Entity::Kind::node, number, {}, {}}; }
+/// An element by its number.
 inline Entity the_element(Index number) { return {Entity::Kind::element, number, {}, {}}; }
+/// A set, or what else `type` says that is known by a name.
 inline Entity the_set(const std::string& name, const std::string& type = "set") {
     return {Entity::Kind::set, 0, type, name};
 }
