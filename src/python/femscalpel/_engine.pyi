@@ -319,6 +319,7 @@ def merge(
     tolerance: float | None,
     prefix: str,
     join_groups: bool,
+    keep_side: Sequence[float] | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
 @overload
 def merge(
@@ -329,6 +330,7 @@ def merge(
     tolerance: float | None,
     prefix: str,
     join_groups: bool,
+    keep_side: Sequence[float] | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
 
 def read(path: str | os.PathLike[str]) -> Mesh: ...
