@@ -31,6 +31,8 @@ namespace {
 /// A triangle as near to the other's surface, in its edges, and as parallel (cosine), lies on it.
 constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
+/// Elements filled in with a smaller mean ratio than this are worth a word.
+constexpr double poor = 0.1;
 /// Edges of the one at the line may be so many times longer than those of the other.
 constexpr double coarser = 2.5;
 /// And no longer than this part of a closed line.
@@ -183,7 +185,8 @@ Report report_of(const Mesh& input, Joint& joint, const Mesh& result, Index shar
 /// The two as one mesh.
 struct United {
     Mesh mesh;
-    std::vector<std::string> warnings;  ///< of the solver's input
+    std::vector<std::string> warnings;
+    double worst = 1;  ///< smallest mean ratio of what was filled in
 };
 
 UniteNames names_of(const MergeOptions& options) {
@@ -236,6 +239,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     if (fitted == 1) {
         const Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
         out.mesh = std::move(joint.mesh(0));
+        out.worst = refilled.worst;
         unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
         return out;
     }
@@ -246,6 +250,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         renew_surface_sets(refilled.mesh, marks.surface_sets, *solver_input(input), refilled.added);
     out.warnings = warnings_of(carry_deck(input, refilled.mesh, refilled.changes), options.strict);
     remove_marks(refilled.mesh);
+    out.worst = refilled.worst;
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (Index n = 0; n < refilled.mesh.node_count(); ++n)
         if (refilled.partner[n] >= 0) shared[refilled.partner[n]] = n;
@@ -350,6 +355,15 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     for (const Index n : seam) out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], group);
     out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
+    out.report.quality_after.minimum = std::min(out.report.quality_after.minimum, united.worst);
+    if (united.worst < poor) {
+        std::ostringstream text;
+        text << "an element that was filled in where the two meet has a mean ratio of " << united.worst
+             << ": their skins meet at a sharp angle, or nodes lie close to each other there. Move the addition a "
+                "little, "
+                "or refine the coarser one there first";
+        out.report.warnings.push_back(text.str());
+    }
     warn_of_sections(mesh, out.mesh, options.name + "_ADDED", out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
