@@ -9,7 +9,9 @@
 #include "mesh/quality.h"
 #include "operators/fillet_cavity.h"
 #include "operators/fillet_corner.h"
+#include "operators/fillet_inside.h"
 #include "simple_meshes.h"
+#include "whole_workpiece.h"
 
 namespace femscalpel {
 namespace {
@@ -47,6 +49,25 @@ TEST(Fillet, EdgeOfABox) {
         }
     }
     EXPECT_NEAR(area, 6 * 1.5 * M_PI / 2, 0.01 * area);
+}
+
+TEST(Fillet, ElementsBetweenTheWalls) {
+    const Mesh mesh = checks::grid(4, 4, 4);
+    const FilletPath path(mesh, find_feature_lines(mesh, {{}, {}, {{2, 0, 0}}}, 30).at(0), 2, skin_of(mesh));
+    const Workpiece f = checks::whole_workpiece(mesh, checks::away);
+    const auto in = [&](double reach) {
+        double sum = 0;
+        for (const int t : elements_inside(f, f.d.band.tetras, path, reach, 0.1)) {
+            const Vec3 middle = middle_of(f.d.band, f.d.band.tetras[t]);
+            EXPECT_TRUE(middle.y() < 2 && middle.z() < 2);
+            sum += 1;
+        }
+        return sum;
+    };
+    EXPECT_EQ(in(4), 4 * 2 * 2 * 6) << "six elements in each of the cubes along the edge";
+    Workpiece apart = checks::whole_workpiece(mesh, checks::away);
+    for (int v = 0; v < apart.d.band.size(); ++v) apart.d.band.nodes[v].at += Vec3(0, 3, 3);
+    EXPECT_TRUE(elements_inside(apart, apart.d.band.tetras, path, 4, 0.1).empty());
 }
 
 TEST(Fillet, ElementsThatAreReplacedLeaveTheirGroupsToTheNewOnes) {

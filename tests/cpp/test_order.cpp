@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/middles.h"
 #include "simple_meshes.h"
 
 namespace femscalpel {
@@ -41,6 +42,19 @@ TEST(Order, MiddlesAreInTheMiddleAndInGroupsOfBothEnds) {
     EXPECT_EQ(second.points[middle], Vec3(0, 0.5, 0));
     EXPECT_EQ(second.families.groups(second.node_families[middle]).size(), 1u);
     EXPECT_EQ(second.families.groups(second.node_families[checks::number_near(second, {0.5, 0, 0})]).size(), 0u);
+}
+
+TEST(Middles, AreKnownByTheirEdges) {
+    const Mesh mesh = to_second_order(checks::grid(1, 1, 1));
+    const auto all = middles_of(mesh);
+    EXPECT_EQ(all.size(), 19u);
+    for (const auto& [key, middle] : all) EXPECT_GE(middle, 8);
+    const Index a = checks::number_near(mesh, {0, 0, 0}), b = checks::number_near(mesh, {0, 1, 0});
+    EXPECT_EQ(mesh_edge_key(a, b), mesh_edge_key(b, a));
+    EXPECT_EQ(mesh.points[all.at(mesh_edge_key(b, a))], Vec3(0, 0.5, 0));
+    const auto one = middles_of(mesh, [&](Index i, Index j) { return std::minmax(i, j) == std::minmax(a, b); });
+    EXPECT_EQ(one.size(), 1u);
+    EXPECT_TRUE(middles_of(checks::grid(1, 1, 1)).empty());
 }
 
 TEST(Order, FacetsGoWithTheirElements) {

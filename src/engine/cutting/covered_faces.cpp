@@ -14,18 +14,13 @@ namespace femscalpel {
 
 std::vector<SurfaceFace> covered_faces(const Mesh& mesh, const Mesh& other,
                                        const std::vector<std::array<Index, 2>>& outline, double tolerance) {
-    Eigen::AlignedBox3d common = box_around(other);
-    common.min().array() -= tolerance;
-    common.max().array() += tolerance;
-    const std::vector<SurfaceFace> faces = surface_near(mesh, common);
+    const std::vector<SurfaceFace> faces = surface_near(mesh, grown(box_around(other), tolerance));
     Eigen::AlignedBox3d around;
     for (const SurfaceFace& f : faces)
         for (const Index n : f.nodes) around.extend(mesh.points[n]);
     if (faces.empty()) return {};
     const double margin = tolerance + 0.1 * around.diagonal().norm();
-    around.min().array() -= margin;
-    around.max().array() += margin;
-    const std::vector<SurfaceFace> of_other = surface_near(other, around);
+    const std::vector<SurfaceFace> of_other = surface_near(other, grown(around, margin));
     const SurfaceTree tree(other, of_other);
 
     std::set<std::pair<Index, Index>> bound;

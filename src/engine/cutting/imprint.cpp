@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "cancel.h"
 #include "cutting/surface_line.h"
@@ -25,12 +24,6 @@ constexpr double stop_reach = 0.45;
 constexpr double dip = 0.15;
 /// Nearer to a node of the line than this, in edges, a stop is that node, even if it cannot be moved.
 constexpr double same_stop = 0.2;
-std::string place(const Vec3& x) {
-    std::ostringstream out;
-    out << "(" << x.transpose() << ")";
-    return out.str();
-}
-
 class Imprinter : public SurfaceLine {
 public:
     Imprinter(Workpiece& f, const ImprintLine& line, int tag, bool exact, std::vector<std::unique_ptr<Plane>>& planes)
@@ -89,7 +82,7 @@ private:
 
     [[noreturn]] void fail_end(const Vec3& x) const {
         throw QualityError(
-            "the seam's end at " + place(x) +
+            "the seam's end at " + point_text(x) +
             " cannot be made a node: the mesh is too coarse there, or the place too close to a corner or "
             "border. Refine the mesh there first, or move the addition a little");
     }
@@ -301,7 +294,7 @@ private:
             hold(v, stop);
             return;
         }
-        throw QualityError("the seam has no edge at " + place(wanted(stop)) +
+        throw QualityError("the seam has no edge at " + point_text(wanted(stop)) +
                            " to make a node on: the mesh is too coarse there. Refine it there first");
     }
 

@@ -49,12 +49,6 @@ struct Pairs {
     // NOLINTEND(readability-identifier-naming)
 };
 
-Box grown(Box box, double by) {
-    box.min().array() -= by;
-    box.max().array() += by;
-    return box;
-}
-
 /// A piece of a border on the other mesh.
 struct Touch {
     Span span;
@@ -70,7 +64,7 @@ public:
         for (const std::size_t m : {0U, 1U}) meshes_[m].companion.reset();
         const Box box_a = box_around(a), box_b = box_around(b);
         // How far apart what touches can be is known only when the faces there are.
-        const double apart = tolerance.value_or(touching * std::min(coarse_edge(a), coarse_edge(b)));
+        const double apart = tolerance.value_or(touching * std::min(longest_edge(a), longest_edge(b)));
         const Box common = grown(box_a, apart).intersection(grown(box_b, apart));
         for (const std::size_t m : {0U, 1U})
             faces_[m] = common.isEmpty() ? std::vector<SurfaceFace>() : surface_near(meshes_[m], grown(common, apart));
@@ -102,8 +96,8 @@ private:
         std::array<int, 2> face;
     };
 
-    /// The longest edge of a mesh's surface, roughly: of its box's size if it has few elements.
-    static double coarse_edge(const Mesh& mesh) {
+    /// The longest edge of a mesh.
+    static double longest_edge(const Mesh& mesh) {
         double longest = 0;
         for (const CellBlock& b : mesh.blocks()) {
             const CellTraits& t = traits(b.type);

@@ -14,6 +14,7 @@
 #include "cutting/rebuild.h"
 #include "mesh/band_mesh.h"
 #include "mesh/crop.h"
+#include "mesh/middles.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface_tree.h"
 
@@ -29,12 +30,6 @@ constexpr double room = 0.6;
 Key sorted(Key key) {
     std::ranges::sort(key);
     return key;
-}
-
-Box grown(Box box, double by) {
-    box.min().array() -= by;
-    box.max().array() += by;
-    return box;
 }
 
 /// For Eigen's BVIntersect: whether any of the boxes meets one.
@@ -190,7 +185,6 @@ private:
 
     void assemble(const Filled& filled) {
         out_.worst = filled.worst;
-        out_.filled = static_cast<Index>(filled.tetras.size());
         const std::vector<Index> kept = keep_the_rest();
         const Numbering next = next_numbers(mesh_);
         number_ = next;
@@ -312,15 +306,7 @@ private:
 
     /// Mid-side nodes that the result has already, or had on what is left of the skin.
     void find_middles() {
-        for (const CellBlock& b : out_.mesh.blocks()) {
-            const CellTraits& t = traits(b.type);
-            if (!t.quadratic) continue;
-            for (Index c = 0; c < b.size(); ++c)
-                for (std::size_t k = 0; k < t.edges.size(); ++k)
-                    middles_.emplace(edge_key(static_cast<int>(b.nodes(c)[t.edges[k][0]]),
-                                              static_cast<int>(b.nodes(c)[t.edges[k][1]])),
-                                     b.nodes(c)[t.corners + k]);
-        }
+        middles_ = middles_of(out_.mesh);
         for (int type = 0; type < cell_type_count; ++type) {
             const CellTraits& t = all_cell_types()[type];
             if (!t.quadratic) continue;
@@ -331,7 +317,7 @@ private:
                     if (a == old_places_.end() || b == old_places_.end() ||
                         !is_left_edge(n[t.edges[k][0]], n[t.edges[k][1]]))
                         continue;
-                    const auto key = edge_key(static_cast<int>(a->second), static_cast<int>(b->second));
+                    const auto key = mesh_edge_key(a->second, b->second);
                     if (!middles_.contains(key)) middles_[key] = add_old_node(n[t.corners + k]);
                 }
             }
@@ -347,8 +333,7 @@ private:
     }
 
     Index middle(Index a, Index b) {
-        const auto [found, fresh] =
-            middles_.emplace(edge_key(static_cast<int>(a), static_cast<int>(b)), out_.mesh.node_count());
+        const auto [found, fresh] = middles_.emplace(mesh_edge_key(a, b), out_.mesh.node_count());
         if (fresh) {
             out_.mesh.add_node((out_.mesh.points[a] + out_.mesh.points[b]) / 2, number_.node++);
             out_.partner.push_back(-1);

@@ -13,7 +13,6 @@ struct Refilled {
     Mesh mesh;                   ///< numbers of what is new follow those in use; nodes of the other's skin are among it
     std::vector<Index> partner;  ///< by node: the node of the other that it is, or -1
     Index taken = 0;             ///< tetrahedra that were taken out
-    Index filled = 0;            ///< tetrahedra that were filled in
     double worst = 1;            ///< smallest mean ratio of these
     std::vector<CellRef> added;  ///< these
     Changes changes;             ///< which element taken out was nearest to each

@@ -19,25 +19,25 @@ namespace {
 /// ribbon stands) is not the one it stands on.
 constexpr double lying = 0.4;
 
-std::string place(const Vec3& x) {
-    std::ostringstream out;
-    out << "(" << x.transpose() << ")";
-    return out.str();
-}
-
 void check_joined(const Deformable& d, int a, int b) {
     const BandMesh& band = d.band;
     const bool joined = std::ranges::any_of(band.skin.around(a), [&](int s) {
         return is_surface_face(d, s) && std::ranges::find(band.skin[s], b) != band.skin[s].end();
     });
     if (joined) return;
-    throw QualityError("the seam cannot be made edges between " + place(band.nodes[a].at) + " and " +
-                       place(band.nodes[b].at) +
+    throw QualityError("the seam cannot be made edges between " + point_text(band.nodes[a].at) + " and " +
+                       point_text(band.nodes[b].at) +
                        ": the mesh is too coarse there, or something there holds its nodes. Refine the mesh there "
                        "first, or move the addition a little");
 }
 
 }  // namespace
+
+std::string point_text(const Vec3& x) {
+    std::ostringstream out;
+    out << "(" << x.transpose() << ")";
+    return out.str();
+}
 
 bool is_surface_face(const Deformable& d, int skin) {
     return d.band.skin.alive(skin) && !d.constraints.geometry().surfaces[d.band.skin.tag(skin)].internal;

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "cutting/imprint.h"
 
 namespace femscalpel {
+
+/// "(x y z)", for messages.
+std::string point_text(const Vec3& x);
 
 /// Whether a face of BandMesh::skin is one of the surface, not of a border inside the material.
 bool is_surface_face(const Deformable& d, int skin);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "mesh/band_mesh.h"
+#include "mesh/middles.h"
 
 namespace femscalpel {
 namespace {
@@ -16,25 +17,7 @@ CellType with_middles(CellType type) {
     return type;
 }
 
-std::uint64_t key(Index a, Index b) { return edge_key(static_cast<int>(a), static_cast<int>(b)); }
-
-/// Mid-side nodes there are, by edge.
-std::unordered_map<std::uint64_t, Index> middles_of(const Mesh& mesh) {
-    std::unordered_map<std::uint64_t, Index> out;
-    for (const CellBlock& b : mesh.blocks()) {
-        const CellTraits& t = traits(b.type);
-        if (!t.quadratic) continue;
-        for (Index c = 0; c < b.size(); ++c) {
-            const auto n = b.nodes(c);
-            for (std::size_t k = 0; k < t.edges.size(); ++k)
-                out.emplace(key(n[t.edges[k][0]], n[t.edges[k][1]]), n[t.corners + k]);
-        }
-    }
-    return out;
-}
-
-/// Gives elements a type and nodes of theirs by `change(block, cell)`; facets and groups follow. Elements stay in the
-/// order of their types.
+/// Gives elements the type `type_of(type)` and the nodes `nodes_of(mesh, block, cell)`; facets and groups follow.
 void retype(Mesh& mesh, auto type_of, auto nodes_of) {
     Mesh old = mesh;
     std::array<std::vector<Index>, cell_type_count> place;
@@ -50,6 +33,8 @@ void retype(Mesh& mesh, auto type_of, auto nodes_of) {
 }
 
 }  // namespace
+
+std::uint64_t mesh_edge_key(Index a, Index b) { return edge_key(static_cast<int>(a), static_cast<int>(b)); }
 
 bool is_second_order(const Mesh& mesh) {
     bool any = false;
@@ -67,7 +52,7 @@ Mesh to_second_order(const Mesh& mesh) {
     std::unordered_map<std::uint64_t, Index> middles = middles_of(mesh);
     Index number = mesh.largest_node_id();
     const auto middle = [&](Index a, Index b) {
-        const auto [found, fresh] = middles.emplace(key(a, b), out.node_count());
+        const auto [found, fresh] = middles.emplace(mesh_edge_key(a, b), out.node_count());
         if (!fresh) return found->second;
         std::vector<GroupIndex> both;
         const auto of_a = out.families.groups(out.node_families[a]), of_b = out.families.groups(out.node_families[b]);

@@ -59,6 +59,12 @@ std::vector<SurfaceFace> surface_near(const Mesh& mesh, const Eigen::AlignedBox3
     return out;
 }
 
+Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {
+    box.min().array() -= by;
+    box.max().array() += by;
+    return box;
+}
+
 Eigen::AlignedBox3d box_around(const Mesh& mesh) {
     Eigen::AlignedBox3d box;
     for (const CellBlock& b : mesh.blocks())

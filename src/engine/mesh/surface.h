@@ -19,6 +19,9 @@ struct SurfaceFace {
 /// face of a tetrahedron. Elements that are no simplices have none. One pass over the elements.
 std::vector<SurfaceFace> surface_near(const Mesh& mesh, const Eigen::AlignedBox3d& box);
 
+/// A box made larger on all sides.
+Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by);
+
 /// The box around all nodes of a mesh that elements have.
 Eigen::AlignedBox3d box_around(const Mesh& mesh);
 

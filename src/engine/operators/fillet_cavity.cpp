@@ -9,9 +9,9 @@
 #include <numeric>
 #include <sstream>
 
-#include "cancel.h"
 #include "cutting/removal.h"
 #include "mesh/quality.h"
+#include "operators/fillet_inside.h"
 
 namespace femscalpel {
 void FilletCavity::refuse(const std::string& text, const Vec3& near) {
@@ -49,46 +49,9 @@ void FilletCavity::replace(int tag) {
 /// Elements between the walls, joined to the edge through faces.
 void FilletCavity::collect() {
     const BandMesh& band = f_.d.band;
-    const auto is_inside = [&](int t) {
-        const auto& n = band.tetras[t];
-        const Vec3 middle = (at(n[0]) + at(n[1]) + at(n[2]) + at(n[3])) / 4;
-        for (const int side : {0, 1}) {
-            const Tool& wall = path_.wall(side);
-            if (wall.distance(middle) >= 0) return false;
-            for (const int v : n)
-                if (f_.value(v, wall) > 10 * f_.tolerance) return false;
-        }
-        return std::ranges::all_of(n, [&](int v) { return path_.distance(at(v), reach_) <= reach_; });
-    };
-    std::vector<char> state(static_cast<std::size_t>(band.tetras.size()), 0);
-    std::vector<int> queue;
-    const auto visit = [&](int t) {
-        if (state[t] != 0) return;
-        state[t] = is_inside(t) ? 1 : 2;
-        if (state[t] == 1) queue.push_back(t);
-    };
-    for (int v = 0; v < band.size(); ++v)
-        if (path_.distance(at(v), 0) <= 1e-6 * path_.radius() + 2 * path_.sag() && band.in_use(v))
-            for (const int t : band.tetras.around(v)) visit(t);
-    while (!queue.empty()) {
-        check_cancelled();
-        const int t = queue.back();
-        queue.pop_back();
-        removed_.push_back(t);
-        for (const int v : band.tetras[t])
-            for (const int s : band.tetras.around(v)) {
-                const auto shared = std::ranges::count_if(band.tetras[s], [&](int w) {
-                    return std::ranges::find(band.tetras[t], w) != band.tetras[t].end();
-                });
-                if (shared == 3) visit(s);
-            }
-    }
+    removed_ = elements_inside(f_, band.tetras, path_, reach_, 1e-6 * path_.radius() + 2 * path_.sag());
     if (removed_.empty()) refuse("no element lies there", path_.at((path_.begin() + path_.end()) / 2, Vec2::Zero()));
-    std::ranges::sort(removed_);
-    for (const int t : removed_) {
-        const auto& n = band.tetras[t];
-        centres_.emplace_back((at(n[0]) + at(n[1]) + at(n[2]) + at(n[3])) / 4);
-    }
+    for (const int t : removed_) centres_.push_back(middle_of(band, band.tetras[t]));
 }
 
 void FilletCavity::sort_centres() {

@@ -9,10 +9,10 @@
 #include <set>
 #include <sstream>
 
-#include "cancel.h"
 #include "cutting/inner_node.h"
 #include "cutting/planar_mesh.h"
 #include "cutting/removal.h"
+#include "operators/fillet_inside.h"
 
 namespace femscalpel {
 namespace {
@@ -150,50 +150,14 @@ void FilletCorner::replace(int tag) {
 
 void FilletCorner::collect() {
     const BandMesh& band = f_.d.band;
-    const auto middle = [&](int t) {
-        const auto& n = band.triangles[t];
-        return Vec3((at(n[0]) + at(n[1]) + at(n[2])) / 3);
-    };
-    const auto is_inside = [&](int t) {
-        for (const int side : {0, 1}) {
-            const Tool& wall = path_.wall(side);
-            if (wall.distance(middle(t)) >= 0) return false;
-            for (const int v : band.triangles[t])
-                if (f_.value(v, wall) > 10 * f_.tolerance) return false;
-        }
-        return std::ranges::all_of(band.triangles[t], [&](int v) { return path_.distance(at(v), reach_) <= reach_; });
-    };
-    std::vector<char> state(static_cast<std::size_t>(band.triangles.size()), 0);
-    std::vector<int> queue;
-    const auto visit = [&](int t) {
-        if (state[t] != 0) return;
-        state[t] = is_inside(t) ? 1 : 2;
-        if (state[t] == 1) queue.push_back(t);
-    };
-    for (int v = 0; v < band.size(); ++v)
-        if (path_.distance(at(v), 0) <= 1e-6 * path_.radius() && band.in_use(v))
-            for (const int t : band.triangles.around(v)) visit(t);
-    while (!queue.empty()) {
-        check_cancelled();
-        const int t = queue.back();
-        queue.pop_back();
-        removed_.push_back(t);
-        for (const int v : band.triangles[t])
-            for (const int s : band.triangles.around(v))
-                if (std::ranges::count_if(band.triangles[s], [&](int w) {
-                        return std::ranges::find(band.triangles[t], w) != band.triangles[t].end();
-                    }) == 2)
-                    visit(s);
-    }
-    const Vec3 corner = path_.at(0, Vec2::Zero());
-    if (removed_.empty()) refuse("no element lies there", corner);
-    std::ranges::sort(removed_);
+    removed_ = elements_inside(f_, band.triangles, path_, reach_, 1e-6 * path_.radius());
+    if (removed_.empty()) refuse("no element lies there", path_.at(0, Vec2::Zero()));
     const auto family = [&](int t) {
         const CellRef& c = band.triangle_cells[band.triangles.origin(t)];
         return mesh_.block(c.type).families[c.cell];
     };
     for (const int t : removed_) {
-        centres_.push_back(middle(t));
+        centres_.push_back(middle_of(band, band.triangles[t]));
         if (family(t) != family(removed_[0]))
             refuse("elements of different groups meet there, whose border would be lost", centres_.back());
     }

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
+
+#include "cutting/surface_line.h"
 
 namespace femscalpel {
 namespace {
@@ -137,12 +138,6 @@ Report joined(const Report& before, Report after) {
 
 }  // namespace
 
-std::string point_text(const Vec3& x) {
-    std::ostringstream out;
-    out << "(" << x.transpose() << ")";
-    return out.str();
-}
-
 std::unique_ptr<Ribbon> ribbon_of(const MeetingLine& meeting, std::size_t m) {
     std::vector<Vec3> points, normals;
     for (const MeetingLine::Point& p : meeting.points) {
@@ -174,7 +169,7 @@ void Joint::run(const Prepared& known) {
 
 /// Makes the lines edges of mesh m, with nodes at all stops. Whether that needs nodes which the other has not.
 bool Joint::imprint(std::size_t m, const Prepared& known) {
-    const bool first = ribbons_.empty();
+    const bool first = !done_[0];
     std::vector<ImprintLine> wanted;
     for (JointLine& line : lines_) {
         ImprintLine& out = wanted.emplace_back();
@@ -185,7 +180,6 @@ bool Joint::imprint(std::size_t m, const Prepared& known) {
         }
         out.stops = lengths(*out.ribbon, line);
     }
-    if (first) ribbons_.emplace_back();
     const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
     // The mesh's nodes stay on its surface, the addition's come to the mesh's.
     Seamed seamed = imprint_seam(input, std::move(wanted), m == 1, options_, known);

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "cutting/meeting_lines.h"
@@ -14,9 +13,6 @@
 #include "tools/ribbon.h"
 
 namespace femscalpel {
-
-/// "(x y z)".
-std::string point_text(const Vec3& x);
 
 /// A line in which the two meshes meet, and which nodes it has of each by now.
 struct JointLine {

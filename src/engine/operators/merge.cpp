@@ -11,6 +11,7 @@
 #include "cutting/covered_faces.h"
 #include "cutting/meeting.h"
 #include "cutting/refill.h"
+#include "cutting/surface_line.h"
 #include "deck/carry_over.h"
 #include "deck/mark_deck.h"
 #include "deck/solver_input.h"
@@ -114,9 +115,7 @@ void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) 
 /// Throws ToolError when shells lie on each other over an area: they would be joined along its outline alone.
 void check_overlap(const Mesh& mesh, const Mesh& addition) {
     Eigen::AlignedBox3d box = box_around(addition);
-    const double margin = 1e-3 * box.diagonal().norm();
-    box.min().array() -= margin;
-    box.max().array() += margin;
+    box = grown(box, 1e-3 * box.diagonal().norm());
     const std::vector<SurfaceFace> faces = surface_near(mesh, box), own = surface_near(addition, box);
     const SurfaceTree tree(mesh, faces), of_addition(addition, own);
     Index count = 0;

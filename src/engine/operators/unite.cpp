@@ -3,32 +3,14 @@
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "cutting/rebuild.h"
 #include "error.h"
-#include "mesh/band_mesh.h"
+#include "mesh/middles.h"
 
 namespace femscalpel {
 namespace {
-
-/// Mid-side nodes on edges between some corners, by these.
-std::unordered_map<std::uint64_t, Index> middles_between(const Mesh& mesh, const std::unordered_set<Index>& corners) {
-    std::unordered_map<std::uint64_t, Index> out;
-    for (const CellBlock& b : mesh.blocks()) {
-        const CellTraits& t = traits(b.type);
-        if (!t.quadratic) continue;
-        for (Index c = 0; c < b.size(); ++c) {
-            const auto n = b.nodes(c);
-            for (std::size_t k = 0; k < t.edges.size(); ++k)
-                if (corners.contains(n[t.edges[k][0]]) && corners.contains(n[t.edges[k][1]]))
-                    out.emplace(edge_key(static_cast<int>(n[t.edges[k][0]]), static_cast<int>(n[t.edges[k][1]])),
-                                n[t.corners + k]);
-        }
-    }
-    return out;
-}
 
 class Uniter {
 public:
@@ -85,11 +67,14 @@ private:
                 here.insert(place_[n]);
                 there.insert(n);
             }
-        const auto ours = middles_between(mesh_, here);
+        const auto both_in = [](const std::unordered_set<Index>& set) {
+            return [&set](Index a, Index b) { return set.contains(a) && set.contains(b); };
+        };
+        const auto ours = middles_of(mesh_, both_in(here));
         if (ours.empty()) return;
-        for (const auto& [key, middle] : middles_between(addition_, there)) {
-            const auto found = ours.find(edge_key(static_cast<int>(place_[static_cast<Index>(key >> 32)]),
-                                                  static_cast<int>(place_[static_cast<Index>(key & 0xffffffffU)])));
+        for (const auto& [key, middle] : middles_of(addition_, both_in(there))) {
+            const auto found = ours.find(
+                mesh_edge_key(place_[static_cast<Index>(key >> 32)], place_[static_cast<Index>(key & 0xffffffffU)]));
             if (found != ours.end()) place_[middle] = found->second;
         }
     }

@@ -33,6 +33,19 @@ def place(x, y, z, turn=0):
     return FreeCAD.Placement(FreeCAD.Vector(x, y, z), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), turn))
 
 
+def points_of(mesh, group):
+    """Where the nodes of a node group are."""
+    return mesh.points[np.isin(mesh.node_ids, mesh.groups[group].ids)]
+
+
+def block_shape(doc):
+    """The shape of the box that the meshes are of."""
+    part = doc.addObject("Part::Box", "Block")
+    part.Length, part.Width, part.Height = 6, 5, 4
+    doc.recompute()
+    return part
+
+
 class MaterialTest(DocumentTest):
     def setUp(self):
         super().setUp()
@@ -191,7 +204,7 @@ class Merge(MaterialTest):
         self.assertEqual(set(mesh.cells), {"triangle"})
         a, b, c = (mesh.points[mesh.cells["triangle"][:, i]] for i in range(3))
         self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, 15, places=9)
-        seam = mesh.points[np.isin(mesh.node_ids, mesh.groups["RIB_SEAM"].ids)]
+        seam = points_of(mesh, "RIB_SEAM")
         np.testing.assert_allclose(seam[:, 1:], np.tile((1.3, 0), (len(seam), 1)), atol=1e-9)
         self.assertGreaterEqual(len(seam), 7)
 
@@ -226,9 +239,7 @@ class Merge(MaterialTest):
         self.assertEqual(set(merge.FemMesh.getNodesByFace(top)), set(there))
 
     def test_geometry_is_still_found(self):
-        part = self.doc.addObject("Part::Box", "Block")
-        part.Length, part.Width, part.Height = 6, 5, 4
-        self.doc.recompute()
+        part = block_shape(self.doc)
         self.source.addProperty("App::PropertyLink", "Part")
         self.source.Part = part
         self.addition.Placement = place(1.2, 1.4, 4)
@@ -354,17 +365,15 @@ class Fillet(MaterialTest):
         self.made(fillet)
         self.source.Placement = place(0, 0, 0.2)
         mesh = self.made(fillet)
-        wall = mesh.points[np.isin(mesh.node_ids, mesh.groups["ROUND_FACE"].ids)]
+        wall = points_of(mesh, "ROUND_FACE")
         np.testing.assert_allclose(np.hypot(wall[:, 0] - 5.2, wall[:, 2] - 3.4), 0.8, atol=1e-9)
         fillet.Radius = 0.5
         mesh = self.made(fillet)
-        wall = mesh.points[np.isin(mesh.node_ids, mesh.groups["ROUND_FACE"].ids)]
+        wall = points_of(mesh, "ROUND_FACE")
         np.testing.assert_allclose(np.hypot(wall[:, 0] - 5.5, wall[:, 2] - 3.7), 0.5, atol=1e-9)
 
     def test_geometry_is_still_found(self):
-        part = self.doc.addObject("Part::Box", "Block")
-        part.Length, part.Width, part.Height = 6, 5, 4
-        self.doc.recompute()
+        part = block_shape(self.doc)
         self.source.addProperty("App::PropertyLink", "Part")
         self.source.Part = part
         fillet = ObjectsFemScalpel.makeFillet(self.doc, self.source, [self.edge], 0.8)
@@ -432,19 +441,17 @@ class Reshape(MaterialTest):
             self.doc, drill, "HOLE_WALL", onto="Cylinder", origin=(3.1, 2.4, 2), axis=(0, 0, 1), radius=1.3
         )
         mesh = self.made(wider)
-        wall = mesh.points[np.isin(mesh.node_ids, mesh.groups["SHAPE_WALL"].ids)]
+        wall = points_of(mesh, "SHAPE_WALL")
         np.testing.assert_allclose(np.hypot(wall[:, 0] - 3.1, wall[:, 1] - 2.4), 1.3, atol=1e-9)
         self.assertAlmostEqual(volume(mesh), 120 - 4 * np.pi * 1.3**2, delta=0.5)
         drill.AxisPlacement = place(3.2, 2.5, 2)
         wider.AxisPlacement = place(3.2, 2.5, 2)
         mesh = self.made(wider)
-        wall = mesh.points[np.isin(mesh.node_ids, mesh.groups["SHAPE_WALL"].ids)]
+        wall = points_of(mesh, "SHAPE_WALL")
         np.testing.assert_allclose(np.hypot(wall[:, 0] - 3.2, wall[:, 1] - 2.5), 1.3, atol=1e-9)
 
     def with_geometry(self):
-        part = self.doc.addObject("Part::Box", "Block")
-        part.Length, part.Width, part.Height = 6, 5, 4
-        self.doc.recompute()
+        part = block_shape(self.doc)
         self.mesh.add_group("END", "node", self.mesh.node_ids[self.mesh.points[:, 0] == 6])
         self.source.FemMesh = femmesh_bridge.to_femmesh(self.mesh)
         self.source.addProperty("App::PropertyLink", "Part")

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Random placements of what is joined to a mesh, and how they come out.
+
+    PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 tests/python/merge_cases.py --cases 300
+
+Each kind: stiffeners on a flat and on a curved shell; blocks, rods and tubes on and into the two boxes, into the
+flanged cylinder; all of these also in second order with --quadratic (solids). A result is checked: one part, conforming,
+positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality, the largest
+change of any group's measure, and the seeds that failed a check; with --refused those that were refused, too.
+"""
+
+import argparse
+import collections
+import pathlib
+import time
+
+import numpy as np
+
+import femscalpel as fs
+from merge_parts import block, check_conforming, corners, half_pipe, plate, rod, shell, triangles_of, tube, worst
+from meshes import quadratic
+
+MESHES = pathlib.Path(__file__).resolve().parents[2] / "build" / "release" / "tests" / "meshes"
+
+
+def flat(rng):
+    n = rng.integers(6, 20)
+    floor = plate((0, 0, 0), (10, 0, 0), (0, 10, 0), (n, n), "FLOOR", rng.uniform(0, 0.3), rng.integers(1000))
+    angle, tilt, length = rng.uniform(0, np.pi), rng.uniform(-0.6, 0.6), rng.uniform(2, 9)
+    along = np.array([np.cos(angle), np.sin(angle), 0])
+    up = np.array([-along[1] * np.sin(tilt), along[0] * np.sin(tilt), np.cos(tilt)]) * rng.uniform(1, 3)
+    start = np.array([*rng.uniform(2, 8, 2), 0]) - along * length / 2 - up * rng.choice([0, 0, rng.uniform(0.2, 0.6)])
+    counts = (rng.integers(2, 20), rng.integers(1, 5))
+    return floor, plate(start, along * length, up, counts, "RIB", rng.uniform(0, 0.3), rng.integers(1000))
+
+
+def curved(rng):
+    pipe = half_pipe(5, 10, (rng.integers(12, 40), rng.integers(4, 14)), "PIPE")
+    kind = rng.integers(3)
+    if kind == 0:  # a ring on the outside
+        k, first = rng.integers(8, 60), rng.uniform(0.1, 2)
+        angle, radius = np.linspace(first, rng.uniform(first + 0.5, 3.1), k + 1), np.array([5, 5.5, 6.0])
+        x = np.full((k + 1, 3), rng.uniform(1, 9))
+        points = np.stack([x, np.outer(np.cos(angle), radius), np.outer(np.sin(angle), radius)], axis=-1)
+        return pipe, shell(points.reshape(-1, 3), triangles_of(np.arange(x.size).reshape(x.shape)), "RIB")
+    if kind == 1:  # a diaphragm
+        corner, way = (rng.uniform(1, 5), -7, -1.1), (rng.uniform(-2, 4), 14, 0)
+        counts = (rng.integers(8, 24), rng.integers(6, 14))
+        return pipe, plate(corner, way, (0, 0, 8), counts, "RIB", rng.uniform(0, 0.3), rng.integers(1000))
+    angle = rng.uniform(0.3, 2.8)
+    out = np.array([0, np.cos(angle), np.sin(angle)])
+    counts = (rng.integers(2, 16), rng.integers(1, 4))
+    return pipe, plate(5 * out + [rng.uniform(0, 2), 0, 0], (rng.uniform(3, 8), 0, 0), out * 1.5, counts, "RIB")
+
+
+def turned(axis, rng):
+    """A frame whose third direction is `axis`."""
+    axis = axis / np.linalg.norm(axis)
+    side = np.cross(axis, rng.normal(size=3))
+    side /= np.linalg.norm(side)
+    return np.column_stack([side, np.cross(axis, side), axis])
+
+
+def boss(origin, frame, edge, height, rng):
+    """A block, a rod or a tube with elements of about `edge`."""
+    size, layers = edge * rng.uniform(2.5, 5), max(1, round(height / edge))
+    kind = rng.integers(3)
+    if kind == 0:
+        counts = (round(size / edge), max(1, round(0.7 * size / edge)), layers)
+        return block(origin, (size, 0.7 * size, height), counts, "BOSS", frame)
+    if kind == 1:
+        return rod(origin, size / 2, height, (max(2, round(size / 2 / edge)), layers), "BOSS", frame)
+    around = max(10, round(np.pi * size / edge))
+    part = tube((0, 0, 0), size * 0.28, size / 2, height, (around, 1, layers), "BOSS")
+    return fs.Mesh(part.points @ frame.T + origin, part.cells, groups={"BOSS": ("element", part.cell_ids["tetra"])})
+
+
+def on_boxes(rng):
+    mesh, edge = fs.read(MESHES / "two_boxes.inp"), rng.uniform(0.6, 1.1)
+    origin = np.array([rng.uniform(2.5, 17.5), rng.uniform(2.5, 7.5), 10])
+    return mesh, boss(origin, turned(np.array([0, 0, 1.0]), rng), edge, edge * rng.uniform(1.5, 4), rng)
+
+
+def into_boxes(rng):
+    mesh, edge = fs.read(MESHES / "two_boxes.inp"), rng.uniform(0.6, 1.1)
+    axis = np.array([*rng.uniform(-0.3, 0.3, 2), 1])
+    axis /= np.linalg.norm(axis)
+    deep = 2.5 * edge * np.linalg.norm(axis[:2]) + rng.uniform(0.5, 1.5)
+    origin = np.array([rng.uniform(3, 17), rng.uniform(3, 7), 10]) - axis * deep
+    return mesh, boss(origin, turned(axis, rng), edge, deep + edge * rng.uniform(1.5, 4), rng)
+
+
+def into_cylinder(rng):
+    mesh, edge = fs.read(MESHES / "flanged_cylinder.inp"), rng.uniform(0.5, 0.8)
+    angle = rng.uniform(0, 2 * np.pi)
+    axis = np.array([np.cos(angle), np.sin(angle), rng.uniform(-0.2, 0.2)])
+    axis /= np.linalg.norm(axis)
+    # The stem has a radius of 4.
+    origin = np.array([0, 0, rng.uniform(5.5, 9)]) + axis * 2
+    return mesh, boss(origin, turned(axis, rng), edge, 2 + edge * rng.uniform(2.5, 4), rng)
+
+
+KINDS = {f.__name__: f for f in (flat, curved, on_boxes, into_boxes, into_cylinder)}
+
+
+def in_one_line(mesh):
+    """Whether more than two triangles meet along as many edges as the seam has nodes, but for its ends."""
+    t = corners(mesh)
+    edges = np.sort(np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]), axis=1)
+    shared = (np.unique(edges, axis=0, return_counts=True)[1] > 2).sum()
+    return shared >= len(mesh.groups["ADD_SEAM"]) - 2
+
+
+def one(kind, seed, second_order):
+    """(outcome, quality, largest relative change of a group's measure) of a placement."""
+    mesh, part = KINDS[kind](np.random.default_rng(seed))
+    if second_order and mesh.dimension == 3:
+        mesh = quadratic(fs.Mesh(mesh.points, {"tetra": mesh.cells["tetra"]}))
+    try:
+        result = fs.merge(mesh, part)
+    except fs.Error as error:
+        return str(error), None, None
+    try:
+        check_conforming(result.mesh)
+        assert mesh.dimension == 3 or in_one_line(result.mesh), "the seam has a gap"
+    except AssertionError as error:
+        return f"WRONG: {error}", None, None
+    change = [
+        abs(g.measure_after / g.measure_before - 1)
+        for g in result.report.groups
+        if g.measure_before > 0 and g.name != "BOSS"
+    ]
+    return "", worst(result.mesh), max(change, default=0)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--cases", type=int, default=60, help="of each kind")
+    arguments.add_argument("--seed", type=int, default=0, help="of the first")
+    arguments.add_argument("--kind", choices=list(KINDS), help="only this")
+    arguments.add_argument("--quadratic", action="store_true")
+    arguments.add_argument("--refused", action="store_true")
+    given = arguments.parse_args()
+    print("kind           cases  refused  wrong  minimum  >= 0.25  measures  seconds")
+    for kind in [given.kind] if given.kind else KINDS:
+        started, outcomes, quality, changes = time.time(), collections.Counter(), [], []
+        told = []
+        for seed in range(given.seed, given.seed + given.cases):
+            outcome, q, change = one(kind, seed, given.quadratic)
+            what = "wrong" if outcome.startswith("WRONG") else "refused" if outcome else "made"
+            outcomes[what] += 1
+            if what == "made":
+                quality.append(q)
+                changes.append(change)
+            elif what == "wrong" or given.refused:
+                told.append(f"  {seed}: {outcome}")
+        good = np.mean(np.array(quality) >= 0.25) if quality else 0
+        print(
+            f"{kind:14} {given.cases:5}  {outcomes['refused']:7}  {outcomes['wrong']:5}  {min(quality, default=0):7.3f}  "
+            f"{good:7.1%}  {max(changes, default=0):8.1e}  {time.time() - started:7.1f}"
+        )
+        print("\n".join(told), end="\n" if told else "")
+
+
+if __name__ == "__main__":
+    main()
