@@ -222,12 +222,13 @@ void bind_functions(py::module_& module) {
 
 void bind_merge(py::module_& module) {
     bind_operator<const Mesh&, const OperatorOptions&, bool, std::optional<double>, const std::string&, bool,
-                  std::optional<std::array<double, 3>>>(
+                  std::optional<std::array<double, 3>>, bool>(
         module, "merge",
         [](const Mesh& mesh, const Prepared& known, const Mesh& addition, const OperatorOptions& options,
            bool keep_addition, std::optional<double> tolerance, const std::string& prefix, bool join_groups,
-           std::optional<std::array<double, 3>> keep_side) {
+           std::optional<std::array<double, 3>> keep_side, bool tie) {
             auto o = with<MergeOptions>(options);
+            o.tie = tie;
             if (keep_side) o.keep_side = Vec3(keep_side->data());
             o.keep_addition = keep_addition;
             o.tolerance = tolerance;
@@ -236,7 +237,7 @@ void bind_merge(py::module_& module) {
             return merge(mesh, addition, o, known);
         },
         py::arg("addition"), py::arg("options"), py::arg("keep_addition"), py::arg("tolerance"), py::arg("prefix"),
-        py::arg("join_groups"), py::arg("keep_side"));
+        py::arg("join_groups"), py::arg("keep_side"), py::arg("tie"));
 }
 
 void bind_refine(py::module_& module) {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <unsupported/Eigen/BVH>
 
 #include "cancel.h"
 #include "mesh/closest_point.h"
+#include "mesh/near_boxes.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
@@ -31,23 +31,6 @@ constexpr double overshoot = 2.5;
 constexpr double parallel = 0.8;
 /// Places along a border edge at which it is looked whether it touches.
 constexpr int samples = 16;
-
-/// For Eigen's BVIntersect: all pairs of faces whose boxes meet.
-struct Pairs {
-    const std::vector<Box>& first;
-    const std::vector<Box>& second;
-    std::vector<std::pair<int, int>> found;
-
-    // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVIntersect() calls them.
-    bool intersectVolumeVolume(const Box& a, const Box& b) { return a.intersects(b); }
-    bool intersectVolumeObject(const Box& a, int b) { return a.intersects(second[b]); }
-    bool intersectObjectVolume(int a, const Box& b) { return first[a].intersects(b); }
-    bool intersectObjectObject(int a, int b) {
-        if (first[a].intersects(second[b])) found.push_back({a, b});
-        return false;
-    }
-    // NOLINTEND(readability-identifier-naming)
-};
 
 /// A piece of a border on the other mesh.
 struct Touch {
@@ -237,21 +220,13 @@ private:
 
     std::vector<std::pair<int, int>> near_pairs() const {
         std::array<std::vector<Box>, 2> boxes;
-        std::array<Eigen::KdBVH<double, 3, int>, 2> trees;
-        for (const std::size_t m : {0U, 1U}) {
-            std::vector<int> objects;
+        for (const std::size_t m : {0U, 1U})
             for (const SurfaceFace& f : faces_[m]) {
                 Box box;
                 for (const Vec3& x : corners(m, f)) box.extend(x);
-                objects.push_back(static_cast<int>(boxes[m].size()));
                 boxes[m].push_back(grown(box, fine_));
             }
-            trees[m].init(objects.begin(), objects.end(), boxes[m].begin(), boxes[m].end());
-        }
-        Pairs pairs{boxes[0], boxes[1], {}};
-        Eigen::BVIntersect(trees[0], trees[1], pairs);
-        std::ranges::sort(pairs.found);
-        return pairs.found;
+        return near_boxes(boxes[0], boxes[1]);
     }
 
     TriangleCorners corners(std::size_t m, const SurfaceFace& f) const {

@@ -22,6 +22,8 @@
 #include "mesh/surface_tree.h"
 #include "operators/joint.h"
 #include "operators/refine_first.h"
+#include "operators/sections.h"
+#include "operators/tie.h"
 #include "operators/trim.h"
 #include "operators/unite.h"
 #include "tools/ribbon.h"
@@ -103,7 +105,9 @@ private:
 void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {
     if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
-    if (mesh.dimension() < 2 || addition.dimension() < 2 || addition.dimension() > mesh.dimension())
+    if (options.tie && options.keep_side)
+        throw ToolError("keep_side is for shells that pass through; what is tied only touches", "keep_side");
+    if (mesh.dimension() < 2 || addition.dimension() < 2 || (addition.dimension() > mesh.dimension() && !options.tie))
         throw ToolError("an addition of dimension " + std::to_string(addition.dimension()) +
                             " cannot be joined to a mesh of dimension " + std::to_string(mesh.dimension()) +
                             ": shells are joined to shells and to solids, solids to solids",
@@ -139,8 +143,10 @@ void check_overlap(const Mesh& mesh, const Mesh& addition) {
 }
 
 /// Throws ToolError when a group that the operator makes has a name already.
-void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name) {
-    for (const char* suffix : {"_SEAM", "_ADDED"})
+void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name, bool tie) {
+    const std::vector<const char*> made =
+        tie ? std::vector{"_TIE_MESH", "_TIE_ADDED", "_ADDED"} : std::vector{"_SEAM", "_ADDED"};
+    for (const char* suffix : made)
         for (const Mesh* m : {&mesh, &addition})
             if (m->find_group(name + suffix))
                 throw ToolError("name '" + name + "' is taken: " + (m == &mesh ? "the mesh" : "the addition") +
@@ -187,10 +193,6 @@ struct United {
     std::vector<std::string> warnings;
     double worst = 1;  ///< smallest mean ratio of what was filled in
 };
-
-UniteNames names_of(const MergeOptions& options) {
-    return {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups};
-}
 
 /// Adds the group of the addition's elements.
 std::string add_group_added(Mesh& mesh, const MergeOptions& options) {
@@ -258,30 +260,6 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     return out;
 }
 
-/// What a deck needs for the addition, unless all its elements joined groups that the mesh had.
-void warn_of_sections(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report) {
-    if (!solver_input(mesh)) return;
-    const GroupIndex group = *result.find_group(added, GroupKind::element);
-    int dimension = 0;
-    Index without = 0;
-    for (const CellBlock& b : result.blocks())
-        for (const FamilyIndex f : b.families) {
-            const auto groups = result.families.groups(f);
-            if (traits(b.type).dimension < 2 || std::ranges::find(groups, group) == groups.end()) continue;
-            dimension = std::max(dimension, traits(b.type).dimension);
-            without += std::ranges::none_of(groups, [&](GroupIndex g) {
-                return static_cast<std::size_t>(g) < mesh.groups.size() && !result.groups[g].hidden;
-            });
-        }
-    if (without == 0) return;
-    report.warnings.push_back(
-        "the deck has no section for the " + std::to_string(without) + " elements of '" + added + "': add the card" +
-        (dimension == 3
-             ? " *SOLID SECTION, ELSET=" + added + ", MATERIAL=(its material)"
-             : " *SHELL SECTION, ELSET=" + added + ", MATERIAL=(its material), and a line with the thickness") +
-        ", after the material's");
-}
-
 /// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
 std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
     const GroupIndex added = *mesh.find_group(name, GroupKind::element);
@@ -322,10 +300,15 @@ void check_seam(const Mesh& mesh, const std::vector<Index>& seam) {
 
 }  // namespace
 
+UniteNames names_of(const MergeOptions& options) {
+    return {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups};
+}
+
 Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();
     check(mesh, other, options);
-    check_names(mesh, other, options.name);
+    check_names(mesh, other, options.name, options.tie);
+    if (options.tie) return tie(mesh, other, options);
     const Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
     Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);

@@ -320,6 +320,7 @@ def merge(
     prefix: str,
     join_groups: bool,
     keep_side: Sequence[float] | None,
+    tie: bool,
 ) -> tuple[Mesh, dict[str, Any]]: ...
 @overload
 def merge(
@@ -331,6 +332,7 @@ def merge(
     prefix: str,
     join_groups: bool,
     keep_side: Sequence[float] | None,
+    tie: bool,
 ) -> tuple[Mesh, dict[str, Any]]: ...
 
 def read(path: str | os.PathLike[str]) -> Mesh: ...

@@ -321,6 +321,7 @@ def merge(
     feature_angle: float = 30.0,
     strict: bool = False,
     keep_side: Optional[Sequence[float]] = None,
+    method: str = "conform",
 ) -> Result:
     """Joins another mesh to a mesh: a stiffener, a doubler, a bracket.
 
@@ -343,7 +344,7 @@ def merge(
     keep : {"mesh", "addition"}
         Which of two solids that overlap stays as it is; the overlap is cut off the other.
     tolerance : float, optional
-        What is nearer than this to the other's surface touches it, and is moved there. A fiftieth of the shorter mean
+        What is nearer than this to the other's surface touches it, and is moved there. A tenth of the shorter mean
         edge length when not given.
     prefix : str
         Of groups of the addition whose name the mesh has for others; the name and "_" when not given.
@@ -353,6 +354,11 @@ def merge(
         As for :func:`crack`.
     keep_side : (x, y, z), optional
         Of shells that pass through the mesh, only what is on the side of this point stays. All of them when not given.
+    method : {"conform", "tie"}
+        With "tie" the two get no common nodes: both stay as they are, elements of any type, and may only touch. Groups
+        of facets, ``name_TIE_MESH`` and ``name_TIE_ADDED``, are where they do: faces of solids, sides of shells, and
+        edges of shells that stand on the other. A CalculiX deck gets the *SURFACE and *TIE cards that hold them
+        together; else the report says them.
 
     Returns
     -------
@@ -378,6 +384,10 @@ def merge(
         raise _arguments.about(
             "keep", ValueError(f"keep must be 'mesh' or 'addition', not {_arguments.describe(keep)}")
         )
+    if method not in ("conform", "tie"):
+        raise _arguments.about(
+            "method", ValueError(f"method must be 'conform' or 'tie', not {_arguments.describe(method)}")
+        )
     options = _engine.Options()
     options.name = _arguments.text(name, "name")
     options.feature_angle = _arguments.real(feature_angle, "feature_angle")
@@ -394,6 +404,7 @@ def merge(
         _arguments.text(prefix, "prefix"),
         _arguments.flag(join_groups, "join_groups"),
         None if keep_side is None else list(_arguments.vector(keep_side, "keep_side")),
+        method == "tie",
     )
 
 

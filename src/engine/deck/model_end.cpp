@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "deck/model_end.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "deck/rules/mesh_cards.h"
+
+namespace femscalpel {
+
+void add_to_model(SolverInput& deck, std::vector<Card> cards) {
+    std::vector<Card>& all = deck.cards();
+    auto at = std::ranges::find(all, "STEP", &Card::keyword);
+    const auto last_of_mesh = std::find_if(all.rbegin(), all.rend(), is_mesh_card).base();
+    if (at < last_of_mesh) at = last_of_mesh;
+    const std::ptrdiff_t place = at - all.begin();
+    // Elements outside the mesh know their card by its place.
+    for (OtherElement& e : deck.other_elements())
+        if (static_cast<std::ptrdiff_t>(e.card) >= place) e.card += cards.size();
+    all.insert(at, std::make_move_iterator(cards.begin()), std::make_move_iterator(cards.end()));
+}
+
+}  // namespace femscalpel
