@@ -35,9 +35,7 @@ def face_areas(mesh, name):
         for kind, ids in mesh.cell_ids.items():
             for row in np.flatnonzero(ids == number):
                 out.append(mesh.points[mesh.cells[kind][row][list(local[kind.rstrip("0123456789")][face - 1])]])
-    area = sum(
-        np.linalg.norm(np.cross(p[k] - p[0], p[k + 1] - p[0])) / 2 for p in out for k in range(1, len(p) - 1)
-    )
+    area = sum(np.linalg.norm(np.cross(p[k] - p[0], p[k + 1] - p[0])) / 2 for p in out for k in range(1, len(p) - 1))
     return area, np.concatenate(out)
 
 
@@ -217,8 +215,10 @@ def test_a_bar_of_two_pieces_in_tension(tmp_path, name):
     sigma = {n: np.mean([s[2] for s in rows]) / (210000 * 0.01 / 8) for n, rows in stress.items()}
     far = np.array([s for n, s in sigma.items() if abs(middles[n] - 4) > 1.5])
     near = np.array(list(sigma.values()))
-    print(f"\n{name}: u {off.max():.3f}, {off[away].max():.1e}; stress {near.min():.3f} to {near.max():.3f}, "
-          f"{far.min():.4f} to {far.max():.4f}")
+    print(
+        f"\n{name}: u {off.max():.3f}, {off[away].max():.1e}; stress {near.min():.3f} to {near.max():.3f}, "
+        f"{far.min():.4f} to {far.max():.4f}"
+    )
     assert len(sigma) == mesh.cell_count
     assert off[away].max() < 4e-3 and off.max() < 0.025
     assert np.abs(far - 1).max() < 0.05 and np.abs(near - 1).max() < 0.25

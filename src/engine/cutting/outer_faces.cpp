@@ -82,8 +82,8 @@ private:
     }
 
     void turn_outwards(Corners& n, const Facet& facet) const {
-        const auto nodes = mesh_.block(facet.type).nodes(facet.cell).first(
-            static_cast<std::size_t>(traits(facet.type).corners));
+        const auto nodes =
+            mesh_.block(facet.type).nodes(facet.cell).first(static_cast<std::size_t>(traits(facet.type).corners));
         Vec3 middle = Vec3::Zero();
         for (const Index k : nodes) middle += mesh_.points[k] / static_cast<double>(nodes.size());
         const Vec3& a = mesh_.points[n[0]];

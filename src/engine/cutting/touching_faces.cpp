@@ -6,14 +6,14 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <tuple>
 #include <sstream>
+#include <tuple>
 
+#include "cancel.h"
 #include "cutting/outer_faces.h"
 #include "cutting/surface_line.h"
 #include "error.h"
 #include "mesh/near_boxes.h"
-#include "cancel.h"
 #include "mesh/surface_tree.h"
 #include "mesh/triangle_crossing.h"
 
@@ -41,8 +41,7 @@ public:
     Toucher(const Mesh& a, const Mesh& b, std::optional<double> tolerance) : mesh_{&a, &b}, given_(tolerance) {
         const Box box_a = box_around(a), box_b = box_around(b);
         // How far apart what touches can be is known only when the faces there are.
-        const double apart =
-            tolerance.value_or(touching * std::min(box_a.diagonal().norm(), box_b.diagonal().norm()));
+        const double apart = tolerance.value_or(touching * std::min(box_a.diagonal().norm(), box_b.diagonal().norm()));
         const Box common = grown(box_a, apart).intersection(grown(box_b, apart));
         for (const std::size_t m : {0U, 1U}) {
             if (!common.isEmpty()) outer_[m] = outer_faces(*mesh_[m], common);
@@ -132,8 +131,8 @@ private:
         for (int t = 0; t < static_cast<int>(outer_[m].triangles.size()); ++t) {
             check();
             const Vec3 at = middle(m, t), a = corner(m, t, 0), b = corner(m, t, 1), c = corner(m, t, 2);
-            const double radius = std::sqrt(std::max({(a - at).squaredNorm(), (b - at).squaredNorm(),
-                                                      (c - at).squaredNorm()})),
+            const double radius = std::sqrt(
+                             std::max({(a - at).squaredNorm(), (b - at).squaredNorm(), (c - at).squaredNorm()})),
                          size = own.size(t), sag = own.sag(t);
             const SurfaceTree::Foot near = trees_[1 - m]->closest(at);
             if (near.distance > radius + reach(size, sag, 1 - m, near.piece)) continue;
@@ -252,8 +251,7 @@ private:
         std::map<std::pair<Index, Index>, std::vector<std::pair<int, Index>>> edges;  // triangle, and its third corner
         for (int t = 0; t < static_cast<int>(outer_[m].triangles.size()); ++t) {
             const auto& n = outer_[m].triangles[t].nodes;
-            for (std::size_t k = 0; k < 3; ++k)
-                edges[std::minmax(n[k], n[(k + 1) % 3])].push_back({t, n[(k + 2) % 3]});
+            for (std::size_t k = 0; k < 3; ++k) edges[std::minmax(n[k], n[(k + 1) % 3])].push_back({t, n[(k + 2) % 3]});
         }
         SparseCheck check(64);
         const auto& points = mesh_[m]->points;

@@ -45,9 +45,8 @@ std::optional<double> half_thickness(const Mesh& mesh, GroupIndex facets) {
         if (!mesh.families.contains(f.family, facets) || traits(f.type).dimension != 2) continue;
         const FamilyIndex family = mesh.block(f.type).families[f.cell];
         // The last card counts.
-        const auto section = std::find_if(sections.rbegin(), sections.rend(), [&](const auto& s) {
-            return mesh.families.contains(family, s.first);
-        });
+        const auto section = std::find_if(sections.rbegin(), sections.rend(),
+                                          [&](const auto& s) { return mesh.families.contains(family, s.first); });
         if (section == sections.rend()) return {};
         largest = std::max(largest, section->second);
     }

@@ -12,6 +12,7 @@
 #include "cutting/meeting.h"
 #include "cutting/refill.h"
 #include "cutting/surface_line.h"
+#include "deck/adopt_sections.h"
 #include "deck/carry_over.h"
 #include "deck/mark_deck.h"
 #include "deck/solver_input.h"
@@ -211,6 +212,7 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
         std::vector<Index> shared_kept;
         shared_kept.reserve(kept.nodes.size());
         for (const Index n : kept.nodes) shared_kept.push_back(shared[n]);
+        kept.mesh.companion = joint.mesh(1).companion;
         joint.mesh(1) = std::move(kept.mesh);
         shared = std::move(shared_kept);
     }
@@ -238,7 +240,8 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     const std::vector<SurfaceFace> cover = covered(base);
     United out;
     if (fitted == 1) {
-        const Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
+        Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
+        out.warnings = warnings_of(carry_deck(joint.mesh(1), refilled.mesh, refilled.changes), options.strict);
         out.mesh = std::move(joint.mesh(0));
         out.worst = refilled.worst;
         unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
@@ -309,7 +312,8 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     check(mesh, other, options);
     check_names(mesh, other, options.name, options.tie);
     if (options.tie) return tie(mesh, other, options);
-    const Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
+    Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
+    const std::vector<std::string> left_out = reduce_to_sections(mesh, addition);
     Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);
     if (addition.dimension() == 2) check_overlap(mesh, addition);
@@ -337,6 +341,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     for (const Index n : seam) out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], group);
     out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
+    std::ranges::copy(left_out, std::back_inserter(out.report.warnings));
     out.report.quality_after.minimum = std::min(out.report.quality_after.minimum, united.worst);
     if (united.worst < poor) {
         std::ostringstream text;

@@ -4,11 +4,20 @@
 #include <algorithm>
 
 #include "deck/solver_input.h"
+#include "deck/solver_sets.h"
 
 namespace femscalpel {
 
 void warn_of_sections(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report) {
-    if (!solver_input(mesh)) return;
+    const SolverInput* const deck = solver_input(result);
+    if (!solver_input(mesh) || !deck) return;
+    std::vector<char> provided(result.groups.size(), 0);
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) provided[g] = !result.groups[g].hidden;
+    const DeckSetIndex sets(deck->sets());
+    for (const Card& card : deck->cards())
+        if (const std::string* elset = card.parameter("ELSET"); elset && card.keyword.ends_with("SECTION"))
+            if (const auto set = sets.find(DeckSetType::elset, *elset))
+                if (const auto g = result.find_group(deck->sets()[*set].group, GroupKind::element)) provided[*g] = 1;
     const GroupIndex group = *result.find_group(added, GroupKind::element);
     int dimension = 0;
     Index without = 0;
@@ -17,9 +26,7 @@ void warn_of_sections(const Mesh& mesh, const Mesh& result, const std::string& a
             const auto groups = result.families.groups(f);
             if (traits(b.type).dimension < 2 || std::ranges::find(groups, group) == groups.end()) continue;
             dimension = std::max(dimension, traits(b.type).dimension);
-            without += std::ranges::none_of(groups, [&](GroupIndex g) {
-                return static_cast<std::size_t>(g) < mesh.groups.size() && !result.groups[g].hidden;
-            });
+            without += std::ranges::none_of(groups, [&](GroupIndex g) { return provided[g] != 0; });
         }
     if (without == 0) return;
     report.warnings.push_back(

@@ -8,6 +8,7 @@
 
 #include "cutting/surface_line.h"
 #include "cutting/touching_faces.h"
+#include "deck/adopt_sections.h"
 #include "deck/solver_input.h"
 #include "deck/tie_cards.h"
 #include "groups/group_report.h"
@@ -24,12 +25,12 @@ constexpr double margin = 1.01;
 
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
     const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
-    throw ToolError("the addition does not touch the mesh: no face of the one is near one of the other, and no edge of "
-                    "a shell stands on one. The mesh reaches from " +
-                        point_text(a.min()) + " to " + point_text(a.max()) + ", the addition from " +
-                        point_text(b.min()) + " to " + point_text(b.max()) +
-                        ". Move the addition, or give a larger tolerance",
-                    "other");
+    throw ToolError(
+        "the addition does not touch the mesh: no face of the one is near one of the other, and no edge of "
+        "a shell stands on one. The mesh reaches from " +
+            point_text(a.min()) + " to " + point_text(a.max()) + ", the addition from " + point_text(b.min()) + " to " +
+            point_text(b.max()) + ". Move the addition, or give a larger tolerance",
+        "other");
 }
 
 /// Facets join a group; those that have groups already are not repeated.
@@ -50,10 +51,10 @@ void add_facets(Mesh& mesh, const std::vector<Facet>& facets, const std::string&
 /// How the deck ties the two, and what is to be told of it.
 void tie_up(Mesh& mesh, const TouchingFaces& touching, const MergeOptions& options, const std::string (&names)[2],
             Report& report) {
-    const std::size_t master = touching.edges[1]                          ? 0
-                               : touching.edges[0]                        ? 1
+    const std::size_t master = touching.edges[1]                             ? 0
+                               : touching.edges[0]                           ? 1
                                : touching.size[1] > touching.size[0] * 1.001 ? 1
-                                                                          : 0;
+                                                                             : 0;
     Tie tie{options.name + "_TIE", names[1 - master], names[master], touching.tolerance};
     std::ostringstream text;
     bool known = true;
@@ -81,12 +82,14 @@ void tie_up(Mesh& mesh, const TouchingFaces& touching, const MergeOptions& optio
 
 }  // namespace
 
-Result tie(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {
+Result tie(const Mesh& mesh, const Mesh& other, const MergeOptions& options) {
     const Stopwatch::Time started = Stopwatch::now();
+    Mesh addition = other;
     const TouchingFaces touching = touching_faces(mesh, addition, options.tolerance);
     if (touching.facets[0].empty()) fail_apart(mesh, addition);
     const std::string added = options.name + "_ADDED",
                       names[2] = {options.name + "_TIE_MESH", options.name + "_TIE_ADDED"};
+    const std::vector<std::string> reduced = reduce_to_sections(mesh, addition);
     Result out;
     out.mesh = mesh;
     std::array<Index, cell_type_count> first{};
@@ -103,6 +106,7 @@ Result tie(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) 
     report.name = options.name;
     report.method = "tie";
     report.groups = compare_groups(mesh, family_totals(mesh), out.mesh, family_totals(out.mesh));
+    report.warnings = reduced;
     report.nodes_added = addition.node_count();
     report.elements_added = addition.cell_count();
     warn_of_sections(mesh, out.mesh, added, report);

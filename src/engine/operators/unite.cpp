@@ -6,6 +6,8 @@
 #include <unordered_set>
 
 #include "cutting/rebuild.h"
+#include "deck/adopt_sections.h"
+#include "deck/solver_input.h"
 #include "error.h"
 #include "mesh/middles.h"
 
@@ -16,6 +18,9 @@ class Uniter {
 public:
     Uniter(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const UniteNames& names)
         : mesh_(mesh), addition_(addition), place_(shared), names_(names), number_(next_numbers(mesh)) {}
+
+    /// Of the mesh, by group of the addition; -1: none.
+    const std::vector<GroupIndex>& groups() const { return group_; }
 
     void run(std::optional<GroupIndex> added) {
         find_groups();
@@ -32,6 +37,17 @@ public:
     }
 
 private:
+    /// The mesh's group of that name, as CalculiX compares names if it has a deck.
+    std::optional<GroupIndex> found(const std::string& name, std::optional<GroupKind> kind) const {
+        if (const auto exact = mesh_.find_group(name, kind); exact || !solver_input(mesh_)) return exact;
+        const std::string key = deck_key(name);
+        for (std::size_t g = 0; g < mesh_.groups.size(); ++g)
+            if (const Group& group = mesh_.groups[g];
+                !group.hidden && (!kind || group.kind == *kind) && deck_key(group.name) == key)
+                return static_cast<GroupIndex>(g);
+        return {};
+    }
+
     /// Which group of the mesh each of the addition's becomes.
     void find_groups() {
         for (const Group& g : addition_.groups) {
@@ -39,13 +55,13 @@ private:
                 group_.push_back(-1);
                 continue;
             }
-            const auto same = mesh_.find_group(g.name, g.kind);
+            const auto same = found(g.name, g.kind);
             if (same && names_.join_groups) {
                 group_.push_back(*same);
                 continue;
             }
-            const std::string name = mesh_.find_group(g.name) ? names_.prefix + g.name : g.name;
-            if (mesh_.find_group(name))
+            const std::string name = found(g.name, {}) ? names_.prefix + g.name : g.name;
+            if (found(name, {}))
                 throw ToolError("the addition's group '" + g.name +
                                     "' has the name of one that the mesh has, and so has '" + name +
                                     "': give another prefix",
@@ -100,14 +116,22 @@ private:
     std::vector<Index> place_;  // in the mesh, by node of the addition
     const UniteNames& names_;
     Numbering number_;
-    std::vector<GroupIndex> group_;  // of the mesh, by group of the addition; -1: none
+    std::vector<GroupIndex> group_;
 };
 
 }  // namespace
 
 void unite(Mesh& mesh, const Mesh& addition, const std::vector<Index>& shared, const std::string& added,
            const UniteNames& names) {
-    Uniter(mesh, addition, shared, names).run(mesh.find_group(added, GroupKind::element));
+    std::optional<Mesh> renamed;
+    if (solver_input(mesh) && solver_input(addition)) {
+        renamed = addition;
+        rename_section_groups(mesh, *renamed, names.prefix);
+    }
+    const Mesh& other = renamed ? *renamed : addition;
+    Uniter uniter(mesh, other, shared, names);
+    uniter.run(mesh.find_group(added, GroupKind::element));
+    adopt_sections(mesh, other, uniter.groups(), names.prefix);
 }
 
 }  // namespace femscalpel

@@ -337,7 +337,9 @@ def merge(
     mesh : Mesh
         The mesh that is added to: shells of triangles, linear or quadratic, where the two meet; anything elsewhere.
     other : Mesh
-        What is added. One of another order is brought to the mesh's.
+        What is added. One of another order is brought to the mesh's. If both have a CalculiX deck, the addition's
+        sections, materials, orientations and element types are taken over; the report names the cards that are not. An
+        element set that has a section in its own deck does not join one of that name, but gets the prefix.
     name : str
         Prefix of the new groups: ``name_SEAM``, the nodes that the two share, and ``name_ADDED``, the addition's
         elements.
