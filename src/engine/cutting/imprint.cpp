@@ -45,6 +45,10 @@ public:
     }
 
     std::vector<int> run() {
+        if (line_.only_stops) {
+            for (std::size_t s = 0; s < line_.stops.size(); ++s) seat_end(s);
+            return at_stop_;
+        }
         seat_end(0);
         if (!ribbon_.closed()) seat_end(line_.stops.size() - 1);
         measure();
@@ -314,7 +318,7 @@ void Imprint::run(Workpiece& f) {
 std::vector<ImprintedLine> Imprint::result(const Workpiece& f) const {
     std::vector<ImprintedLine> out;
     for (std::size_t k = 0; k < lines_.size(); ++k)
-        out.push_back({line_nodes(f, lines_[k], f.at_stop[k]), f.at_stop[k]});
+        out.push_back({lines_[k].only_stops ? f.at_stop[k] : line_nodes(f, lines_[k], f.at_stop[k]), f.at_stop[k]});
     return out;
 }
 

@@ -22,6 +22,8 @@ struct ImprintLine {
     std::vector<Vec3> places;
     /// For each stop, the node of the mesh that it is, whatever holds that; or -1.
     std::vector<Index> known;
+    /// Only its stops become nodes; there are no edges along it. They may then be anywhere.
+    bool only_stops = false;
 };
 
 /// A line as the edges it became.

@@ -21,7 +21,9 @@
 #include "mesh/stopwatch.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
+#include "operators/attach.h"
 #include "operators/joint.h"
+#include "operators/merge_report.h"
 #include "operators/refine_first.h"
 #include "operators/sections.h"
 #include "operators/tie.h"
@@ -108,10 +110,14 @@ void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) 
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
     if (options.tie && options.keep_side)
         throw ToolError("keep_side is for shells that pass through; what is tied only touches", "keep_side");
-    if (mesh.dimension() < 2 || addition.dimension() < 2 || (addition.dimension() > mesh.dimension() && !options.tie))
+    if (addition.dimension() == 1 && options.tie)
+        throw ToolError("beams are joined to a mesh by common nodes: use method='conform'", "method");
+    if (addition.dimension() == 1 && options.keep_side)
+        throw ToolError("keep_side is for shells that pass through, not for beams", "keep_side");
+    if (mesh.dimension() < 2 || addition.dimension() < 1 || (addition.dimension() > mesh.dimension() && !options.tie))
         throw ToolError("an addition of dimension " + std::to_string(addition.dimension()) +
                             " cannot be joined to a mesh of dimension " + std::to_string(mesh.dimension()) +
-                            ": shells are joined to shells and to solids, solids to solids",
+                            ": shells and the ends of beams are joined to shells and to solids, solids to solids",
                         "other");
     if (addition.dimension() == 3 && options.keep_side)
         throw ToolError("keep_side is for shells; of solids, keep says what is cut off", "keep_side");
@@ -169,17 +175,7 @@ void add_quality(QualitySummary& sum, const QualitySummary& more) {
 Report report_of(const Mesh& input, Joint& joint, const Mesh& result, Index shared) {
     Report out = std::move(joint.report(0));
     const Report& other = joint.report(1);
-    std::vector<GroupRecord> records = compare_groups(input, family_totals(input), result, family_totals(result));
-    for (GroupRecord& r : records)
-        for (const GroupRecord& was : out.groups)
-            if (was.name == r.name && was.kind == r.kind) {
-                const GroupRecord now = r;
-                r = was;
-                r.count_after = now.count_after;
-                r.measure_after = now.measure_after;
-                if (was.status == "untouched" && now.count_after != now.count_before) r.status = now.status;
-            }
-    out.groups = std::move(records);
+    out.groups = merged_records(input, result, out.groups);
     add_quality(out.quality_before, other.quality_before);
     add_quality(out.quality_after, other.quality_after);
     out.nodes_added += joint.mesh(1).node_count() - shared;
@@ -314,6 +310,11 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     if (options.tie) return tie(mesh, other, options);
     Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
     const std::vector<std::string> left_out = reduce_to_sections(mesh, addition);
+    if (addition.dimension() == 1) {
+        Result out = attach_beams(mesh, addition, options, known);
+        std::ranges::copy(left_out, std::back_inserter(out.report.warnings));
+        return out;
+    }
     Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);
     if (addition.dimension() == 2) check_overlap(mesh, addition);
@@ -337,8 +338,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     out.mesh = std::move(united.mesh);
     const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
     if (solids) check_seam(out.mesh, seam);
-    const GroupIndex group = out.mesh.add_group(options.name + "_SEAM", GroupKind::node);
-    for (const Index n : seam) out.mesh.node_families[n] = out.mesh.families.with(out.mesh.node_families[n], group);
+    add_seam(out.mesh, options.name, seam);
     out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
     std::ranges::copy(left_out, std::back_inserter(out.report.warnings));

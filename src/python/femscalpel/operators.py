@@ -330,7 +330,8 @@ def merge(
     mesh keeps its number, its coordinates bit for bit and its groups. `mesh` and `other` themselves are not changed.
 
     Shells meet in lines: where the border of one is on the other (a T), where borders meet (an L), where they cross (an
-    X); several pieces of an addition at once.
+    X); several pieces of an addition at once. Beams (line elements) end on shells or solids: a node of the mesh is
+    moved to where they do, or made there. On a solid they carry no moment, which the report says.
 
     Parameters
     ----------
