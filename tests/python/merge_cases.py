@@ -5,8 +5,8 @@
 
 Each kind: stiffeners on a flat and on a curved shell; blocks, rods and tubes on and into the two boxes, into the
 flanged cylinder; all of these also in second order with --quadratic (solids). A result is checked: one part,
-conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality, the largest
-change of any group's measure, and the seeds that failed a check; with --refused those that were refused, too.
+conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality, the
+largest change of any group's measure, and the seeds that failed a check; with --refused those that were refused, too.
 """
 
 import argparse
