@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
+import merge_cases
 from meshes import grid_box, quadratic, tetra_volumes
 from merge_parts import (
     EDGES,
@@ -273,6 +274,16 @@ def test_solids_of_second_order():
     assert set(mesh.cells) == {"tetra10"}
     check_middles(mesh.points, mesh.cells["tetra10"], EDGES)
     assert tetra_volumes(mesh.points, mesh.cells["tetra10"]).sum() == pytest.approx(120 + 2.2 * 1.7 * 1.5, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "kind, seed",
+    [("into_cylinder", 16), ("into_cylinder", 33), ("into_cylinder", 38), ("on_boxes", 26), ("into_boxes", 21)],
+)
+def test_seams_that_end_beside_a_line_that_is_kept(kind, seed):
+    """The node nearest to such an end slides along that line only, and cannot be moved to the end."""
+    outcome, quality, change = merge_cases.one(kind, seed, False)
+    assert outcome == "" and quality > 0.13 and change < 1e-3
 
 
 def test_groups_of_both(floor):

@@ -109,7 +109,9 @@ def test_a_frame_with_four_feet(floor):
     found = mesh.points[np.isin(mesh.node_ids, mesh.groups["ADD_SEAM"].ids)]
     assert np.sort(found, axis=0) == pytest.approx(np.sort(points[:4], axis=0), abs=1e-9)
     # A beam whose both ends are there, and two that end at one place.
-    arch = fs.Mesh(np.array([corners[0], (4, 4, 2), corners[2], corners[2], (9, 9, 2)]), {"line": [(0, 1), (1, 2), (3, 4)]})
+    arch = fs.Mesh(
+        np.array([corners[0], (4, 4, 2), corners[2], corners[2], (9, 9, 2)]), {"line": [(0, 1), (1, 2), (3, 4)]}
+    )
     mesh = fs.merge(floor, arch).mesh
     assert len(mesh.groups["ADD_SEAM"]) == 2 and mesh.cells["line"][1, 1] == mesh.cells["line"][2, 0]
 

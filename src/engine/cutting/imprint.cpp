@@ -24,6 +24,11 @@ constexpr double stop_reach = 0.45;
 constexpr double dip = 0.15;
 /// Nearer to a node of the line than this, in edges, a stop is that node, even if it cannot be moved.
 constexpr double same_stop = 0.2;
+/// And if there is no other way than this, even if the end is not on the line that holds the node.
+constexpr double beside_line = 0.025;
+/// How often faces are divided to make an end of a line a node.
+constexpr int most_rounds = 4;
+
 class Imprinter : public SurfaceLine {
 public:
     Imprinter(Workpiece& f, const ImprintLine& line, int tag, bool exact, std::vector<std::unique_ptr<Plane>>& planes)
@@ -74,14 +79,19 @@ private:
         if (at_stop_[stop] >= 0) return;
         check_cancelled();
         const Vec3 x = wanted(stop);
-        const auto [face, foot] = face_at(x);
-        if (face < 0) fail_end(x);
-        const std::array<int, 3> n = band_.skin[face];
-        const double edge = (length(n[0], n[1]) + length(n[1], n[2]) + length(n[2], n[0])) / 3;
-        if ((foot - x).norm() > off_line * edge) fail_end(x);
-        const int v = seat(n, foot, x, edge);
-        if (v < 0) fail_end(x);
-        hold(v, stop);
+        // Where a node cannot be moved there, the faces are smaller after each round.
+        for (int round = 0; round < most_rounds; ++round) {
+            const int nodes = band_.size();
+            const auto [face, foot] = face_at(x);
+            if (face < 0) break;
+            const std::array<int, 3> n = band_.skin[face];
+            const double edge = (length(n[0], n[1]) + length(n[1], n[2]) + length(n[2], n[0])) / 3;
+            if ((foot - x).norm() > off_line * edge) break;
+            const int v = seat(n, foot, x, edge);
+            if (v >= 0) return hold(v, stop);
+            if (band_.size() == nodes) break;
+        }
+        fail_end(x);
     }
 
     [[noreturn]] void fail_end(const Vec3& x) const {
@@ -124,6 +134,11 @@ private:
         }
         for (const int v : nodes)
             if (!is_held(v) && move(v, exact_ ? x : foot, 0.01, close)) return v;
+        // Beside a line that is kept its nodes are as good as there.
+        if (nearest < beside_line * edge) {
+            move(nodes[0], foot, 0.01, nearest);
+            return nodes[0];
+        }
         return -1;
     }
 

@@ -37,10 +37,10 @@ constexpr double oblique = 40 * M_PI / 180;
 struct Seat {
     Vec3 at, normal;
     Vec3 across;  ///< unit vector in the surface that runs along no border near it
-    double size;                ///< mean edge of the face there
+    double size;  ///< mean edge of the face there
     bool on_solid;
-    Index node = -1;            ///< of the mesh, if there is one
-    std::vector<Index> ends;    ///< nodes of the addition
+    Index node = -1;          ///< of the mesh, if there is one
+    std::vector<Index> ends;  ///< nodes of the addition
 };
 
 /// Finds where beams end on a mesh.
@@ -77,9 +77,8 @@ private:
         const SurfaceTree::Foot foot = tree.closest(x);
         if (foot.piece < 0) return;
         const SurfaceFace& face = outer_.triangles[foot.piece];
-        const double size = tree.size(foot.piece),
-                     most = given_.value_or(
-                         std::max(touching * std::min(beam_[v], size), off_facets * tree.sag(foot.piece)));
+        const double size = tree.size(foot.piece), most = given_.value_or(std::max(touching * std::min(beam_[v], size),
+                                                                                   off_facets * tree.sag(foot.piece)));
         if (foot.distance < nearest_) nearest_ = foot.distance, nearest_end_ = x;
         if (foot.distance > most) {
             if (!face.shell && tree.signed_distance(x) < 0)
@@ -116,7 +115,8 @@ private:
     [[noreturn]] void fail_apart() const {
         std::ostringstream text;
         text << "no beam of the addition ends on the mesh's surface";
-        if (std::isfinite(nearest_)) text << "; the end at " << point_text(nearest_end_) << " is " << nearest_ << " off";
+        if (std::isfinite(nearest_))
+            text << "; the end at " << point_text(nearest_end_) << " is " << nearest_ << " off";
         text << ". Move the addition, or give a larger tolerance";
         throw ToolError(text.str(), "other");
     }
@@ -124,7 +124,7 @@ private:
     const Mesh& mesh_;
     const Mesh& addition_;
     std::optional<double> given_;
-    std::map<Index, int> uses_;      // of corners by beams
+    std::map<Index, int> uses_;     // of corners by beams
     std::map<Index, double> beam_;  // length of one there
     OuterFaces outer_;
     std::vector<Seat> seats_;
@@ -198,9 +198,10 @@ Result attach_beams(const Mesh& mesh, const Mesh& addition, const MergeOptions& 
     out.report.nodes_added += addition.node_count() - ends;
     out.report.elements_added += addition.cell_count();
     if (on_solids > 0)
-        out.report.warnings.push_back(std::to_string(on_solids) +
-                                      " beams end on nodes of solids, which do not turn: no moment is carried there, as "
-                                      "by a hinge. Let them end on a shell on the skin, or hold their turning otherwise");
+        out.report.warnings.push_back(
+            std::to_string(on_solids) +
+            " beams end on nodes of solids, which do not turn: no moment is carried there, as "
+            "by a hinge. Let them end on a shell on the skin, or hold their turning otherwise");
     warn_of_sections(mesh, out.mesh, added, out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
