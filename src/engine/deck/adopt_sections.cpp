@@ -232,7 +232,10 @@ private:
             if (p.name == "MATERIAL") value = name("MATERIAL", value);
             if (p.name == "ORIENTATION") value = name("ORIENTATION", value);
             if (p.name == "TABLE" && card.keyword == "DISTRIBUTION") value = name("DISTRIBUTIONTABLE", value);
-            if (p.name == "ELSET" && (value = set_name(value)).empty()) return {};
+            if (p.name == "ELSET") {
+                value = set_name(value);
+                if (value.empty()) return {};
+            }
             text += ", " + p.name + (value.empty() ? "" : "=" + value);
         }
         text += '\n';
