@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The paper's cases, rebuilt on the demo's caisson: prints them in its terms and draws figure_7, 10, 11 and
-12_caisson.png.
+"""The paper's cases, rebuilt on the demo's caisson: prints them in its terms and draws figure_3, 7, 9_caisson, 10, 11
+and 12_caisson.png.
 
     PYTHONPATH=build/release/Mod/FemScalpel python3 resources/docs/paper_cases.py [folder]
 
@@ -9,6 +9,7 @@ Pictures go to the folder. Without one they are this folder's, and the table in 
 Its mesher HXT does not repeat itself to the last element, and so neither do the numbers.
 """
 
+import itertools
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,9 +38,13 @@ HOLE = fs.Cylinder(origin=(150, -40, 440), axis=(1, 0, 0), radius=22)
 BORDER_HOLE = fs.Cylinder(origin=(150, -40, ROOF_Z + 6), axis=(1, 0, 0), radius=22)
 DEPTH = 100.0  # past this web, short of the next stiffener's at x = 600
 SLOT_WIDTH = 14.0
+# On its flange, outside, up to the support: two plates, and in the solid mesh a block.
+LOWER_Z, UPPER_Z, STANDS_OUT, BLOCK_WIDTH = 400.0, 520.0, 50.0, 28.0
+RADIUS = 10.0  # of the flange's edges
 
 # Of elements in several groups the first counts; faces of the skin that are in a group of faces have its colour.
 COLOURS = {
+    "ADD_ADDED": "#c5a3d9",
     "FACE_FLANGE_1": "#bcd9a4",
     "HANGERS": "#f6c58f",
     "STIFFENER_1": "#e8a25c",
@@ -66,7 +71,7 @@ class Case:
     title: str
     mesh: fs.Mesh
     result: fs.Result
-    tool: fs.Tool
+    tool: fs.Tool | None = None
 
     def count(self, *sets):
         """Number of nodes in some of the paper's node sets."""
@@ -77,10 +82,12 @@ class Case:
 
     def lines(self):
         """The case in the paper's terms."""
+        return [f"Figure {self.figure}: {self.title}", *(self._on_tool() if self.tool else []), *self._changes()]
+
+    def _on_tool(self):
         report, tool = self.result.report, self.tool.kind
         on_tool, transition = [[n for n in report.node_sets if (n[1] == "T") == moves] for moves in (False, True)]
-        text = [
-            f"Figure {self.figure}: {self.title}",
+        return [
             "    "
             + ", ".join(
                 f"{name} {self.count(name)}"
@@ -90,8 +97,13 @@ class Case:
             f"{report.nodes_moved} were moved",
             f"    {self.constraint(tool)} {tool} constraints, {self.constraint('tangent plane')} tangent-plane "
             f"constraints, {self.constraint('free')} nodes free",
-            f"    {report.nodes_split} nodes born on edges, {report.nodes_doubled} doubled, "
-            f"{report.elements_removed} elements removed; smallest mean ratio "
+        ]
+
+    def _changes(self):
+        report = self.result.report
+        text = [
+            f"    {report.nodes_split} nodes born on edges, {report.nodes_doubled} doubled, {report.nodes_added} added "
+            f"in all; {report.elements_added} elements added, {report.elements_removed} removed; smallest mean ratio "
             f"there {report.quality.before.minimum:.2f} before, {report.quality.after.minimum:.2f} after",
         ]
         changed = [g for g in report.groups if g.status in ("changed", "reduced", "became empty")]
@@ -112,7 +124,7 @@ class Case:
 PAGE_SIZES = 14, 20
 
 
-def page_table(shell, hole):
+def page_table(shell, hole, plates, block, fillet):
     """The rows of paper.md's table: what the paper counts, its number, ours."""
 
     def total(case, *sets):
@@ -129,7 +141,22 @@ def page_table(shell, hole):
         f"EHN | 19 | {total(hole, ('IHN',), ('EHN',))} |",
         f"| plane constraints = EHN and ETN | 46 | {total(hole, ('EHN',), ('ETN',))} |",
         f"| nodes free to move = ITN | 21 | {hole.constraint('free')} |",
+        f"| Figure 9, two stiffeners on the shell mesh: nodes of the seam, of them born on edges; "
+        f"members of SUPPORT_1 | one more each | {seam(plates)}, {plates.result.report.nodes_split}; "
+        f"{' -> '.join(str(n) for n in members(plates, 'SUPPORT_1'))} |",
+        f"| Figure 3.b, a solid mesh merged with another: nodes of the seam | | {seam(block)} |",
+        f"| Figure 3.c, fillet on a sharp edge: triangles of its surface | | {members(fillet, 'FILLET_FACE')[1]} |",
     ]
+
+
+def members(case, group):
+    """How many a group has before and after."""
+    record = next(g for g in case.result.report.groups if g.name == group)
+    return record.count_before, record.count_after
+
+
+def seam(case):
+    return members(case, "ADD_SEAM")[1]
 
 
 def write_table(page, rows):
@@ -182,17 +209,67 @@ def solid_cases(mesh):
     ]
 
 
+def plate_mesh(origin, first, second, counts):
+    """Points and triangles of a parallelogram."""
+    grid = np.stack(np.meshgrid(*(np.linspace(0, 1, n + 1) for n in counts), indexing="ij"), axis=-1)
+    index = np.arange(grid[..., 0].size).reshape(grid.shape[:-1])
+    a, b, c, d = (index[i : i - 1 or None, j : j - 1 or None].ravel() for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    return np.array(origin) + grid.reshape(-1, 2) @ np.array([first, second]), np.hstack([[a, b, c], [a, c, d]]).T
+
+
+def stiffeners(mesh):
+    """Two plates that stand on the flange; each ends halfway between two nodes of its upper edge."""
+    edge = mesh.points[np.isin(mesh.node_ids, mesh.groups["SUPPORT_1"].ids)]
+    y = edge[:, 1].min()
+    x = np.unique(edge[edge[:, 1] == y][:, 0])
+    middles = (x[:-1] + x[1:]) / 2
+    height, points, triangles = UPPER_Z - LOWER_Z, [], []
+    for at in middles[len(middles) // 4], middles[-1 - len(middles) // 4]:
+        plate = plate_mesh((at, y, LOWER_Z), (0, -STANDS_OUT, 0), (0, 0, height), (4, 9))
+        triangles.append(plate[1] + sum(map(len, points)))
+        points.append(plate[0])
+    return fs.Mesh(np.vstack(points), {"triangle": np.vstack(triangles)})
+
+
+def block(mesh):
+    """A block of tetrahedra that stands on the flange: cubes in six, as their diagonal says."""
+    size, counts = (BLOCK_WIDTH, STANDS_OUT, UPPER_Z - LOWER_Z), (2, 4, 8)
+    index = np.arange(np.prod(np.add(counts, 1))).reshape(np.add(counts, 1))
+    points = np.stack(np.unravel_index(index.ravel(), index.shape), axis=1) / counts * size
+    shifted = lambda at: index[tuple(slice(k, k - 1 or None) for k in at)].ravel()  # noqa: E731
+    tetrahedra = []
+    for way in itertools.permutations(np.eye(3, dtype=int)):
+        path = [shifted(tuple(np.sum(way[:k], axis=0, dtype=int) * np.ones(3, int))) for k in range(4)]
+        tetrahedra.append(np.stack(path if np.linalg.det(way) > 0 else [path[k] for k in (1, 0, 2, 3)], axis=1))
+    flange = mesh.points[np.isin(mesh.node_ids, mesh.groups["SUPPORT_1"].ids)][:, 1].min()
+    return fs.Mesh(points + [200 - BLOCK_WIDTH / 2, flange - STANDS_OUT, LOWER_Z], {"tetra": np.vstack(tetrahedra)})
+
+
+def plates_case(mesh):
+    """Figure 9: two stiffeners are added to the shells; the group of nodes at the support gets new ones."""
+    return Case("9", "two stiffeners on the shell mesh of the caisson", mesh, fs.merge(mesh, stiffeners(mesh)))
+
+
+def added_cases(mesh):
+    """Figures 3.b and 3.c, in tetrahedra."""
+    fillet = fs.fillet(mesh, "EDGE_FLANGE_1", RADIUS)
+    return [
+        Case("3.b", "a block merged with the solid mesh", mesh, fs.merge(mesh, block(mesh))),
+        Case("3.c", f"fillets of {RADIUS:g} mm on the edges of the flange", mesh, fillet),
+    ]
+
+
 # --- pictures
 
 
 @dataclass
 class View:
-    """A parallel projection of what lies in a box, or of a group's part there."""
+    """A parallel projection of what lies in a box, or of some groups' parts there."""
 
     low: tuple
     high: tuple
     to_eye: tuple
-    only: str = ""
+    only: tuple = ()
     #: Whether the picture ends at the box, not with the last element.
     framed: bool = False
 
@@ -208,9 +285,14 @@ class View:
         return ((points > self.low) & (points < self.high)).all(axis=-1)
 
 
-BESIDE = View((140, -108, 352), (260, 0, 524), (1, 0, 0), only="STIFFENER_1", framed=True)  # the hanger's web, face on
-BORDER = View((186, -82, 328), (260, 0, 404), (1, 0, 0), only="STIFFENER_1", framed=True)
-ASLANT = View((140, -120, 352), (260, 30, 525), (-0.85, -0.75, 0.5), only="STIFFENER_1")  # the hanger from outside
+BESIDE = View(
+    (140, -108, 352), (260, 0, 524), (1, 0, 0), only=("STIFFENER_1",), framed=True
+)  # the hanger's web, face on
+BORDER = View((186, -82, 328), (260, 0, 404), (1, 0, 0), only=("STIFFENER_1",), framed=True)
+ASLANT = View((140, -120, 352), (260, 30, 525), (-0.85, -0.75, 0.5), only=("STIFFENER_1",))  # the hanger from outside
+# With what is added, and its upper end.
+OUTSIDE = View((140, -170, 352), (260, 30, 525), (-0.6, -0.9, 0.45), only=("STIFFENER_1", "ADD_ADDED"))
+UPPER_END = View((144, -170, 455), (256, -84, 525), (-0.35, -0.9, 0.75), only=("STIFFENER_1", "ADD_ADDED"))
 
 
 class Picture:
@@ -224,7 +306,9 @@ class Picture:
         margin = 40 if view.framed else 0
         middle = mesh.points[cells].mean(axis=1)
         shown = ((middle > np.array(view.low) - margin) & (middle < np.array(view.high) + margin)).all(axis=1)
-        shown &= np.isin(numbers, mesh.groups[view.only].ids) if view.only else True
+        if view.only:
+            ids = [mesh.groups[name].ids for name in view.only if name in mesh.groups]
+            shown &= np.isin(numbers, np.concatenate(ids))
         cells, numbers = cells[shown], numbers[shown]
         colours = self._colours(numbers, REST)
         colours[np.isin(numbers, marked)] = to_rgb(WALL)
@@ -251,7 +335,7 @@ class Picture:
 
     def _colours(self, numbers, rest):
         out = np.tile(to_rgb(rest), (len(numbers), 1))
-        for name in reversed(COLOURS):
+        for name in [n for n in reversed(COLOURS) if n in self.mesh.groups]:
             inside = np.isin(numbers, self.mesh.groups[name].ids)
             out[inside] = to_rgb(COLOURS[name])
         return out
@@ -346,7 +430,7 @@ def save(figure, path, keys, title):
     figure.savefig(path, facecolor="white")
     plt.close(figure)
     with Image.open(path) as picture:  # a third of the size, and looks the same
-        small = picture.convert("RGB").quantize(96)
+        small = picture.convert("RGB").quantize(200)
     small.save(path, optimize=True)
 
 
@@ -459,17 +543,72 @@ def draw_cylinder_and_slot(crack, slot, path):
     )
 
 
+def draw_plates(case, path):
+    figure, axes = plt.subplots(1, 3, figsize=(14, 6.8), dpi=100)
+    mesh, groups = case.result.mesh, case.result.mesh.groups
+    support, seam_nodes = groups["SUPPORT_1"].ids, groups["ADD_SEAM"].ids
+    pictures = [
+        Picture(axes[0], OUTSIDE, case.mesh),
+        Picture(axes[1], OUTSIDE, mesh),
+        Picture(axes[2], UPPER_END, mesh),
+    ]
+    pictures[0].nodes(case.mesh.groups["SUPPORT_1"].ids, ON_SKIN)
+    for picture in pictures[1:]:
+        picture.nodes(seam_nodes, FREE, 22)
+        picture.nodes(support, ON_SKIN)
+        picture.nodes(np.intersect1d(support, seam_nodes), ON_TOOL, 44)
+    before, after = members(case, "SUPPORT_1")
+    for picture, title in zip(
+        pictures,
+        (f"before: {before} nodes in SUPPORT_1", f"after: {after}; {seam(case)} nodes on the seam", "its upper end"),
+    ):
+        picture.finish(title)
+    save(
+        figure,
+        path,
+        [
+            *group_keys("FACE_FLANGE_1", "HANGERS", "ADD_ADDED"),
+            dot(ON_SKIN, "SUPPORT_1"),
+            dot(ON_TOOL, "born on its edge: in both"),
+            dot(FREE, "ADD_SEAM"),
+        ],
+        "As the paper's Figure 9: two stiffeners added to a hanger of the caisson, shells",
+    )
+
+
+def draw_block_and_fillet(block, fillet, path):
+    figure, axes = plt.subplots(1, 3, figsize=(14, 6.8), dpi=100)
+    pictures = [
+        Picture(axes[0], OUTSIDE, block.mesh),
+        Picture(axes[1], OUTSIDE, block.result.mesh),
+        Picture(axes[2], OUTSIDE, fillet.result.mesh, walls=["FILLET_FACE"]),
+    ]
+    for picture, title in zip(pictures, ("before", "merged with a block", f"fillets of {RADIUS:g} mm")):
+        picture.finish(title)
+    save(
+        figure,
+        path,
+        [*group_keys("FACE_FLANGE_1", "HANGERS", "ADD_ADDED"), Patch(facecolor=WALL, label="FILLET_FACE")],
+        "As the paper's Figures 3.a to 3.c: material added to and edges rounded on the solid caisson",
+    )
+
+
 def main(folder, page=None):
-    shell, deformed = shell_cases(caisson_mesh(False, PAGE_SIZES[0]))
-    hole, kept, drifting, cylinder, slot, moved = solid_cases(caisson_mesh(True, PAGE_SIZES[1]))
-    for case in (shell, deformed, hole, moved, kept, drifting, cylinder, slot):
+    shell_mesh, solid_mesh = caisson_mesh(False, PAGE_SIZES[0]), caisson_mesh(True, PAGE_SIZES[1])
+    shell, deformed = shell_cases(shell_mesh)
+    hole, kept, drifting, cylinder, slot, moved = solid_cases(solid_mesh)
+    plates = plates_case(shell_mesh)
+    added, fillet = added_cases(solid_mesh)
+    for case in (shell, deformed, hole, moved, kept, drifting, cylinder, slot, plates, added, fillet):
         print(case if isinstance(case, str) else "\n".join(case.lines()))
     draw_crack_in_shell(shell, folder / "figure_10.png")
     draw_hole(hole, folder / "figure_11.png")
     draw_border((kept, drifting), folder / "figure_12_caisson.png")
     draw_cylinder_and_slot(cylinder, slot, folder / "figure_7.png")
+    draw_plates(plates, folder / "figure_9_caisson.png")
+    draw_block_and_fillet(added, fillet, folder / "figure_3.png")
     if page:
-        write_table(page, page_table(shell, hole))
+        write_table(page, page_table(shell, hole, plates, added, fillet))
 
 
 if __name__ == "__main__":
