@@ -9,9 +9,9 @@ is room; a `hole` whose radius becomes 0.6 to 1.7 times the old; a `wall` that i
 A result is checked: one part, conforming, positive volumes. Printed: how many were refused; the smallest mean
 ratio, and how many results have at least 0.15 (fillets) or 0.2 or the input's (walls); the farthest node of the new
 face or wall from its surface, in the size of the mesh; the largest error of the volume as a part of what is added
-or taken away (of a hole: of the larger one's volume), for fillets of two edge lengths and more and walls, and for
-all; the largest change of the measure of a group none of whose nodes moved; and the seeds that failed a check, with
---refused those that were refused, with --poor those without that quality, too.
+or taken away (of a hole: of the larger one's volume), for straight edges rounded by two edge lengths and more and
+walls, and for all; the largest change of the measure of a group none of whose nodes moved; and the seeds that
+failed a check, with --refused those that were refused, with --poor those without that quality, too.
 """
 
 import argparse
@@ -107,7 +107,7 @@ def circular(mesh, z, rim, up, sign, room, rng):
     angle = rng.uniform(0, 2 * np.pi)
     place = (rim * np.cos(angle), rim * np.sin(angle), z)
     return Case(mesh, lambda: fs.fillet(mesh, place, radius), "FILLET_FACE", off, change, abs(change),
-                radius >= 2 * edge, 0.15)  # fmt: skip
+                False, 0.15)  # fmt: skip
 
 
 def box_edge(mesh, size, turn, rng):

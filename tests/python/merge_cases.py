@@ -5,8 +5,9 @@
 
 Each kind: stiffeners on a flat and on a curved shell; blocks, rods and tubes on and into the two boxes, into the
 flanged cylinder; all of these also in second order with --quadratic (solids). A result is checked: one part,
-conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality, the largest
-change of any group's measure, and the seeds that failed a check; with --refused those that were refused, too.
+conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality,
+the largest change of any group's measure, and the seeds that failed a check; with --refused those that were
+refused, too.
 """
 
 import argparse
@@ -157,7 +158,8 @@ def main():
         good = np.mean(np.array(quality) >= 0.25) if quality else 0
         print(
             f"{kind:14} {given.cases:5}  {outcomes['refused']:7}  {outcomes['wrong']:5}"
-            f"  {min(quality, default=0):7.3f}  {good:7.1%}  {max(changes, default=0):8.1e}  {time.time() - started:7.1f}"
+            f"  {min(quality, default=0):7.3f}  {good:7.1%}"
+            f"  {max(changes, default=0):8.1e}  {time.time() - started:7.1f}"
         )
         print("\n".join(told), end="\n" if told else "")
 
