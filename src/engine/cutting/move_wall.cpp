@@ -35,6 +35,9 @@ constexpr double goal_of_steps = 0.22, goal_of_end = 0.3;
 constexpr double outside = 0.3;
 /// So many steps, and so many for each that would do if nothing was in the way, are enough.
 constexpr int least_bound = 60, bound_per_step = 6;
+/// So many nodes for each of the input, and for each of the wall and edge length on its way: more are born only where
+/// elements are drawn out between what moves and what cannot.
+constexpr int nodes_per_node = 2, nodes_per_edge_moved = 4, more_edges = 10;
 
 /// The skin around a wall, without it, to ask where a path leaves the material.
 class SkinBeside {
@@ -135,6 +138,9 @@ public:
         double left = 1, step = first_step();
         check_paths();
         const double most_steps = least_bound + bound_per_step / step;
+        const double most_nodes =
+            nodes_per_node * static_cast<double>(band_.size()) +
+            nodes_per_edge_moved * static_cast<double>(wall_nodes().size()) * (stride / step + more_edges);
         const double smallest = smallest_step * step;
         while (left > 0) {
             step = std::min(step, left);
@@ -150,6 +156,7 @@ public:
             left = step >= left ? 0 : left - step;
             if (left == 0) break;
             remesher_.run(goal_of_steps);
+            if (band_.size() > most_nodes) refuse();
             goals_.add_nodes();
             step *= 1.5;
             step = std::min(step, first_step() * left);
