@@ -54,15 +54,27 @@ TEST(MoveWall, EdgesAreDividedWhereTheyGetLong) {
     EXPECT_NEAR(checks::volume(w.f), 16 * 16, 1e-9);
 }
 
-TEST(MoveWall, NotThroughTheOtherSide) {
-    WithWall w = block();
+std::string refusal(WithWall& w, const Vec3& by) {
     try {
-        push(w, {0, 0, -4.2});
-        FAIL();
+        push(w, by);
     } catch (const ToolError& e) {
         EXPECT_STREQ(e.parameter(), "by");
-        EXPECT_THAT(e.what(), testing::HasSubstr("cannot be moved so far"));
+        EXPECT_EQ(w.f.d.band.size(), w.f.d.band.original_nodes());
+        return e.what();
     }
+    ADD_FAILURE() << "no error";
+    return "";
+}
+
+TEST(MoveWall, NotThroughTheOtherSide) {
+    using testing::HasSubstr;
+    for (const double by : {-4.5, -6.0, -40.0}) {
+        WithWall w = block();
+        EXPECT_THAT(refusal(w, {0, 0, by}), HasSubstr("pass through the part")) << by;
+        for (const BandNode& n : w.f.d.band.nodes) EXPECT_EQ(n.at, n.start);
+    }
+    WithWall w = block();  // too little for that to tell
+    EXPECT_THROW(push(w, {0, 0, -4.2}), ToolError);
 }
 
 }  // namespace

@@ -329,3 +329,11 @@ def test_a_deck_follows(tmp_path):
     assert np.abs(ends[:, 0] - 3.5).max() < 1e-9
     assert len(result.report.warnings) == 1 and "with the wall it is on" in result.report.warnings[0]
     fs.reshape(deck, "END", by=(-2.5, 0, 0), strict=True)
+
+
+@pytest.mark.parametrize("by, text", [(-9, "inside out"), (-13, "pass through the part")])
+def test_a_wall_that_passes_a_corner_or_the_whole_part_is_refused(by, text):
+    mesh = fs.read(MESHES / "l_shape.inp")
+    with pytest.raises(fs.ToolError, match=text) as error:
+        fs.reshape(mesh, "LOAD", by=(by, 0, 0))
+    assert error.value.parameter == "by"

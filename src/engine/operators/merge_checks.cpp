@@ -26,13 +26,15 @@ bool is_inside(const Mesh& inner, const Mesh& solid) {
 
 void fail_apart(const Mesh& mesh, const Mesh& addition) {
     if (is_inside(addition, mesh))
-        throw ToolError("the addition lies inside the mesh, where there is material already: nowhere do their "
-                        "surfaces meet. Move the addition",
-                        "other");
+        throw ToolError(
+            "the addition lies inside the mesh, where there is material already: nowhere do their "
+            "surfaces meet. Move the addition",
+            "other");
     if (is_inside(mesh, addition))
-        throw ToolError("the addition swallows the mesh: all of it lies inside the addition. Move the addition, or "
-                        "make it hollow",
-                        "other");
+        throw ToolError(
+            "the addition swallows the mesh: all of it lies inside the addition. Move the addition, or "
+            "make it hollow",
+            "other");
     const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
     std::ostringstream out;
     out << "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
