@@ -27,6 +27,7 @@ struct Nearest {
     int segment = 0;
     double best = std::numeric_limits<double>::infinity();
 
+    // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVMinimize() calls them.
     double minimumOnVolume(const Eigen::AlignedBox3d& box) const { return box.squaredExteriorDistance(x); }
     double minimumOnObject(int s) {
         const auto k = static_cast<std::size_t>(s);
@@ -37,6 +38,7 @@ struct Nearest {
         }
         return d;
     }
+    // NOLINTEND(readability-identifier-naming)
 };
 
 }  // namespace
@@ -108,7 +110,7 @@ double Ribbon::distance(const Vec3& x) const {
 
 Vec3 Ribbon::normal(const Vec3& x) const {
     const Foot f = foot(x);
-    const Vec3 across = f.tangent.cross(f.standing).normalized();
+    Vec3 across = f.tangent.cross(f.standing).normalized();
     Vec3 off = x - f.at;
     off -= f.standing * f.standing.dot(off);
     // At the line itself, and inside of a bend where two segments are as near, rounding has the say.
