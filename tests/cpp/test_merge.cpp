@@ -2,14 +2,12 @@
 // Two meshes as one: their lines, what is covered, refilled and united.
 #include "operators/merge.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cutting/covered_faces.h"
 #include "cutting/refill.h"
 #include "mesh/quality.h"
 #include "operators/joint.h"
-#include "operators/merge_checks.h"
 #include "operators/seam.h"
 #include "operators/trim.h"
 #include "operators/unite.h"
@@ -185,62 +183,6 @@ TEST(Merge, WhatIsApartIsAnError) {
     MergeOptions options;
     options.name = "TOWER";
     EXPECT_THROW(merge(checks::grid(2, 2, 1), moved(checks::grid(1, 1, 1), {9, 9, 9}), options), ToolError);
-}
-
-const MergeOptions named = [] {
-    MergeOptions out;
-    out.name = "ADD";
-    return out;
-}();
-
-/// What a merge is refused with; of the parameter "other".
-std::string refusal(const Mesh& mesh, const Mesh& other) {
-    try {
-        merge(mesh, other, named);
-    } catch (const ToolError& e) {
-        EXPECT_STREQ(e.parameter(), "other");
-        return e.what();
-    }
-    return "";
-}
-
-TEST(MergeChecks, SolidsInEachOther) {
-    Mesh small = checks::grid(1, 1, 1);
-    for (Vec3& x : small.points) x += Vec3(1.3, 1.4, 1.2);
-    const Mesh mesh = checks::grid(4, 4, 4);
-    EXPECT_THAT(refusal(mesh, small), testing::HasSubstr("lies inside the mesh"));
-    EXPECT_THAT(refusal(small, mesh), testing::HasSubstr("swallows the mesh"));
-    EXPECT_THAT(refusal(mesh, moved(small, {9, 0, 0})), testing::HasSubstr("does not meet"));
-}
-
-TEST(MergeChecks, SolidsThatMeetInALine) {
-    EXPECT_THAT(refusal(checks::grid(2, 2, 2), moved(checks::grid(2, 2, 2), {2, 0, 2})),
-                testing::HasSubstr("in a line alone"));
-}
-
-TEST(MergeChecks, SolidsOfTheSamePlace) {
-    const Mesh mesh = checks::grid(2, 2, 2);
-    try {
-        merge(mesh, mesh, named);
-        FAIL();
-    } catch (const QualityError& e) {
-        EXPECT_THAT(e.what(), testing::HasSubstr("both fill the same space"));
-    }
-}
-
-TEST(MergeChecks, LoosePieces) {
-    const Mesh mesh = checks::grid(2, 2, 2);
-    Mesh other = moved(checks::grid(2, 2, 2), {0, 0, 2});
-    const Index first = other.node_count();
-    for (const Vec3& x : checks::grid(1, 1, 1).points) other.add_node(x + Vec3(5, 0, 2), 1000 + other.node_count(), 0);
-    const CellBlock one = checks::grid(1, 1, 1).block(CellType::tetra);
-    for (Index c = 0; c < one.size(); ++c) {
-        std::vector<Index> nodes;
-        for (const Index n : one.nodes(c)) nodes.push_back(first + n);
-        other.add_cell(CellType::tetra, nodes, 1000 + c, 0);
-    }
-    EXPECT_THAT(refusal(mesh, other), testing::HasSubstr("would be loose"));
-    EXPECT_THAT(refusal(mesh, other), testing::HasSubstr("(5 0 2)"));
 }
 
 }  // namespace

@@ -354,14 +354,3 @@ def test_what_cannot_be_joined(floor, call, parameter, words):
 
 def test_corners_are_of_the_dimension(floor):
     assert corners(floor).shape[1] == 3
-
-
-def test_a_piece_that_misses_is_told():
-    floor, rib = plate((0, 0, 0), (4, 0, 0), (0, 4, 0), (6, 6), "P"), plate(
-        (1, 2, 0), (2, 0, 0), (0, 0, 1), (3, 2), "R"
-    )
-    far = plate((1, 2, 3), (2, 0, 0), (0, 0, 1), (3, 2), "R")
-    fs.merge(floor, rib)
-    with pytest.raises(fs.ToolError, match="would be loose") as refused:
-        fs.merge(floor, joined(rib, far, name="R"))
-    assert refused.value.parameter == "other"

@@ -23,7 +23,6 @@
 #include "mesh/surface_tree.h"
 #include "operators/attach.h"
 #include "operators/joint.h"
-#include "operators/merge_checks.h"
 #include "operators/merge_report.h"
 #include "operators/refine_first.h"
 #include "operators/sections.h"
@@ -95,6 +94,16 @@ private:
     OperatorOptions options_;
     std::array<std::optional<Refined>, 2> refined_;
 };
+
+[[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
+    const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
+    std::ostringstream out;
+    out << "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
+           "other. The mesh reaches from "
+        << point_text(a.min()) << " to " << point_text(a.max()) << ", the addition from " << point_text(b.min())
+        << " to " << point_text(b.max()) << ". Move the addition, or give a larger tolerance";
+    throw ToolError(out.str(), "other");
+}
 
 void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {
     if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
@@ -207,18 +216,6 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
     return out;
 }
 
-/// As refill(), with errors about the two solids.
-Refilled fitted_to(const Mesh& mesh, const Mesh& other, const std::vector<Index>& partner,
-                   const std::vector<SurfaceFace>& covered, const std::vector<SurfaceFace>& cover) {
-    try {
-        return refill(mesh, other, partner, covered, cover);
-    } catch (const QualityError& e) {
-        throw QualityError(std::string("the two solids cannot be joined where they meet: ") + e.what() +
-                           ". Where they overlap and faces of both lie in one plane, or both fill the same space, "
-                           "move the addition, or cut off first what is too much");
-    }
-}
-
 /// One of the two is fitted to the other's skin where they meet.
 United unite_solids(Joint& joint, double tolerance, const MergeOptions& options) {
     const std::size_t base = options.keep_addition ? 1 : 0, fitted = 1 - base;
@@ -236,15 +233,10 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     const auto covered = [&](std::size_t m) {
         return covered_faces(joint.mesh(m), joint.mesh(1 - m), outline[m], close);
     };
-    const std::vector<SurfaceFace> cover = covered(base), behind = covered(fitted);
-    if (cover.empty() || behind.empty())
-        throw ToolError("the two solids meet in a line alone, near " +
-                            point_text(joint.mesh(0).points[joint.lines().at(0).stops.at(0).node[0]]) +
-                            ": no part of their faces touches. Move the addition so that they do, or overlap",
-                        "other");
+    const std::vector<SurfaceFace> cover = covered(base);
     United out;
     if (fitted == 1) {
-        Refilled refilled = fitted_to(joint.mesh(1), joint.mesh(0), partner, behind, cover);
+        Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
         out.warnings = warnings_of(carry_deck(joint.mesh(1), refilled.mesh, refilled.changes), options.strict);
         out.mesh = std::move(joint.mesh(0));
         out.worst = refilled.worst;
@@ -253,7 +245,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     }
     const DeckMarks marks = mark_deck(joint.mesh(0));
     const Mesh& input = marks.mesh ? *marks.mesh : joint.mesh(0);
-    Refilled refilled = fitted_to(input, joint.mesh(1), partner, behind, cover);
+    Refilled refilled = refill(input, joint.mesh(1), partner, covered(0), cover);
     if (!marks.surface_sets.empty())
         renew_surface_sets(refilled.mesh, marks.surface_sets, *solver_input(input), refilled.added);
     out.warnings = warnings_of(carry_deck(input, refilled.mesh, refilled.changes), options.strict);
@@ -346,7 +338,6 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     out.mesh = std::move(united.mesh);
     const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
     if (solids) check_seam(out.mesh, seam);
-    check_pieces(out.mesh, options.name + "_ADDED", seam);
     add_seam(out.mesh, options.name, seam);
     out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
