@@ -7,7 +7,7 @@ import pytest
 import femscalpel as fs
 from merge_parts import block, plate, rod, shell, solid
 from meshes import grid_box
-from test_tie import hexahedra
+from test_tie import face_areas, hexahedra
 
 
 def floor():
@@ -127,7 +127,9 @@ def test_faces_that_are_inside_afterwards_are_told():
     addition.add_group("BOTTOM", "facet", facets(addition, 4))
     addition.add_group("TOP", "facet", facets(addition, 5.5))
     warnings = fs.merge(mesh, addition).report.warnings
-    assert any("faces of 'PRESSED' are inside now" in w for w in warnings)
+    (inside,) = [w for w in warnings if "inside now" in w]
+    (empty,) = [w for w in warnings if "is empty now" in w]
+    assert "faces of 'PRESSED'" in inside and "group 'BOTTOM'" in empty
     mesh.remove_group("PRESSED")
     addition.remove_group("BOTTOM")
     assert not fs.merge(mesh, addition).report.warnings
@@ -146,3 +148,11 @@ def test_one_inside_the_other(addition, words):
     with pytest.raises(fs.ToolError, match=words) as caught:
         fs.merge(box(), addition)
     assert caught.value.parameter == "other"
+
+
+def test_faces_where_the_two_meet_leave_the_groups_of_the_one_that_is_cut():
+    mesh, addition = box(), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A")
+    mesh.add_group("TOP", "facet", facets(mesh, 4))
+    result = fs.merge(mesh, addition, keep="addition")
+    assert face_areas(result.mesh, "TOP")[0] == pytest.approx(6 * 5 - 2.2 * 1.7)
+    assert not any("inside now" in w for w in result.report.warnings)

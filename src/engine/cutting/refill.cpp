@@ -377,6 +377,7 @@ private:
             if (traits(f.type).dimension < 3 || !is_taken({f.type, f.cell})) continue;
             const auto n = mesh_.block(f.type).nodes(f.cell);
             const auto& face = traits(f.type).faces[f.face - 1];
+            if (covered_.contains(sorted({n[face[0]], n[face[1]], n[face[2]]}))) continue;
             Key key{now(n[face[0]]), now(n[face[1]]), now(n[face[2]])};
             const auto found = filled_faces_.find(sorted(key));
             if (found == filled_faces_.end()) continue;
