@@ -18,7 +18,7 @@ namespace {
 [[noreturn]] void refuse(const char* what, const Vec3& at) {
     std::ostringstream message;
     message << "no volume to be filled: " << what << " near (" << at.transpose() << ")";
-    throw QualityError(message.str());
+    throw CavityError(message.str());
 }
 
 /// The same for all rotations of a triangle.
@@ -132,7 +132,7 @@ double enclosed_volume(std::span<const Vec3> points, std::span<const Triangle> t
 }
 
 void check_cavity(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-    if (triangles.empty()) throw QualityError("no volume to be filled: no triangles");
+    if (triangles.empty()) throw CavityError("no volume to be filled: no triangles");
     check_closed(points, triangles);
     if (!(enclosed_volume(points, triangles) > 0))
         refuse("triangles that look inwards or enclose nothing", centre(points, triangles[0]));

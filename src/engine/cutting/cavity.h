@@ -26,7 +26,13 @@ std::set<DirectedEdge> directed_edges(std::span<const Triangle> triangles);
 /// Volume that triangles enclose, their normals pointing outwards.
 double enclosed_volume(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-/// Throws QualityError that names the place where triangles do not bound a volume: an edge that is not run through as
+/// Triangles do not bound a volume that could be filled.
+class CavityError : public QualityError {
+public:
+    using QualityError::QualityError;
+};
+
+/// Throws CavityError that names the place where triangles do not bound a volume: an edge that is not run through as
 /// often in one direction as in the other, a triangle that is there twice or flat, two that cross, nothing enclosed
 /// (normals that point inwards, too). Where bounding bodies touch at an edge, four triangles share it.
 void check_cavity(std::span<const Vec3> points, std::span<const Triangle> triangles);

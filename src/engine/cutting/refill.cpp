@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/BVH>
 
 #include "cancel.h"
+#include "cutting/cavity.h"
 #include "cutting/fill.h"
 #include "cutting/rebuild.h"
 #include "mesh/band_mesh.h"
@@ -82,12 +83,23 @@ public:
     Refilled run() {
         find_taken();
         find_cavity();
-        const Filled filled = fill_cavity(points_, triangles_);
-        assemble(filled);
+        assemble(fill());
         return std::move(out_);
     }
 
 private:
+    Filled fill() const {
+        try {
+            return fill_cavity(points_, triangles_);
+        } catch (const CavityError& error) {
+            throw QualityError(std::string("the two solids cannot be joined (") + error.what() +
+                                   "): they have to touch over an area, not in a line, or to overlap; and where they "
+                                   "overlap, faces of the one must not lie on faces of the other. Move the addition, "
+                                   "or leave that part of it out",
+                               "other");
+        }
+    }
+
     /// The type of the solid's tetrahedra that may be taken.
     static bool is_tetra(CellType type) { return traits(type).linear == CellType::tetra; }
 
@@ -365,6 +377,7 @@ private:
             if (traits(f.type).dimension < 3 || !is_taken({f.type, f.cell})) continue;
             const auto n = mesh_.block(f.type).nodes(f.cell);
             const auto& face = traits(f.type).faces[f.face - 1];
+            if (covered_.contains(sorted({n[face[0]], n[face[1]], n[face[2]]}))) continue;
             Key key{now(n[face[0]]), now(n[face[1]]), now(n[face[2]])};
             const auto found = filled_faces_.find(sorted(key));
             if (found == filled_faces_.end()) continue;

@@ -126,6 +126,23 @@ bool take(JointLine& line, std::size_t m, const SeamLine& seam, const Mesh& mesh
     return more;
 }
 
+/// imprint_seam(), with an error that says what there is to be done where meshes are merged.
+Seamed imprinted(const Mesh& mesh, std::vector<ImprintLine> lines, std::size_t m, const OperatorOptions& options,
+                 const Prepared& known) {
+    try {
+        return imprint_seam(mesh, std::move(lines), m == 1, options, known);
+    } catch (const UnsupportedElementError& error) {
+        const std::string text = error.what();
+        const std::size_t verb = text.find(" reaches "), end = text.find(';');
+        if (verb == std::string::npos || end == std::string::npos) throw;
+        throw UnsupportedElementError("what is changed where the two meet" + text.substr(verb, end - verb) +
+                                          "; only triangles and tetrahedra can be given new nodes. Move the addition "
+                                          "away from these elements, split them into tetrahedra or triangles first, "
+                                          "or join the two with method='tie'",
+                                      m == 0 ? "mesh" : "other");
+    }
+}
+
 Report joined(const Report& before, Report after) {
     after.quality_before = before.quality_before;
     after.nodes_added += before.nodes_added;
@@ -182,7 +199,7 @@ bool Joint::imprint(std::size_t m, const Prepared& known) {
     }
     const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
     // The mesh's nodes stay on its surface, the addition's come to the mesh's.
-    Seamed seamed = imprint_seam(input, std::move(wanted), m == 1, options_, known);
+    Seamed seamed = imprinted(input, std::move(wanted), m, options_, known);
     bool more = false;
     for (std::size_t k = 0; k < lines_.size(); ++k)
         more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;

@@ -23,6 +23,7 @@
 #include "mesh/surface_tree.h"
 #include "operators/attach.h"
 #include "operators/joint.h"
+#include "operators/merge_checks.h"
 #include "operators/merge_report.h"
 #include "operators/refine_first.h"
 #include "operators/sections.h"
@@ -96,6 +97,8 @@ private:
 };
 
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
+    check_other_elements(mesh, addition);
+    check_within(mesh, addition);
     const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
     std::ostringstream out;
     out << "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
@@ -238,6 +241,9 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     if (fitted == 1) {
         Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
         out.warnings = warnings_of(carry_deck(joint.mesh(1), refilled.mesh, refilled.changes), options.strict);
+        for (const std::string& group : emptied_groups(joint.mesh(1), refilled.mesh))
+            out.warnings.push_back("the addition: group '" + group +
+                                   "' is empty now: all that it had is where the two meet");
         out.mesh = std::move(joint.mesh(0));
         out.worst = refilled.worst;
         unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
@@ -291,7 +297,8 @@ void check_seam(const Mesh& mesh, const std::vector<Index>& seam) {
                 std::ranges::sort(key);
                 if (++faces[key] > 2)
                     throw QualityError("the two solids cannot be joined at " + point_text(mesh.points[key[0]]) +
-                                       ": they would overlap there. Move the addition a little");
+                                           ": they would overlap there. Move the addition a little",
+                                       "other");
             }
         }
     }
@@ -312,9 +319,11 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     const std::vector<std::string> left_out = reduce_to_sections(mesh, addition);
     if (addition.dimension() == 1) {
         Result out = attach_beams(mesh, addition, options, known);
+        check_pieces(out.mesh, options.name);
         std::ranges::copy(left_out, std::back_inserter(out.report.warnings));
         return out;
     }
+    check_itself(addition);
     Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);
     if (addition.dimension() == 2) check_overlap(mesh, addition);
@@ -339,6 +348,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
     if (solids) check_seam(out.mesh, seam);
     add_seam(out.mesh, options.name, seam);
+    check_pieces(out.mesh, options.name);
     out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
     std::ranges::copy(left_out, std::back_inserter(out.report.warnings));
@@ -347,11 +357,11 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         std::ostringstream text;
         text << "an element that was filled in where the two meet has a mean ratio of " << united.worst
              << ": their skins meet at a sharp angle, or nodes lie close to each other there. Move the addition a "
-                "little, "
-                "or refine the coarser one there first";
+                "little, or refine the coarser one there first";
         out.report.warnings.push_back(text.str());
     }
     warn_of_sections(mesh, out.mesh, options.name + "_ADDED", out.report);
+    if (solids) warn_of_buried(out.mesh, options.name + "_ADDED", out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
 }

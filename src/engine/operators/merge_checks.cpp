@@ -2,67 +2,254 @@
 #include "operators/merge_checks.h"
 
 #include <algorithm>
-#include <sstream>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
 
+#include "cancel.h"
+#include "cutting/crossing.h"
 #include "cutting/surface_line.h"
-#include "error.h"
+#include "mesh/near_boxes.h"
+#include "mesh/stopwatch.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
+#include "mesh/triangle_crossing.h"
 #include "mesh/union_find.h"
 
 namespace femscalpel {
 namespace {
 
-/// Whether a solid has a node of the other mesh inside, as they nowhere cross the whole of it.
-bool is_inside(const Mesh& inner, const Mesh& solid) {
-    if (solid.dimension() < 3) return false;
-    const std::vector<SurfaceFace> skin = surface_near(solid, box_around(solid)),
-                                   own = surface_near(inner, box_around(inner));
-    if (skin.empty() || own.empty()) return false;
-    return SurfaceTree(solid, skin).signed_distance(inner.points[own[0].nodes[0]]) < 0;
+using Key = std::array<Index, 3>;
+using Box = Eigen::AlignedBox3d;
+
+/// What is as near as this part of a mesh's size to the other is near it.
+constexpr double close = 1e-2;
+/// A crossing is farther than this from the edges of both triangles, in their size.
+constexpr double inside = 1e-6;
+
+Key sorted(Key key) {
+    std::ranges::sort(key);
+    return key;
+}
+
+bool has(const FamilyTable& families, FamilyIndex family, GroupIndex group) {
+    const auto groups = families.groups(family);
+    return std::ranges::find(groups, group) != groups.end();
+}
+
+Vec3 centre_of(const Mesh& mesh, CellRef cell) {
+    Vec3 out = Vec3::Zero();
+    const CellTraits& t = traits(cell.type);
+    const auto nodes = mesh.block(cell.type).nodes(cell.cell);
+    for (int k = 0; k < t.corners; ++k) out += mesh.points[nodes[k]] / t.corners;
+    return out;
+}
+
+/// Faces of tetrahedra that one of the group and one of the others have.
+std::set<Key> faces_between(const Mesh& mesh, GroupIndex added) {
+    std::vector<char> in_added(mesh.points.size(), 0);
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c)
+            if (has(mesh.families, b.families[c], added))
+                for (const Index n : b.nodes(c)) in_added[n] = 1;
+    std::map<Key, std::array<bool, 2>> sides;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (t.linear != CellType::tetra) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            if (std::count_if(n.begin(), n.begin() + 4, [&](Index v) { return in_added[v] != 0; }) < 3) continue;
+            const bool side = has(mesh.families, b.families[c], added);
+            for (const auto& f : t.faces) sides[sorted({n[f[0]], n[f[1]], n[f[2]]})][side ? 1 : 0] = true;
+        }
+    }
+    std::set<Key> out;
+    for (const auto& [face, side] : sides)
+        if (side[0] && side[1]) out.insert(face);
+    return out;
+}
+
+/// Members of groups, by group.
+using Counts = std::map<GroupIndex, Index>;
+
+void count(Counts& counts, const Mesh& mesh, FamilyIndex family) {
+    for (const GroupIndex g : mesh.families.groups(family))
+        if (!mesh.groups[g].hidden) ++counts[g];
+}
+
+/// Facets and triangles in each group, of those whose corners `holds` says yes to.
+Counts faces_in_groups(const Mesh& mesh, auto holds) {
+    Counts out;
+    for (const Facet& f : mesh.facets) {
+        const CellTraits& t = traits(f.type);
+        if (t.linear != CellType::tetra) continue;
+        const auto n = mesh.block(f.type).nodes(f.cell);
+        const auto& face = t.faces[f.face - 1];
+        if (holds(sorted({n[face[0]], n[face[1]], n[face[2]]}))) count(out, mesh, f.family);
+    }
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).linear != CellType::triangle) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            if (holds(sorted({n[0], n[1], n[2]}))) count(out, mesh, b.families[c]);
+        }
+    }
+    return out;
+}
+
+std::vector<Index> sizes(const Mesh& mesh) {
+    std::vector<Index> out(mesh.groups.size(), 0);
+    const auto add = [&](FamilyIndex family) {
+        for (const GroupIndex g : mesh.families.groups(family)) ++out[g];
+    };
+    for (const FamilyIndex f : mesh.node_families) add(f);
+    for (const CellBlock& b : mesh.blocks())
+        for (const FamilyIndex f : b.families) add(f);
+    for (const Facet& f : mesh.facets) add(f.family);
+    return out;
+}
+
+bool is_inside(const Vec3& x, const TriangleCorners& t) {
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    for (std::size_t k = 0; k < 3; ++k)
+        if ((t[(k + 1) % 3] - t[k]).cross(x - t[k]).dot(normal) < inside * normal.squaredNorm()) return false;
+    return true;
+}
+
+/// Where two triangles without a common node cross within both; crossed_element() does not see that where edges meet
+/// nothing but edges.
+std::optional<Vec3> crossing_of(const Mesh& mesh, const std::vector<Key>& triangles) {
+    std::vector<Box> boxes;
+    for (const Key& t : triangles) {
+        Box& box = boxes.emplace_back();
+        for (const Index n : t) box.extend(mesh.points[n]);
+    }
+    SparseCheck check(256);
+    for (const auto& [i, j] : near_boxes(boxes, boxes)) {
+        check();
+        const Key &s = triangles[i], &t = triangles[j];
+        if (i >= j || std::ranges::any_of(s, [&](Index n) { return std::ranges::find(t, n) != t.end(); })) continue;
+        const auto corners = [&](const Key& k) {
+            return TriangleCorners{mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]]};
+        };
+        const TriangleCorners first = corners(s), second = corners(t);
+        const auto span = cross_triangles(first, second, inside * boxes[i].diagonal().norm());
+        if (!span) continue;
+        const Vec3 middle = ((*span)[0] + (*span)[1]) / 2;
+        if (is_inside(middle, first) && is_inside(middle, second)) return middle;
+    }
+    return {};
+}
+
+/// Whether the first node that elements of `part` have is inside the solid.
+bool is_within(const Mesh& part, const Mesh& solid) {
+    const std::vector<SurfaceFace> own = surface_near(part, box_around(part)),
+                                   skin = surface_near(solid, box_around(solid));
+    if (own.empty() || skin.empty() || solid.dimension() < 3) return false;
+    return SurfaceTree(solid, skin).signed_distance(part.points[own.front().nodes[0]]) < 0;
 }
 
 }  // namespace
 
-void fail_apart(const Mesh& mesh, const Mesh& addition) {
-    if (is_inside(addition, mesh))
-        throw ToolError(
-            "the addition lies inside the mesh, where there is material already: nowhere do their "
-            "surfaces meet. Move the addition",
-            "other");
-    if (is_inside(mesh, addition))
-        throw ToolError(
-            "the addition swallows the mesh: all of it lies inside the addition. Move the addition, or "
-            "make it hollow",
-            "other");
-    const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
-    std::ostringstream out;
-    out << "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
-           "other. The mesh reaches from "
-        << point_text(a.min()) << " to " << point_text(a.max()) << ", the addition from " << point_text(b.min())
-        << " to " << point_text(b.max()) << ". Move the addition, or give a larger tolerance";
-    throw ToolError(out.str(), "other");
+void check_itself(const Mesh& addition) {
+    std::vector<Key> parts;
+    for (const SurfaceFace& f : surface_near(addition, box_around(addition))) parts.push_back(f.nodes);
+    std::optional<Vec3> at;
+    if (const auto crossed = crossed_element(addition, parts)) at = centre_of(addition, *crossed);
+    if (!at && addition.dimension() == 2) at = crossing_of(addition, parts);
+    if (at)
+        throw ToolError("the addition crosses itself, or lies on itself, at " + point_text(*at) +
+                            ", where its parts have no common nodes. Merge these with each other first, or one after "
+                            "the other with the mesh",
+                        "other");
 }
 
-void check_pieces(const Mesh& mesh, const std::string& added, const std::vector<Index>& seam) {
-    const GroupIndex group = *mesh.find_group(added, GroupKind::element);
-    UnionFind pieces(mesh.node_count());
-    std::vector<Index> one;  // a node of each element that has an extent
-    for (const CellBlock& b : mesh.blocks())
-        for (Index c = 0; c < b.size(); ++c) {
-            if (!mesh.families.contains(b.families[c], group)) continue;
-            const auto n = b.nodes(c);
-            for (std::size_t k = 1; k < n.size(); ++k) pieces.unite(n[0], n[k]);
-            if (traits(b.type).dimension >= 2) one.push_back(n[0]);
-        }
-    std::vector<char> joined(mesh.points.size(), 0);
-    for (const Index n : seam) joined[pieces.find(n)] = 1;
-    const auto loose = std::ranges::find_if(one, [&](Index n) { return joined[pieces.find(n)] == 0; });
-    if (loose != one.end())
-        throw ToolError("a piece of the addition, at " + point_text(mesh.points[*loose]) +
-                            ", does not meet the mesh and would be loose. Move it, leave it out, or give a larger "
-                            "tolerance",
+void check_within(const Mesh& mesh, const Mesh& addition) {
+    const char* what = is_within(addition, mesh)   ? "the addition is inside the mesh"
+                       : is_within(mesh, addition) ? "the mesh is inside the addition"
+                                                   : nullptr;
+    if (what)
+        throw ToolError(std::string(what) +
+                            ", and their surfaces meet nowhere: there is nothing to be added, and no "
+                            "place to join them. Move the addition so that it reaches through the skin",
                         "other");
+}
+
+void check_pieces(const Mesh& result, const std::string& name) {
+    const GroupIndex added = *result.find_group(name + "_ADDED", GroupKind::element),
+                     seam = *result.find_group(name + "_SEAM", GroupKind::node);
+    UnionFind pieces(result.points.size());
+    std::vector<CellRef> first;
+    for (const CellBlock& b : result.blocks()) {
+        if (traits(b.type).dimension < 1) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            if (!has(result.families, b.families[c], added)) continue;
+            const auto n = b.nodes(c);
+            for (const Index v : n) pieces.unite(static_cast<int>(n[0]), static_cast<int>(v));
+            first.push_back({b.type, c});
+        }
+    }
+    std::set<int> held;
+    for (Index n = 0; n < result.node_count(); ++n)
+        if (has(result.families, result.node_families[n], seam)) held.insert(pieces.find(static_cast<int>(n)));
+    for (const CellRef& cell : first)
+        if (!held.contains(pieces.find(static_cast<int>(result.block(cell.type).nodes(cell.cell)[0]))))
+            throw ToolError("a piece of the addition, at " + point_text(centre_of(result, cell)) +
+                                ", does not meet the mesh, nor has it nodes in common with the pieces that do: nothing "
+                                "would hold it. Move it, or leave it out",
+                            "other");
+}
+
+void check_other_elements(const Mesh& mesh, const Mesh& addition) {
+    for (const auto& [own, other, parameter] :
+         {std::tuple(&mesh, &addition, "mesh"), std::tuple(&addition, &mesh, "other")}) {
+        const Box there = box_around(*other);
+        const Box around = grown(there, close * there.diagonal().norm());
+        for (const CellBlock& b : own->blocks()) {
+            const CellTraits& t = traits(b.type);
+            if (t.simplex || t.dimension < 2) continue;
+            for (Index c = 0; c < b.size(); ++c) {
+                Box box;
+                for (const Index n : b.nodes(c)) box.extend(own->points[n]);
+                if (!box.intersects(around)) continue;
+                throw UnsupportedElementError(
+                    "no triangles or tetrahedra of the two meet; where they are near each other, " +
+                        std::string(own == &mesh ? "the mesh" : "the addition") + " has elements of type " +
+                        std::string(t.name) + " (" + std::to_string(b.ids[c]) +
+                        ", ...), which cannot be given new nodes. Split these into triangles or tetrahedra first, or "
+                        "join the two with method='tie'",
+                    parameter);
+            }
+        }
+    }
+}
+
+void warn_of_buried(const Mesh& result, const std::string& added, Report& report) {
+    const std::set<Key> between = faces_between(result, *result.find_group(added, GroupKind::element));
+    if (between.empty()) return;
+    const Counts buried = faces_in_groups(result, [&](const Key& key) { return between.contains(key); });
+    if (buried.empty()) return;
+    const Counts all = faces_in_groups(result, [](const Key&) { return true; });
+    for (const auto& [group, faces] : buried)
+        report.warnings.push_back(std::to_string(faces) + " of the " + std::to_string(all.at(group)) + " faces of '" +
+                                  result.groups[group].name +
+                                  "' are inside now, between the mesh and the addition: what a solver is told to do "
+                                  "there, as a pressure, it still does. Take them out of the group if it should not");
+}
+
+std::vector<std::string> emptied_groups(const Mesh& before, const Mesh& after) {
+    const std::vector<Index> then = sizes(before), now = sizes(after);
+    std::vector<std::string> out;
+    for (std::size_t g = 0; g < before.groups.size(); ++g) {
+        const Group& group = before.groups[g];
+        if (group.hidden || then[g] == 0) continue;
+        const auto found = after.find_group(group.name, group.kind);
+        if (found && now[*found] == 0) out.push_back(group.name);
+    }
+    return out;
 }
 
 }  // namespace femscalpel

@@ -371,7 +371,8 @@ def merge(
     Raises
     ------
     ToolError
-        The name is bad or taken, or the two do not meet.
+        The name is bad or taken, or the two do not meet: one is inside the other, a piece of the addition is apart, or
+        the addition crosses itself.
     UnsupportedElementError
         Quadrangles or other elements that are no simplices are where the two meet.
     QualityError

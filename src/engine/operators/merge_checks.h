@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "operators/report.h"
+
+namespace femscalpel {
+
+/// Throws ToolError when faces of an addition pass through elements of it with which they have no node in common, or
+/// triangles lie on each other. Sides of a contact or a crack, which but touch, may be there.
+void check_itself(const Mesh& addition);
+
+/// Throws ToolError when of an addition that was joined, the element group NAME_ADDED, some piece has none of the
+/// nodes of NAME_SEAM: it would be held by nothing. Elements of dimension 0 are no pieces.
+void check_pieces(const Mesh& result, const std::string& name);
+
+/// Throws ToolError when one of two meshes that do not meet is inside the other.
+void check_within(const Mesh& mesh, const Mesh& addition);
+
+/// Throws UnsupportedElementError when elements that are no simplices are near the other mesh, by the boxes around
+/// them: of two meshes that do not meet otherwise, these may be why.
+void check_other_elements(const Mesh& mesh, const Mesh& addition);
+
+/// Warns of groups that have faces between the elements of the group `added` and others, which were on the skin.
+void warn_of_buried(const Mesh& result, const std::string& added, Report& report);
+
+/// Names of groups with members in the one mesh, and none in the other, where they are called the same.
+std::vector<std::string> emptied_groups(const Mesh& before, const Mesh& after);
+
+}  // namespace femscalpel

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What cannot be merged is refused for the true reason, and what one should know of a merge is said."""
+
+import numpy as np
+import pytest
+
+import femscalpel as fs
+from merge_parts import block, plate, rod, shell, solid
+from meshes import grid_box
+from test_tie import face_areas, hexahedra
+
+
+def floor():
+    return plate((0, 0, 0), (10, 0, 0), (0, 10, 0), (10, 10), "FLOOR")
+
+
+def box():
+    return grid_box((6, 5, 4), (6.0, 5.0, 4.0))
+
+
+def side_by_side(first, second, kind):
+    """Two meshes as one, without common nodes."""
+    points = np.concatenate([first.points, second.points])
+    return points, np.concatenate([first.cells[kind], second.cells[kind] + first.node_count])
+
+
+def rib(start, along):
+    return plate(start, along, (0, 0, 2), (8, 2), "RIB")
+
+
+FIRST = rib((1, 3, 0), (8, 0, 0))
+
+
+@pytest.mark.parametrize(
+    "second, words",
+    [
+        (rib((1, 3, 5), (8, 0, 0)), "a piece of the addition, at .* does not meet the mesh"),
+        (rib((3.3, 0.7, 0), (0, 8, 0)), "crosses itself, or lies on itself, at"),
+        (FIRST, "crosses itself, or lies on itself, at"),
+    ],
+)
+def test_shells_in_pieces(second, words):
+    addition = shell(*side_by_side(FIRST, second, "triangle"), "RIB")
+    with pytest.raises(fs.ToolError, match=words) as caught:
+        fs.merge(floor(), addition)
+    assert caught.value.parameter == "other"
+
+
+@pytest.mark.parametrize(
+    "origin, words",
+    [((4.5, 3.5, 24), "a piece of the addition, at"), ((1.8, 1.7, 4.1), "crosses itself, or lies on itself, at")],
+)
+def test_solids_in_pieces(origin, words):
+    pieces = (block(at, (1.2, 1.1, 1.5), (2, 2, 2), "A") for at in ((1.5, 1.5, 4), origin))
+    addition = solid(*side_by_side(*pieces, "tetra"), "A")
+    with pytest.raises(fs.ToolError, match=words) as caught:
+        fs.merge(box(), addition)
+    assert caught.value.parameter == "other"
+
+
+def test_a_beam_that_nothing_holds():
+    points = [[2.2, 2.3, 0], [2, 2, 2], [7, 7, 3], [8, 8, 4]]
+    with pytest.raises(fs.ToolError, match="a piece of the addition, at"):
+        fs.merge(floor(), fs.Mesh(points, {"line": [[0, 1], [2, 3]]}))
+
+
+@pytest.mark.parametrize(
+    "mesh, addition, parameter",
+    [
+        (hexahedra((0, 0, 0), (6, 5, 4), (6, 5, 4), "HEX"), block((3, 2.6, 4), (2, 2, 1), (2, 2, 1), "A"), "mesh"),
+        (box(), hexahedra((2, 2, 4), (2, 2, 2), (2, 2, 2), "HEX"), "other"),
+        (hexahedra((0, 0, 0), (6, 5, 4), (6, 5, 4), "HEX"), rib((1, 3, 4), (3, 0, 0)), "mesh"),
+    ],
+)
+def test_other_elements_where_the_two_meet(mesh, addition, parameter):
+    with pytest.raises(fs.UnsupportedElementError, match=r"elements of type hexahedron.*method='tie'") as caught:
+        fs.merge(mesh, addition)
+    assert caught.value.parameter == parameter
+
+
+def test_other_elements_close_to_the_seam():
+    tetrahedra, bricks = box(), hexahedra((0, 0, -4), (6, 5, 4), (6, 5, 4), "HEX")
+    points = np.concatenate([tetrahedra.points, bricks.points])
+    _, first, place = np.unique(np.round(points, 9), axis=0, return_index=True, return_inverse=True)
+    place = place.reshape(-1)
+    cells = {"tetra": place[tetrahedra.cells["tetra"]]}
+    cells["hexahedron"] = place[bricks.cells["hexahedron"] + tetrahedra.node_count]
+    beside = block((6.5, 2.6, -1), (1, 1.7, 2.5), (2, 3, 3), "A")
+    with pytest.raises(fs.UnsupportedElementError, match="hexahedron elements") as caught:
+        fs.merge(fs.Mesh(points[first], cells), beside)
+    assert caught.value.parameter == "mesh"
+    assert "transition" not in str(caught.value) and "method='tie'" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "addition",
+    [
+        block((3, -1, 4), (2, 2, 2), (2, 2, 2), "A"),
+        rod((1, 2.5, 5), 1, 4, (2, 4), "A", [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
+        block((3, 2.5, 3), (6, 5, 2), (6, 5, 2), "A"),
+        block((3, 2.5, 3), (1.1, 1.3, 1), (2, 2, 2), "A"),
+    ],
+    ids=["edge on edge", "a rod that lies on a face", "sides in one plane", "inside with its top in the skin"],
+)
+def test_solids_that_touch_in_a_line_or_have_faces_on_faces(addition):
+    with pytest.raises(fs.QualityError, match="touch over an area, not in a line") as caught:
+        fs.merge(box(), addition)
+    assert caught.value.parameter == "other"
+
+
+def facets(mesh, height):
+    """Faces of tetrahedra at a height, as numbers of elements and faces."""
+    local = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
+    found = [
+        (number, k + 1)
+        for number, cell in zip(mesh.cell_ids["tetra"], mesh.cells["tetra"])
+        for k, face in enumerate(local)
+        if np.allclose(mesh.points[cell[list(face)], 2], height)
+    ]
+    return np.array(found)
+
+
+def test_faces_that_are_inside_afterwards_are_told():
+    mesh, addition = box(), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A")
+    mesh.add_group("PRESSED", "facet", facets(mesh, 4))
+    mesh.add_group("BELOW", "facet", facets(mesh, 0))
+    addition.add_group("BOTTOM", "facet", facets(addition, 4))
+    addition.add_group("TOP", "facet", facets(addition, 5.5))
+    warnings = fs.merge(mesh, addition).report.warnings
+    (inside,) = [w for w in warnings if "inside now" in w]
+    (empty,) = [w for w in warnings if "is empty now" in w]
+    assert "faces of 'PRESSED'" in inside and "group 'BOTTOM'" in empty
+    mesh.remove_group("PRESSED")
+    addition.remove_group("BOTTOM")
+    assert not fs.merge(mesh, addition).report.warnings
+
+
+@pytest.mark.parametrize(
+    "addition, words",
+    [
+        (block((3, 2.5, 1), (1, 1, 1), (2, 2, 2), "A"), "the addition is inside the mesh"),
+        (plate((1.2, 1.3, 1), (3.3, 2, 0), (0, 0, 2), (6, 2), "FIN"), "the addition is inside the mesh"),
+        (block((3, 2.5, -1), (9, 9, 9), (3, 3, 3), "A"), "the mesh is inside the addition"),
+        (block((30, 2.5, 3), (6, 5, 2), (6, 5, 2), "A"), "the addition does not meet the mesh"),
+    ],
+)
+def test_one_inside_the_other(addition, words):
+    with pytest.raises(fs.ToolError, match=words) as caught:
+        fs.merge(box(), addition)
+    assert caught.value.parameter == "other"
+
+
+def test_faces_where_the_two_meet_leave_the_groups_of_the_one_that_is_cut():
+    mesh, addition = box(), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A")
+    mesh.add_group("TOP", "facet", facets(mesh, 4))
+    result = fs.merge(mesh, addition, keep="addition")
+    assert face_areas(result.mesh, "TOP")[0] == pytest.approx(6 * 5 - 2.2 * 1.7)
+    assert not any("inside now" in w for w in result.report.warnings)
