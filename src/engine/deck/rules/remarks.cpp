@@ -24,6 +24,7 @@ void Remarks::add(std::size_t card, Weight weight, const std::string& where, con
 
 std::vector<std::string> Remarks::problems() const {
     std::vector<std::string> out;
+    out.reserve(problems_.size());
     for (const Problem& p : problems_)
         out.push_back(p.new_nodes.empty()
                           ? p.text
