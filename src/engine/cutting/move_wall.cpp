@@ -74,6 +74,7 @@ public:
 
 private:
     struct Hits {
+        // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVIntersect() calls them.
         bool intersectVolume(const Eigen::AlignedBox3d& b) const { return b.intersects(box); }
         bool intersectObject(int face) {
             const int s = skin.slots_[face];
@@ -88,6 +89,7 @@ private:
                 found.emplace_back(at, way.dot(skin.outwards_[face]) > 0);
             return false;
         }
+        // NOLINTEND(readability-identifier-naming)
 
         const SkinBeside& skin;
         Vec3 from, way;

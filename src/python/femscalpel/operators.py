@@ -360,7 +360,7 @@ def merge(
     method : {"conform", "tie"}
         With "tie" the two get no common nodes: both stay as they are, elements of any type, and may only touch. Groups
         of facets, ``name_TIE_MESH`` and ``name_TIE_ADDED``, are where they do: faces of solids, sides of shells, and
-        edges of shells that stand on the other. A CalculiX deck gets the *SURFACE and *TIE cards that hold them
+        edges of shells that stand on the other. A CalculiX deck gets the ``*SURFACE`` and ``*TIE`` cards that hold them
         together; else the report says them.
 
     Returns
