@@ -14,7 +14,6 @@ walls, and for all; the largest change of the measure of a group none of whose n
 failed a check, with --refused those that were refused, with --poor those without that quality, too.
 """
 
-import argparse
 import collections
 import dataclasses
 import pathlib
@@ -23,6 +22,7 @@ import time
 import numpy as np
 
 import femscalpel as fs
+from campaign import case_arguments
 from merge_parts import check_conforming, worst
 from meshes import grid_box, tetra_volumes
 from test_fillet import l_shape
@@ -279,11 +279,7 @@ def one(kind, seed):
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--cases", type=int, default=30, help="of each kind")
-    arguments.add_argument("--seed", type=int, default=0, help="of the first")
-    arguments.add_argument("--kind", choices=list(KINDS), help="only this")
-    arguments.add_argument("--refused", action="store_true")
+    arguments = case_arguments(__doc__, KINDS)
     arguments.add_argument("--poor", action="store_true")
     given = arguments.parse_args()
     print("kind     cases  refused  wrong  minimum    good      off   volume  (all)  elsewhere  seconds  slowest")

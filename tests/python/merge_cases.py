@@ -10,7 +10,6 @@ how many are poor (below 0.12 and below the worse of the two inputs), the larges
 seeds that failed a check; with --refused those that were refused, too.
 """
 
-import argparse
 import collections
 import pathlib
 import time
@@ -18,6 +17,7 @@ import time
 import numpy as np
 
 import femscalpel as fs
+from campaign import case_arguments
 from merge_parts import block, check_conforming, corners, half_pipe, plate, rod, shell, triangles_of, tube, worst
 from meshes import quadratic
 
@@ -145,12 +145,8 @@ def one(kind, seed, second_order):
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--cases", type=int, default=60, help="of each kind")
-    arguments.add_argument("--seed", type=int, default=0, help="of the first")
-    arguments.add_argument("--kind", choices=list(KINDS), help="only this")
+    arguments = case_arguments(__doc__, KINDS)
     arguments.add_argument("--quadratic", action="store_true")
-    arguments.add_argument("--refused", action="store_true")
     given = arguments.parse_args()
     print("kind           cases  refused  wrong  minimum  poor  >= 0.25  measures  seconds")
     for kind in [given.kind] if given.kind else KINDS:

@@ -29,8 +29,7 @@ constexpr double off_facets = 1.5;
 constexpr double same_place = 1e-9;
 /// Half the length of the line that stands for a place, in mean edges.
 constexpr double around_place = 0.25;
-
-/// And its angle to a border.
+/// The angle of that line to a border.
 constexpr double oblique = 40 * M_PI / 180;
 
 /// A place of the mesh's surface where beams end.

@@ -99,13 +99,11 @@ private:
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
     check_other_elements(mesh, addition);
     check_within(mesh, addition);
-    const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
-    std::ostringstream out;
-    out << "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
-           "other. The mesh reaches from "
-        << point_text(a.min()) << " to " << point_text(a.max()) << ", the addition from " << point_text(b.min())
-        << " to " << point_text(b.max()) << ". Move the addition, or give a larger tolerance";
-    throw ToolError(out.str(), "other");
+    throw ToolError(
+        "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
+        "other. " +
+            extents_text(mesh, addition) + ". Move the addition, or give a larger tolerance",
+        "other");
 }
 
 void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {
@@ -272,8 +270,7 @@ std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
     for (const CellBlock& b : mesh.blocks()) {
         if (traits(b.type).dimension < 2) continue;
         for (Index c = 0; c < b.size(); ++c) {
-            const auto groups = mesh.families.groups(b.families[c]);
-            std::vector<char>& in = std::ranges::find(groups, added) != groups.end() ? in_added : in_others;
+            std::vector<char>& in = mesh.families.contains(b.families[c], added) ? in_added : in_others;
             for (const Index n : b.nodes(c)) in[n] = 1;
         }
     }

@@ -35,11 +35,6 @@ Key sorted(Key key) {
     return key;
 }
 
-bool has(const FamilyTable& families, FamilyIndex family, GroupIndex group) {
-    const auto groups = families.groups(family);
-    return std::ranges::find(groups, group) != groups.end();
-}
-
 Vec3 centre_of(const Mesh& mesh, CellRef cell) {
     Vec3 out = Vec3::Zero();
     const CellTraits& t = traits(cell.type);
@@ -53,7 +48,7 @@ std::set<Key> faces_between(const Mesh& mesh, GroupIndex added) {
     std::vector<char> in_added(mesh.points.size(), 0);
     for (const CellBlock& b : mesh.blocks())
         for (Index c = 0; c < b.size(); ++c)
-            if (has(mesh.families, b.families[c], added))
+            if (mesh.families.contains(b.families[c], added))
                 for (const Index n : b.nodes(c)) in_added[n] = 1;
     std::map<Key, std::array<bool, 2>> sides;
     for (const CellBlock& b : mesh.blocks()) {
@@ -62,7 +57,7 @@ std::set<Key> faces_between(const Mesh& mesh, GroupIndex added) {
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
             if (std::count_if(n.begin(), n.begin() + 4, [&](Index v) { return in_added[v] != 0; }) < 3) continue;
-            const bool side = has(mesh.families, b.families[c], added);
+            const bool side = mesh.families.contains(b.families[c], added);
             for (const auto& f : t.faces) sides[sorted({n[f[0]], n[f[1]], n[f[2]]})][side ? 1 : 0] = true;
         }
     }
@@ -154,6 +149,12 @@ bool is_within(const Mesh& part, const Mesh& solid) {
 
 }  // namespace
 
+std::string extents_text(const Mesh& mesh, const Mesh& addition) {
+    const Box a = box_around(mesh), b = box_around(addition);
+    return "The mesh reaches from " + point_text(a.min()) + " to " + point_text(a.max()) + ", the addition from " +
+           point_text(b.min()) + " to " + point_text(b.max());
+}
+
 void check_itself(const Mesh& addition) {
     std::vector<Key> parts;
     for (const SurfaceFace& f : surface_near(addition, box_around(addition))) parts.push_back(f.nodes);
@@ -186,7 +187,7 @@ void check_pieces(const Mesh& result, const std::string& name) {
     for (const CellBlock& b : result.blocks()) {
         if (traits(b.type).dimension < 1) continue;
         for (Index c = 0; c < b.size(); ++c) {
-            if (!has(result.families, b.families[c], added)) continue;
+            if (!result.families.contains(b.families[c], added)) continue;
             const auto n = b.nodes(c);
             for (const Index v : n) pieces.unite(static_cast<int>(n[0]), static_cast<int>(v));
             first.push_back({b.type, c});
@@ -194,7 +195,7 @@ void check_pieces(const Mesh& result, const std::string& name) {
     }
     std::set<int> held;
     for (Index n = 0; n < result.node_count(); ++n)
-        if (has(result.families, result.node_families[n], seam)) held.insert(pieces.find(static_cast<int>(n)));
+        if (result.families.contains(result.node_families[n], seam)) held.insert(pieces.find(static_cast<int>(n)));
     for (const CellRef& cell : first)
         if (!held.contains(pieces.find(static_cast<int>(result.block(cell.type).nodes(cell.cell)[0]))))
             throw ToolError("a piece of the addition, at " + point_text(centre_of(result, cell)) +

@@ -9,6 +9,9 @@
 
 namespace femscalpel {
 
+/// A sentence on where the two are, for errors.
+std::string extents_text(const Mesh& mesh, const Mesh& addition);
+
 /// Throws ToolError when faces of an addition pass through elements of it with which they have no node in common, or
 /// triangles lie on each other. Sides of a contact or a crack, which but touch, may be there.
 void check_itself(const Mesh& addition);

@@ -6,14 +6,13 @@
 #include <sstream>
 #include <utility>
 
-#include "cutting/surface_line.h"
 #include "cutting/touching_faces.h"
 #include "deck/adopt_sections.h"
 #include "deck/solver_input.h"
 #include "deck/tie_cards.h"
 #include "groups/group_report.h"
 #include "mesh/stopwatch.h"
-#include "mesh/surface.h"
+#include "operators/merge_checks.h"
 #include "operators/sections.h"
 #include "operators/unite.h"
 
@@ -24,12 +23,10 @@ namespace {
 constexpr double margin = 1.01;
 
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
-    const Eigen::AlignedBox3d a = box_around(mesh), b = box_around(addition);
     throw ToolError(
-        "the addition does not touch the mesh: no face of the one is near one of the other, and no edge of "
-        "a shell stands on one. The mesh reaches from " +
-            point_text(a.min()) + " to " + point_text(a.max()) + ", the addition from " + point_text(b.min()) + " to " +
-            point_text(b.max()) + ". Move the addition, or give a larger tolerance",
+        "the addition does not touch the mesh: no face of the one is near one of the other, and no edge of a shell "
+        "stands on one. " +
+            extents_text(mesh, addition) + ". Move the addition, or give a larger tolerance",
         "other");
 }
 
