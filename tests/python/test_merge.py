@@ -7,6 +7,7 @@ import pytest
 import femscalpel as fs
 import merge_cases
 from meshes import grid_box, quadratic, tetra_volumes
+import merge_cases
 from merge_parts import (
     EDGES,
     areas,
@@ -354,3 +355,27 @@ def test_what_cannot_be_joined(floor, call, parameter, words):
 
 def test_corners_are_of_the_dimension(floor):
     assert corners(floor).shape[1] == 3
+
+
+@pytest.mark.parametrize("seed", [12, 22, 27, 55, 215])
+def test_a_flat_skin_stays_flat_where_nodes_of_the_addition_are_held(seed):
+    """Held nodes of the addition, which lie off the skin, took those of the mesh with them, up to 0.04."""
+    mesh, part = merge_cases.into_boxes(np.random.default_rng(seed))
+    result = fs.merge(mesh, part)
+    for group in result.report.groups:
+        if group.name != "BOSS" and group.measure_before > 0:
+            assert group.measure_after == pytest.approx(group.measure_before, rel=1e-12), group.name
+    top = result.mesh.groups["TOP"].ids
+    nodes = result.mesh.cells["triangle"][np.isin(result.mesh.cell_ids["triangle"], top)]
+    assert np.abs(result.mesh.points[nodes, 2] - 10).max() < 1e-12
+
+
+@pytest.mark.parametrize(
+    "kind, seed", [("on_boxes", 11), ("on_boxes", 201), ("into_boxes", 18), ("into_cylinder", 277)]
+)
+def test_what_coarse_elements_refuse_is_joined_with_finer_ones(kind, seed):
+    mesh, part = merge_cases.KINDS[kind](np.random.default_rng(seed))
+    result = fs.merge(mesh, part)
+    check_conforming(result.mesh)
+    assert result.report.refinement is not None
+    assert worst(result.mesh) > 0.12

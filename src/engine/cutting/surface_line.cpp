@@ -95,6 +95,7 @@ void SurfaceLine::hold(int v, std::size_t stop) {
     Contact tools = d_.contact[v];
     if (!tools.full()) tools = tools.with(&ribbon_);
     if (!tools.full()) tools = tools.with(planes_.back().get());
+    f_.bound_at_stop.emplace(v, d_.constraints[v].freedom > NodeFreedom::surface);
     d_.hold_beside(v, tools);
     at_stop_[stop] = v;
     if (static_cast<std::size_t>(v) < value_.size()) value_[v] = 0;

@@ -77,7 +77,15 @@ struct Workpiece {
     std::map<std::pair<bool, int>, FoldedElement> folded_input = {};
     /// Of lines that were made edges (imprint.h): by line and stop the node there.
     std::vector<std::vector<int>> at_stop = {};
+    /// By such a node: whether a border, feature line or group held it on its surface before it was held at its stop.
+    std::map<int, bool> bound_at_stop = {};
     bool patched = false;  ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
+
+    /// Whether a border, feature line or group holds a node on its surface.
+    bool is_bound(int node) const {
+        const auto stop = bound_at_stop.find(node);
+        return stop != bound_at_stop.end() ? stop->second : d.constraints[node].freedom > NodeFreedom::surface;
+    }
 
     /// Splits the edge a-b at `at` and returns the new node, which lies on `tools`: everything known of nodes holds for
     /// it, too.

@@ -7,12 +7,16 @@
 #include <utility>
 
 #include "cutting/surface_line.h"
+#include "mesh/surface.h"
+#include "mesh/surface_tree.h"
 
 namespace femscalpel {
 namespace {
 
 /// A node of the one nearer to a node of the other than this, in the shortest edge of the line there, is the same.
 constexpr double same_node = 0.25;
+/// Nearer to a surface than this, in the size of the lines, is on it.
+constexpr double rounding = 1e-12;
 /// Cosine of the angle by which a line bends where it is to have a node.
 const double bend = std::cos(6 * M_PI / 180);
 /// How often the two may be divided where the other was.
@@ -113,17 +117,36 @@ std::vector<double> lengths(const Ribbon& ribbon, const JointLine& line) {
 /// The line's stops are the nodes that mesh m has there now.
 bool take(JointLine& line, std::size_t m, const SeamLine& seam, const Mesh& mesh) {
     std::vector<JointLine::Stop> stops;
-    for (const Index n : seam.nodes) {
-        JointLine::Stop& stop = stops.emplace_back(JointLine::Stop{mesh.points[n], {-1, -1}});
-        stop.node[m] = n;
+    for (std::size_t k = 0; k < seam.nodes.size(); ++k) {
+        JointLine::Stop& stop = stops.emplace_back(JointLine::Stop{mesh.points[seam.nodes[k]], {-1, -1}});
+        stop.node[m] = seam.nodes[k];
+        stop.bound = m == 0 && seam.bound[k] != 0;
     }
     for (std::size_t s = 0; s < seam.at_stop.size(); ++s) {
         JointLine::Stop& stop = stops[seam.at_stop[s]];
         stop.node[1 - m] = std::max(stop.node[1 - m], line.stops[s].node[1 - m]);
+        stop.bound = stop.bound || (m == 1 && line.stops[s].bound);
     }
     const bool more = std::ranges::any_of(stops, [&](const JointLine::Stop& s) { return s.node[1 - m] < 0; });
     line.stops = std::move(stops);
     return more;
+}
+
+/// Stops go to the first mesh's nodes where these are bound, else to its surface where they are off it.
+void bring_onto(const Mesh& mesh, std::vector<JointLine>& lines) {
+    Eigen::AlignedBox3d box;
+    for (const JointLine& line : lines)
+        for (const JointLine::Stop& stop : line.stops) box.extend(stop.at);
+    const double size = box.diagonal().norm();
+    const std::vector<SurfaceFace> faces = surface_near(mesh, grown(box, size));
+    const SurfaceTree tree(mesh, faces);
+    for (JointLine& line : lines)
+        for (JointLine::Stop& stop : line.stops)
+            if (stop.bound)
+                stop.at = mesh.points[stop.node[0]];
+            else if (const SurfaceTree::Foot foot = tree.closest(stop.at);
+                     foot.piece >= 0 && foot.distance > rounding * size)
+                stop.at = foot.at;
 }
 
 /// imprint_seam(), with an error that says what there is to be done where meshes are merged.
@@ -203,6 +226,8 @@ bool Joint::imprint(std::size_t m, const Prepared& known) {
     bool more = false;
     for (std::size_t k = 0; k < lines_.size(); ++k)
         more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
+    // Nodes of the addition that are held may be off the mesh, whose surface stays.
+    if (m == 1) bring_onto(results_[0].mesh, lines_);
     if (done_[m]) seamed.result.report = joined(results_[m].report, std::move(seamed.result.report));
     results_[m] = std::move(seamed.result);
     done_[m] = true;

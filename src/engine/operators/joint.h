@@ -22,6 +22,7 @@ struct JointLine {
     struct Stop {
         Vec3 at;
         std::array<Index, 2> node;
+        bool bound = false;  ///< a border, line or group holds the first mesh's node on its surface
     };
     std::vector<Stop> stops;
 };

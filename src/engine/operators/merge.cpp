@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -38,10 +40,11 @@ namespace {
 /// A triangle as near to the other's surface, in its edges, and as parallel (cosine), lies on it.
 constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
-/// Elements filled in with a smaller mean ratio than this are worth a word.
-constexpr double poor = 0.1;
-/// Edges of the one at the line may be so many times longer than those of the other.
+/// Elements filled in with a smaller mean ratio than this are worth another attempt, and a word.
+constexpr double poor = 0.12;
+/// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing.
 constexpr double coarser = 2.5;
+constexpr double coarser_again = 1.1;
 /// And no longer than this part of a closed line.
 constexpr double of_length = 0.12;
 
@@ -54,7 +57,8 @@ public:
         options_.skin = nullptr;
     }
 
-    void run(const std::vector<MeetingLine>& meeting) {
+    /// `longer`: how many times longer than the other's edges may be.
+    void run(const std::vector<MeetingLine>& meeting, double longer) {
         for (const std::size_t m : {0U, 1U}) {
             std::vector<std::unique_ptr<Ribbon>> ribbons;
             std::vector<RefineZone> zones;
@@ -66,7 +70,7 @@ public:
                 zones.push_back({[&ribbon](const Vec3& x) {
                                      return std::hypot(ribbon.distance(x), std::max(0.0, ribbon.beyond(x)));
                                  },
-                                 std::min(coarser * sum / static_cast<double>(line.points.size()),
+                                 std::min(longer * sum / static_cast<double>(line.points.size()),
                                           ribbon.closed() ? of_length * ribbon.length() : HUGE_VAL)});
             }
             refined_[m] = refine_first(*meshes_[m], zones, options_);
@@ -263,6 +267,72 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     return out;
 }
 
+/// An attempt, and what it is made of.
+struct Joined {
+    std::unique_ptr<Refining> refined;
+    std::unique_ptr<Joint> joint;
+    United united;
+
+    /// The smallest mean ratio of what was filled in or, by the line, made worse than it was.
+    double worst() const {
+        double out = united.worst;
+        for (const std::size_t m : {0U, 1U}) {
+            const Report& report = joint->report(m);
+            if (report.quality_after.minimum < 0.999 * report.quality_before.minimum)
+                out = std::min(out, report.quality_after.minimum);
+        }
+        return out;
+    }
+};
+
+/// One attempt, with elements at the line no more than `longer` times as long as the other's.
+Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double longer, const MergeOptions& options,
+                 const Prepared& known) {
+    Joined out;
+    out.refined = std::make_unique<Refining>(mesh, addition, options);
+    Refining& refined = *out.refined;
+    refined.run(meeting.lines, longer);
+    // Smaller elements do not make what is off a curved surface nearer.
+    if (refined.any())
+        meeting = find_meeting(refined.mesh(0), refined.mesh(1),
+                               meeting.tolerance > 0 ? meeting.tolerance : options.tolerance);
+    std::vector<JointLine> lines;
+    lines.reserve(meeting.lines.size());
+    for (const MeetingLine& line : meeting.lines) lines.push_back(line_of(line, refined.mesh(0)));
+    out.joint = std::make_unique<Joint>(refined.mesh(0), refined.mesh(1), std::move(lines), options);
+    out.joint->run(&refined.mesh(0) == &mesh ? known : Prepared{});
+    check_cancelled();
+    for (const std::size_t m : {0U, 1U}) refined.join(m, out.joint->report(m));
+    const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
+    out.united = solids ? unite_solids(*out.joint, meeting.tolerance, options) : unite_shells(*out.joint, options);
+    return out;
+}
+
+/// Where elements of different sizes meet badly, tries again with smaller ones.
+Joined join(const Mesh& mesh, const Mesh& addition, const Meeting& meeting, const MergeOptions& options,
+            const Prepared& known) {
+    const auto again = [&] { return join_once(mesh, addition, meeting, coarser_again, options, known); };
+    Joined out;
+    try {
+        out = join_once(mesh, addition, meeting, coarser, options, known);
+    } catch (const QualityError&) {
+        const std::exception_ptr first = std::current_exception();
+        try {
+            return again();
+        } catch (const QualityError&) {
+            std::rethrow_exception(first);
+        }
+    }
+    if (out.worst() >= poor) return out;
+    try {
+        Joined other = again();
+        if (other.worst() > out.worst()) return other;
+    } catch (const QualityError&) {
+        return out;
+    }
+    return out;
+}
+
 /// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
 std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
     const GroupIndex added = *mesh.find_group(name, GroupKind::element);
@@ -321,32 +391,19 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         return out;
     }
     check_itself(addition);
-    Meeting meeting = find_meeting(mesh, addition, options.tolerance);
+    const Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);
     if (addition.dimension() == 2) check_overlap(mesh, addition);
-    Refining refined(mesh, addition, options);
-    refined.run(meeting.lines);
-    // Smaller elements do not make what is off a curved surface nearer.
-    if (refined.any())
-        meeting = find_meeting(refined.mesh(0), refined.mesh(1),
-                               meeting.tolerance > 0 ? meeting.tolerance : options.tolerance);
-    std::vector<JointLine> lines;
-    lines.reserve(meeting.lines.size());
-    for (const MeetingLine& line : meeting.lines) lines.push_back(line_of(line, refined.mesh(0)));
-    Joint joint(refined.mesh(0), refined.mesh(1), std::move(lines), options);
-    joint.run(&refined.mesh(0) == &mesh ? known : Prepared{});
-    check_cancelled();
-    for (const std::size_t m : {0U, 1U}) refined.join(m, joint.report(m));
-
     const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
-    United united = solids ? unite_solids(joint, meeting.tolerance, options) : unite_shells(joint, options);
+    Joined joined = join(mesh, addition, meeting, options, known);
+    United& united = joined.united;
     Result out;
     out.mesh = std::move(united.mesh);
     const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
     if (solids) check_seam(out.mesh, seam);
     add_seam(out.mesh, options.name, seam);
     check_pieces(out.mesh, options.name);
-    out.report = report_of(mesh, joint, out.mesh, static_cast<Index>(seam.size()));
+    out.report = report_of(mesh, *joined.joint, out.mesh, static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
     std::ranges::copy(left_out, std::back_inserter(out.report.warnings));
     out.report.quality_after.minimum = std::min(out.report.quality_after.minimum, united.worst);

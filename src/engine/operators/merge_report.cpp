@@ -11,8 +11,11 @@ std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, c
         for (const GroupRecord& was : known)
             if (was.name == r.name && was.kind == r.kind) {
                 const GroupRecord now = r;
+                // What is known may be of the last step alone.
                 r = was;
+                r.count_before = now.count_before;
                 r.count_after = now.count_after;
+                r.measure_before = now.measure_before;
                 r.measure_after = now.measure_after;
                 if (was.status == "untouched" && now.count_after != now.count_before) r.status = now.status;
             }

@@ -43,6 +43,11 @@ public:
         check_shape(f, site.mesh);
         Opening out = no_opening(f.d.band);
         imprinted_ = imprint_.result(f);
+        bound_.clear();
+        for (const ImprintedLine& line : imprinted_) {
+            std::vector<char>& bound = bound_.emplace_back();
+            for (const int v : line.nodes) bound.push_back(f.is_bound(v) ? 1 : 0);
+        }
         for (const ImprintedLine& line : imprinted_)
             out.interface_nodes.insert(out.interface_nodes.end(), line.nodes.begin(), line.nodes.end());
         std::ranges::sort(out.interface_nodes);
@@ -54,8 +59,10 @@ public:
 
     void finished(const Rebuilt& rebuilt) override {
         lines_.clear();
-        for (const ImprintedLine& line : imprinted_) {
+        for (std::size_t k = 0; k < imprinted_.size(); ++k) {
+            const ImprintedLine& line = imprinted_[k];
             SeamLine& seam = lines_.emplace_back();
+            seam.bound = bound_[k];
             for (const int v : line.nodes) seam.nodes.push_back(rebuilt.node[v]);
             for (const int v : line.at_stop)
                 seam.at_stop.push_back(static_cast<std::size_t>(std::ranges::find(line.nodes, v) - line.nodes.begin()));
@@ -68,6 +75,7 @@ private:
     Imprint imprint_;
     std::vector<Blade> blades_;
     std::vector<ImprintedLine> imprinted_;
+    std::vector<std::vector<char>> bound_;  // of their nodes
     std::vector<SeamLine> lines_;
 };
 

@@ -15,6 +15,7 @@ namespace femscalpel {
 struct SeamLine {
     std::vector<Index> nodes;          ///< along it, of the result; of a closed line the first is there once
     std::vector<std::size_t> at_stop;  ///< for each stop of the line, which of the nodes is there
+    std::vector<char> bound;           ///< of nodes: whether a border, line or group holds them on the surface
 };
 
 /// What imprint_seam() returns.
