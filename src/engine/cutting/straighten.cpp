@@ -88,8 +88,8 @@ private:
 
     /// Of the edge, or of those around its ends, which may be beside the surface themselves.
     double length_at(int a, int b) const {
-        return std::max({(band_.nodes[a].at - band_.nodes[b].at).norm(), band_.mean_edge_length(a),
-                         band_.mean_edge_length(b)});
+        return std::max(
+            {(band_.nodes[a].at - band_.nodes[b].at).norm(), band_.mean_edge_length(a), band_.mean_edge_length(b)});
     }
 
     /// Nodes born on a curved surface or curve that could not be brought onto it.
@@ -122,9 +122,10 @@ private:
         if (count_ == 0) return true;
         std::ostringstream text;
         text.precision(3);
-        text << "the " << f_.tool->kind() << " passes so close to a curved surface, which is coarse there, that " << count_
-             << " node(s) were left in the middle of straight edges, up to " << farthest_ << " beside it, farthest near ("
-             << place_.transpose() << "): curved elements have no room in between. Refine the mesh there first, or move the "
+        text << "the " << f_.tool->kind() << " passes so close to a curved surface, which is coarse there, that "
+             << count_ << " node(s) were left in the middle of straight edges, up to " << farthest_
+             << " beside it, farthest near (" << place_.transpose()
+             << "): curved elements have no room in between. Refine the mesh there first, or move the "
              << f_.tool->kind();
         f_.warnings.push_back(text.str());
         return true;
