@@ -153,6 +153,23 @@ TEST_F(RetrySecondOrder, CutsAsIfElementsWereLinearWhereCornersAreFoldedToo) {
     EXPECT_TRUE(f.d.mids.is_straightened(middle, end));
 }
 
+TEST_F(RetrySecondOrder, CountsLipsAmongWhatAMeshGrowsBy) {
+    // Where the second try is better, but four times as many elements were to come of it.
+    for (const bool whole_tool : {false, true}) {
+        Workpiece g = f;
+        calls = 0;
+        cut_soundly(
+            g,
+            [&](Workpiece& w) {
+                w.d.band.nodes[middle].at.x() = ++calls == 1 ? 1.985 : 0.02;
+                w.nodes.assign(static_cast<std::size_t>(mesh.cell_count()), middle);
+            },
+            mesh.cell_count(), 2, whole_tool);
+        EXPECT_EQ(calls, 2);
+        EXPECT_EQ(g.d.band.nodes[middle].at.x(), whole_tool ? 1.985 : 0.02);
+    }
+}
+
 TEST_F(RetrySecondOrder, GivesUpWhereCornersStayFolded) {
     const auto cut = [&](Workpiece& g) {
         fold(g);

@@ -194,6 +194,7 @@ public:
           cut_(cut),
           mesh_elements_(static_cast<double>(mesh_elements)),
           attempts_(attempts),
+          lips_of_node_(whole_tool ? 4 : 0),
           plain_(whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() &&
                  !std::isfinite(f.tool->feature_size())),
           best_quality_(plain_ ? -std::numeric_limits<double>::infinity() : degenerate_quality) {
@@ -239,7 +240,9 @@ private:
         const double enough = f_.d.mids.any() ? second_order_quality : poor_quality;
         const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
         if (quality >= enough) return Verdict::good;
-        const bool too_many = element_count(f_.d.band) - elements_ > (largest_growth - 1) * mesh_elements_;
+        const double lips = lips_of_node_ * static_cast<double>(f_.nodes.size());
+        const double more = element_count(f_.d.band) + lips - elements_;
+        const bool too_many = more > (largest_growth - 1) * mesh_elements_;
         is_best_ = quality > best_quality_ && !(too_many && best_ && best_quality_ >= hold_quality);
         if (is_best_) {
             best_quality_ = quality;
@@ -329,7 +332,8 @@ private:
     const std::function<void(Workpiece&)>& cut_;
     const double mesh_elements_;
     const int attempts_;
-    const bool plain_;  // flat tool, flat surfaces, straight elements
+    const double lips_of_node_;  // elements that lips will be: about twice as many on either side as nodes on the tool
+    const bool plain_;           // flat tool, flat surfaces, straight elements
     const double elements_ = element_count(f_.d.band);
     const double most_elements_ = std::min(largest_growth * elements_, elements_ + largest_part * mesh_elements_);
     std::optional<Workpiece> start_;  // what the next try begins with
