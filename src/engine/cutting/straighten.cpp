@@ -122,10 +122,10 @@ private:
         if (count_ == 0) return true;
         std::ostringstream text;
         text.precision(3);
-        text << "the " << f_.tool->kind() << " passes so close to a curved surface, which is coarse there, that "
-             << count_ << " node(s) were left in the middle of straight edges, up to " << farthest_
-             << " beside it, farthest near (" << place_.transpose()
-             << "): curved elements have no room in between. Refine the mesh there first, or move the "
+        text << "curved elements find no room where the " << f_.tool->kind()
+             << " passes a curved surface, which is coarse there: " << count_
+             << " node(s) were left in the middle of straight edges, up to " << farthest_
+             << " beside it, farthest near (" << place_.transpose() << "). Refine the mesh there first, or move the "
              << f_.tool->kind();
         f_.warnings.push_back(text.str());
         return true;
