@@ -111,5 +111,72 @@ TEST_F(Retry, TriesToHoldNodesThatTheToolPassed) {
     EXPECT_EQ(f.d.band.nodes[middle].at.x(), 1);
 }
 
+struct RetrySecondOrder : testing::Test {
+    Mesh mesh = checks::second_order(checks::grid(2, 2, 2));
+    Workpiece f = checks::whole_workpiece(mesh, away);
+    int middle = node_at(f.d.band, {1, 1, 1}), end = node_at(f.d.band, {2, 1, 1});
+    int calls = 0;
+
+    /// Folds the elements around an edge.
+    void fold(Workpiece& g) const {
+        g.d.mids.set_bulge(middle, end, Vec3(0.3, 0, 0));
+        g.d.band.nodes[middle].at.y() += 1e-6;
+    }
+};
+
+TEST_F(RetrySecondOrder, StraightensElementsThatStayFolded) {
+    cut_soundly(
+        f,
+        [&](Workpiece& g) {
+            ++calls;
+            fold(g);
+        },
+        mesh.cell_count(), 1);
+    EXPECT_EQ(calls, 1) << "then they are as good as any";
+    EXPECT_TRUE(f.d.mids.is_straightened(middle, end));
+    EXPECT_TRUE(f.d.mids.bulge(middle, end).isZero(0));
+}
+
+TEST_F(RetrySecondOrder, CutsAsIfElementsWereLinearWhereCornersAreFoldedToo) {
+    std::vector<bool> curved;
+    cut_soundly(
+        f,
+        [&](Workpiece& g) {
+            curved.push_back(g.d.mids.any());
+            fold(g);
+            if (g.d.mids.any()) g.d.band.nodes[middle].at.x() = 2.5;
+        },
+        mesh.cell_count(), 1);
+    EXPECT_THAT(curved, ElementsAre(true, false));
+    EXPECT_TRUE(f.d.mids.any()) << "they are curved again";
+    EXPECT_NEAR(f.d.band.nodes[middle].at.x(), 1, 1e-9);
+    EXPECT_TRUE(f.d.mids.is_straightened(middle, end));
+}
+
+TEST_F(RetrySecondOrder, CountsLipsAmongWhatAMeshGrowsBy) {
+    // Where the second try is better, but four times as many elements were to come of it.
+    for (const bool whole_tool : {false, true}) {
+        Workpiece g = f;
+        calls = 0;
+        cut_soundly(
+            g,
+            [&](Workpiece& w) {
+                w.d.band.nodes[middle].at.x() = ++calls == 1 ? 1.985 : 0.02;
+                w.nodes.assign(static_cast<std::size_t>(mesh.cell_count()), middle);
+            },
+            mesh.cell_count(), 2, whole_tool);
+        EXPECT_EQ(calls, 2);
+        EXPECT_EQ(g.d.band.nodes[middle].at.x(), whole_tool ? 1.985 : 0.02);
+    }
+}
+
+TEST_F(RetrySecondOrder, GivesUpWhereCornersStayFolded) {
+    const auto cut = [&](Workpiece& g) {
+        fold(g);
+        g.d.band.nodes[middle].at.x() = 2.5;
+    };
+    EXPECT_THROW(cut_soundly(f, cut, mesh.cell_count(), 1), QualityError);
+}
+
 }  // namespace
 }  // namespace femscalpel

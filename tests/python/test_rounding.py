@@ -150,3 +150,12 @@ def test_no_edge_inside_a_crack_joins_its_lips(order):
         }
         assert lips["P"] & lips["N"] <= front
     assert made >= 5
+
+
+def test_plane_that_nearly_touches_a_coarse_curved_skin():
+    """It runs along the elbow's straight part, just below its outermost line, where second-order faces are coarse."""
+    mesh = fs.read(cases.MESHES / "quadratic_elbow.inp")
+    result = fs.crack(mesh, fs.Plane((7.5018980660435, 0, -3.4643750475600625), (0, 0, 1)))
+    assert any("left in the middle of straight edges" in w for w in result.report.warnings)
+    assert result.report.quality.after.minimum > 0.1
+    assert fs.scaled_jacobian(result.mesh)["tetra10"].min() > 0

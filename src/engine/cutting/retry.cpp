@@ -9,6 +9,7 @@
 #include "cancel.h"
 #include "cutting/folded_input.h"
 #include "cutting/mend_curved.h"
+#include "cutting/straighten.h"
 #include "cutting/workpiece.h"
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
@@ -36,8 +37,8 @@ constexpr double largest_part_after = 2.75;
 /// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where
 /// second-order elements make it slow.
 constexpr double fewest_visits = 1.5e5, visits_per_element = 2.5;
-/// A curved mesh with elements below this is not returned.
-constexpr double degenerate_quality = 0.01;
+/// A curved mesh with elements below this is returned only if nothing better is found; below the other never.
+constexpr double degenerate_quality = 0.01, flat = 1e-6;
 
 /// Elements of the input, by slot, and where in them something went wrong.
 struct Slots {
@@ -193,6 +194,7 @@ public:
           cut_(cut),
           mesh_elements_(static_cast<double>(mesh_elements)),
           attempts_(attempts),
+          lips_of_node_(whole_tool ? 4 : 0),
           plain_(whole_tool && !f.d.mids.any() && !f.d.constraints.any_curved() &&
                  !std::isfinite(f.tool->feature_size())),
           best_quality_(plain_ ? -std::numeric_limits<double>::infinity() : degenerate_quality) {
@@ -217,7 +219,8 @@ public:
                 if (verdict == Verdict::settled) break;
             }
             if (attempt == attempts_ || is_exhausted()) {
-                if (!best_) fail_at(f_, bad);
+                if (!best_) try_straight(sound);
+                if (!best_ && !resort_) fail_at(f_, bad);
                 break;
             }
             if (!choose_otherwise(bad, sound, attempt)) break;
@@ -237,12 +240,15 @@ private:
         const double enough = f_.d.mids.any() ? second_order_quality : poor_quality;
         const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
         if (quality >= enough) return Verdict::good;
-        const bool too_many = element_count(f_.d.band) - elements_ > (largest_growth - 1) * mesh_elements_;
+        const double lips = lips_of_node_ * static_cast<double>(f_.nodes.size());
+        const double more = element_count(f_.d.band) + lips - elements_;
+        const bool too_many = more > (largest_growth - 1) * mesh_elements_;
         is_best_ = quality > best_quality_ && !(too_many && best_ && best_quality_ >= hold_quality);
         if (is_best_) {
             best_quality_ = quality;
             best_ = std::move(f_);
         } else {
+            if (!best_) keep_resort(Workpiece(f_), quality);
             start_->may_hold.clear();
         }
         // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
@@ -276,7 +282,42 @@ private:
         return true;
     }
 
+    /// What there is when no try gives sound elements that are good enough: the best of those that are not, or of those
+    /// with straight edges where curved ones are folded.
+    void keep_resort(Workpiece made, double quality) {
+        if (!(quality > flat) || quality <= resort_quality_) return;
+        resort_ = std::move(made);
+        resort_quality_ = quality;
+    }
+
+    void keep_straightened(Workpiece made) {
+        if (!straighten_folded(made)) return;
+        Slots poor;
+        const double quality = poorest(made, 0, poor);
+        keep_resort(std::move(made), quality);
+    }
+
+    /// Where curved elements were folded each time: straightens them; and cuts as if all were straight, where corners
+    /// find places that are not looked for among curved elements, to straighten only what is folded then.
+    void try_straight(bool sound) {
+        if (!f_.d.mids.any()) return;
+        if (!sound) keep_straightened(f_);
+        if (resort_quality_ >= poor_quality) return;
+        check_cancelled();
+        Workpiece made = *start_;
+        std::ranges::fill(made.d.off_tool, 0);
+        made.most_visits = made.d.visits + static_cast<long>(fewest_visits / 3);
+        made.d.mids.ignore(true);
+        cut_(made);
+        made.d.mids.ignore(false);
+        keep_straightened(std::move(made));
+    }
+
     void take_best() {
+        if (!best_) {
+            best_ = std::move(resort_);
+            best_quality_ = resort_quality_;
+        }
         f_ = std::move(*best_);
         if (best_quality_ >= poor_quality || plain_) return;
         std::ostringstream text;
@@ -291,12 +332,15 @@ private:
     const std::function<void(Workpiece&)>& cut_;
     const double mesh_elements_;
     const int attempts_;
-    const bool plain_;  // flat tool, flat surfaces, straight elements
+    const double lips_of_node_;  // elements that lips will be: about twice as many on either side as nodes on the tool
+    const bool plain_;           // flat tool, flat surfaces, straight elements
     const double elements_ = element_count(f_.d.band);
     const double most_elements_ = std::min(largest_growth * elements_, elements_ + largest_part * mesh_elements_);
     std::optional<Workpiece> start_;  // what the next try begins with
     std::optional<Workpiece> best_;
     double best_quality_;
+    std::optional<Workpiece> resort_;  // taken if there is no best one
+    double resort_quality_ = 0;
     bool is_best_ = false;  // the last one is: f_ was moved there
     bool tried_to_hold_ = false;
     int polished_ = 0;

@@ -62,6 +62,16 @@ EdgeShape shape_of(const Deformable& d, int a, int b) {
     return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b), d.held_between(a, b)};
 }
 
+/// Of an edge that is straightened: but for its tools it lies on nothing.
+MidSide straight_middle(const Deformable& d, int a, int b) {
+    const Vec3 chord = (d.band.nodes[a].at + d.band.nodes[b].at) / 2;
+    const Contact tools = edge_tools(d, a, b);
+    Vec3 x = chord;
+    const bool on_tools = std::ranges::none_of(tools.tools(), is_curved) ||
+                          d.constraints.project(NodeConstraint{}, tools, x, d.held_between(a, b));
+    return {on_tools ? x : chord, on_tools};
+}
+
 /// How far the mid-side node of an edge of the band is from the chord wherever the edge's ends are: 0 if the edge is
 /// straight, infinity if that depends on a curved shape or a tool.
 double farthest_bulge(const Deformable& d, int a, int b) {
@@ -149,6 +159,7 @@ MidSide mid_side(const Deformable& d, int a, int b) {
     const BandNode &na = d.band.nodes[a], &nb = d.band.nodes[b];
     const bool untouched = !d.band.is_new(a) && !d.band.is_new(b) && na.at == na.start && nb.at == nb.start;
     if (untouched && !d.contact[a].common(d.contact[b])) return {(na.at + nb.at) / 2 + d.mids.bulge(a, b), true};
+    if (d.mids.is_straightened(a, b)) return straight_middle(d, a, b);
     return fit(d, na.at, nb.at, shape_of(d, a, b));
 }
 

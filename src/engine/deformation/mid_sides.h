@@ -3,6 +3,7 @@
 
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "mesh/band_mesh.h"
 
@@ -18,8 +19,11 @@ public:
     /// A mid-side node within `rounding` of the middle of its chord makes a straight edge.
     MidSides(const BandMesh& band, const Mesh& mesh, double rounding = 0);
 
-    /// Whether the band has second-order elements at all.
-    bool any() const { return any_; }
+    /// Whether the band has second-order elements at all, that are not to be ignored.
+    bool any() const { return any_ && !ignored_; }
+
+    /// Whether elements are to be changed as if all were linear; how edges bulge is known all the same.
+    void ignore(bool ignored) { ignored_ = ignored; }
 
     /// Mid-side node minus middle of the chord of the edge a-b; zero for a straight edge.
     Vec3 bulge(int a, int b) const {
@@ -63,6 +67,14 @@ public:
 
     bool is_mended(int a, int b) const { return mended_.contains(edge_key(a, b)); }
 
+    /// Makes the edge a-b straight though the surface or curve it is on is not; mend() included.
+    void straighten(int a, int b) {
+        mend(a, b, Vec3::Zero());
+        straightened_.insert(edge_key(a, b));
+    }
+
+    bool is_straightened(int a, int b) const { return straightened_.contains(edge_key(a, b)); }
+
     /// The input's bulges of the edges that mend() was called for, by edge.
     const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
 
@@ -75,9 +87,10 @@ private:
         end_of_bulge_[a] = end_of_bulge_[b] = 1;
     }
 
-    bool any_ = false;
+    bool any_ = false, ignored_ = false;
     std::vector<char> end_of_bulge_;  // by node
     std::unordered_map<std::uint64_t, Vec3> bulges_, mended_;
+    std::unordered_set<std::uint64_t> straightened_;
 };
 
 /// How far along from a to b the point `at` is, as a fraction of the chord.
