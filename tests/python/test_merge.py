@@ -379,3 +379,19 @@ def test_what_coarse_elements_refuse_is_joined_with_finer_ones(kind, seed):
     check_conforming(result.mesh)
     assert result.report.refinement is not None
     assert worst(result.mesh) > 0.12
+
+
+@pytest.mark.parametrize("kind", ["into_boxes", "on_boxes"])
+@pytest.mark.parametrize("seed", [3, 7])
+def test_quality_is_that_of_what_there_is(kind, seed):
+    """Not of elements that were taken out again."""
+    mesh, part = merge_cases.KINDS[kind](np.random.default_rng(seed))
+    result = fs.merge(mesh, part)
+    old = {i: mesh.points[n].tolist() for i, n in zip(mesh.cell_ids["tetra"], mesh.cells["tetra"])}
+    cells = result.mesh.cells["tetra"]
+    new = [result.mesh.points[n].tolist() != old.get(i) for i, n in zip(result.mesh.cell_ids["tetra"], cells)]
+    ratio = fs.mean_ratio(result.mesh)["tetra"][new]
+    quality = result.report.quality.after
+    assert quality.count == sum(new)
+    assert quality.minimum == pytest.approx(ratio.min(), rel=1e-12)
+    assert quality.mean == pytest.approx(ratio.mean(), rel=1e-9)

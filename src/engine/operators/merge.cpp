@@ -166,23 +166,13 @@ void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name
                                 "name");
 }
 
-void add_quality(QualitySummary& sum, const QualitySummary& more) {
-    const Index count = sum.count + more.count;
-    if (count > 0)
-        sum.mean = (sum.mean * static_cast<double>(sum.count) + more.mean * static_cast<double>(more.count)) /
-                   static_cast<double>(count);
-    sum.count = count;
-    sum.minimum = std::min(sum.minimum, more.minimum);
-    for (std::size_t k = 0; k < sum.histogram.size(); ++k) sum.histogram[k] += more.histogram[k];
-}
-
 /// The report on the mesh, with what the addition brings.
-Report report_of(const Mesh& input, Joint& joint, const Mesh& result, Index shared) {
+Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Mesh& result, const std::string& added,
+                 Index shared) {
     Report out = std::move(joint.report(0));
     const Report& other = joint.report(1);
     out.groups = merged_records(input, result, out.groups);
-    add_quality(out.quality_before, other.quality_before);
-    add_quality(out.quality_after, other.quality_after);
+    describe_joined(input, addition, result, added, out);
     out.nodes_added += joint.mesh(1).node_count() - shared;
     out.elements_added += joint.mesh(1).cell_count();
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
@@ -403,10 +393,10 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     if (solids) check_seam(out.mesh, seam);
     add_seam(out.mesh, options.name, seam);
     check_pieces(out.mesh, options.name);
-    out.report = report_of(mesh, *joined.joint, out.mesh, static_cast<Index>(seam.size()));
+    out.report =
+        report_of(mesh, addition, *joined.joint, out.mesh, options.name + "_ADDED", static_cast<Index>(seam.size()));
     std::ranges::move(united.warnings, std::back_inserter(out.report.warnings));
     std::ranges::copy(left_out, std::back_inserter(out.report.warnings));
-    out.report.quality_after.minimum = std::min(out.report.quality_after.minimum, united.worst);
     if (united.worst < poor) {
         std::ostringstream text;
         text << "an element that was filled in where the two meet has a mean ratio of " << united.worst

@@ -1,9 +1,45 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/merge_report.h"
 
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "cancel.h"
+#include "cutting/rebuild.h"
 #include "groups/group_report.h"
+#include "mesh/quality.h"
 
 namespace femscalpel {
+namespace {
+
+void add_quality(QualitySummary& sum, const QualitySummary& more) {
+    const Index count = sum.count + more.count;
+    if (count > 0)
+        sum.mean = (sum.mean * static_cast<double>(sum.count) + more.mean * static_cast<double>(more.count)) /
+                   static_cast<double>(count);
+    sum.count = count;
+    sum.minimum = std::min(sum.minimum, more.minimum);
+    for (std::size_t k = 0; k < sum.histogram.size(); ++k) sum.histogram[k] += more.histogram[k];
+    std::vector<ElementQuality> worst = std::move(sum.worst);
+    worst.insert(worst.end(), more.worst.begin(), more.worst.end());
+    sum.worst = summarise(std::move(worst)).worst;
+}
+
+/// The shape of the elements of two and three dimensions for which `wanted` is true.
+template <class Wanted>
+std::vector<ElementQuality> qualities(const Mesh& mesh, Wanted wanted) {
+    std::vector<ElementQuality> out;
+    SparseCheck check;
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension < 2) continue;
+        for (Index c = 0; c < b.size(); ++c, check())
+            if (wanted(b, c)) out.push_back({b.ids[c], mean_ratio(mesh, b.type, c)});
+    }
+    return out;
+}
+
+}  // namespace
 
 std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, const std::vector<GroupRecord>& known) {
     std::vector<GroupRecord> records = compare_groups(input, family_totals(input), result, family_totals(result));
@@ -20,6 +56,25 @@ std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, c
                 if (was.status == "untouched" && now.count_after != now.count_before) r.status = now.status;
             }
     return records;
+}
+
+void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result, const std::string& added,
+                     Report& report) {
+    add_quality(report.quality_before, summarise(qualities(addition, [](const CellBlock&, Index) { return true; })));
+    std::unordered_map<Index, Index> known;
+    for (Index n = 0; n < input.node_count(); ++n) known.emplace(input.node_ids[n], n);
+    std::vector<char> touched(result.points.size(), 1);
+    for (Index n = 0; n < result.node_count(); ++n)
+        if (const auto found = known.find(result.node_ids[n]); found != known.end())
+            touched[n] = input.points[found->second] == result.points[n] ? 0 : 1;
+    const Index last = next_numbers(input).cell;
+    const GroupIndex group = *result.find_group(added, GroupKind::element);
+    const bool solid = result.dimension() == 3;
+    report.quality_after = summarise(qualities(result, [&](const CellBlock& b, Index c) {
+        if (result.families.contains(b.families[c], group)) return true;
+        if (solid && traits(b.type).dimension == 2) return false;
+        return b.ids[c] >= last || std::ranges::any_of(b.nodes(c), [&](Index n) { return touched[n] != 0; });
+    }));
 }
 
 void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nodes) {

@@ -12,6 +12,12 @@ namespace femscalpel {
 /// mesh alone is kept.
 std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, const std::vector<GroupRecord>& known);
 
+/// Puts the quality of what was joined into a report that holds that of the mesh before: of the elements of the mesh
+/// that were changed, and of all of the addition, which are the element group `added` of the result; but for the mesh's
+/// triangles where there are tetrahedra, whose skin they are.
+void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result, const std::string& added,
+                     Report& report);
+
 /// Makes a node group NAME_SEAM of nodes.
 void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nodes);
 
