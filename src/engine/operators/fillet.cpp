@@ -2,6 +2,7 @@
 #include "operators/fillet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -125,7 +126,8 @@ public:
                 FilletCorner(f, site.mesh, *r.path, r.reach).replace(0);
                 continue;
             }
-            FilletCavity cavity(f, site.mesh, *r.path, r.reach);
+            const std::array edges{FilletReach{r.path.get(), r.reach}};
+            FilletCavity cavity(f, site.mesh, edges);
             cavity.replace(0);
             middles.insert(cavity.middles().begin(), cavity.middles().end());
         }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "operators/fillet_material.h"
+
+namespace femscalpel {
+
+/// The new faces along one edge that is rounded: on the ball, and on planes across the edge. Where groups meet along a
+/// concave edge, also a wall between their shares of the new material, from the edge to the middle of the arc.
+class FilletRun {
+public:
+    using Face = FilletMaterial::Face;
+    using Border = FilletMaterial::Border;
+    /// Nodes along the edge, in its direction.
+    using Row = std::vector<int>;
+
+    /// A part of a surface across the edge that is made anew.
+    struct Part {
+        int side;                                   ///< from one tangent line to the middle of the arc; -1: to the other
+        std::vector<Triangle> old = {}, fresh = {};  ///< normals in the edge's direction
+        std::array<int, 2> domain{-1, -1};          ///< before and behind, in the edge's direction; -1 outside
+    };
+    /// A plane across the edge: where it leaves the part, or a border inside that is kept, such as one of materials.
+    struct Section {
+        int corner;  ///< the node on the edge
+        Vec3 normal = Vec3::Zero();
+        double offset = 0;
+        double s = 0;  ///< where the edge passes
+        std::vector<Part> parts = {};
+        std::vector<int> arc = {};    ///< nodes from the first tangent line to the second, both included; -1: none
+        std::vector<int> ridge = {};  ///< nodes from the edge to the middle of the arc, where a wall ends
+        std::array<std::size_t, 3> in_row{};  ///< places of its ends in the rows, and of the middle of its arc
+
+        bool has(int side) const;
+    };
+
+    /// The edge in that place of those that the material was collected for.
+    FilletRun(FilletMaterial& material, const FilletPath& path, std::size_t place);
+
+    /// Takes what is across the edge out of the material's skin and borders. Throws QualityError where it cannot.
+    void find_sections();
+    /// Finds the tangent lines on the skin, and moves them onto the ball where facets have them off it.
+    void find_rows();
+    /// Into how many parts the arc should be divided.
+    int wanted_divisions() const;
+    /// Makes all faces.
+    void make_faces(int divisions);
+    /// Mid-side nodes at the tangent lines of a circular edge go onto it: of second-order meshes; by edge_key().
+    void bend_row_edges(std::map<std::uint64_t, Vec3>& middles);
+    /// What lay on the old faces of sections lies on the new ones.
+    void carry_over();
+
+    const FilletPath& path() const { return path_; }
+    const std::vector<Face>& arc() const { return arc_; }
+    const std::vector<Border>& walls() const { return walls_; }
+    const std::vector<Section>& sections() const { return sections_; }
+    const Row& row(int side) const { return rows_[side]; }
+
+private:
+    /// A surface unrolled: coordinates along the edge, and levels across it.
+    struct Sheet {
+        std::function<Vec3(double, double)> at;  ///< by place along the edge and level
+        const Tool* tool;
+        int levels;
+        double step;     ///< from one level to the next
+        double spacing;  ///< of nodes along the edge
+        double squeeze;  ///< scale along the edge for triangulate()
+    };
+    /// A part of it between two lines across, whose nodes are by level.
+    struct Patch {
+        Row lower, upper;
+        std::vector<int> left, right;
+    };
+
+    const Vec3& at(int v) const { return m_.at(v); }
+    FilletPath::Place place(int v) const { return path_.place(at(v)); }
+    double on_edge() const { return 2 * path_.sag() + 1e-6 * path_.radius(); }
+    bool halved() const;
+    bool parted(std::size_t segment) const { return segments_[segment][0] != segments_[segment][1]; }
+
+    void find_edge();
+    int corner_at(double s) const;
+    Section end_section(int corner, std::size_t segment);
+    void find_borders();
+    Section border_at(std::size_t node);
+    Part border_part(const Section& section, int side, const std::array<int, 2>& domain);
+    void set_normal(Section& section, const Vec3& normal) const;
+    bool lies_in(const Section& section, const Triangle& t) const;
+    void check_strips() const;
+
+    Row find_row(int side) const;
+    void place_in_rows(Section& section) const;
+    void put_rows_on_ball();
+
+    double on_plane(const Vec2& p, const Section& section) const;
+    void make_arc(Section& section);
+    void make_ridge(Section& section);
+    std::vector<int> outline_of(const Part& part, const std::array<int, 2>& ends) const;
+    std::vector<int> whole_outline(const Section& section, const Part& part) const;
+    void mesh_part(const Section& section, Part& part);
+    const Triangle& face_near(const Part& part, const Vec3& x) const;
+    const Triangle& face_near(const Section& section, const Vec3& x) const;
+    void carry_over(const Part& part);
+
+    double spacing_along() const;
+    void make_middle_row();
+    Row between(const Row& row, std::size_t from, std::size_t to) const;
+    std::vector<double> unrolled(const std::vector<int>& nodes, double near) const;
+    Sheet arc_sheet() const;
+    Sheet wall_sheet() const;
+    void mesh_arcs();
+    int domain_behind(const Section& section, int side) const;
+    void mesh_walls();
+    std::vector<Triangle> mesh_ring(const Sheet& sheet, Row lower, Row upper, int first, int last);
+    void add_arc(std::vector<Triangle> triangles, int domain);
+    void add_wall(std::vector<Triangle> triangles, const std::array<int, 2>& domain);
+    std::vector<Triangle> mesh_patch(const Sheet& sheet, const Patch& patch, int first, int last);
+
+    FilletMaterial& m_;
+    const FilletPath& path_;
+    std::size_t place_;
+    Row edge_;                                   // nodes on the edge
+    std::vector<std::array<int, 2>> segments_;   // domains on both sides of each of its segments
+    std::vector<Section> sections_;              // by s; of an open edge the first and last are its ends
+    std::array<Row, 3> rows_;                    // on the tangent lines; on the middle of the arc, where it is halved
+    int divisions_ = 4;
+    std::vector<Face> arc_;
+    std::vector<Border> walls_;
+};
+
+}  // namespace femscalpel

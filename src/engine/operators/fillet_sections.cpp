@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where a FilletRun finds its edge, what is across it, and its tangent lines.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/quality.h"
+#include "operators/fillet_run.h"
+
+namespace femscalpel {
+namespace {
+
+bool holds(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end(); }
+
+Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
+
+}  // namespace
+
+bool FilletRun::Section::has(int side) const {
+    return std::ranges::any_of(parts, [&](const Part& p) { return p.side < 0 || p.side == side; });
+}
+
+FilletRun::FilletRun(FilletMaterial& material, const FilletPath& path, std::size_t place)
+    : m_(material), path_(path), place_(place) {}
+
+bool FilletRun::halved() const {
+    return std::ranges::any_of(segments_, [](const auto& sides) { return sides[0] != sides[1]; });
+}
+
+void FilletRun::find_sections() {
+    find_edge();
+    if (!path_.closed()) sections_.push_back(end_section(edge_.front(), 0));
+    find_borders();
+    if (!path_.closed()) sections_.push_back(end_section(edge_.back(), segments_.size() - 1));
+    check_strips();
+}
+
+/// The nodes on the edge, and the domains beside it.
+void FilletRun::find_edge() {
+    std::map<std::array<int, 2>, int> domains[2];
+    std::set<int> nodes;
+    for (const int side : {0, 1})
+        for (const Face& face : m_.strip(place_, side))
+            for (int k = 0; k < 3; ++k) {
+                const int a = face.nodes[k], b = face.nodes[(k + 1) % 3];
+                if (path_.distance(at(a), 0) > on_edge()) continue;
+                nodes.insert(a);
+                domains[side][{std::min(a, b), std::max(a, b)}] = face.domain;
+            }
+    edge_.assign(nodes.begin(), nodes.end());
+    std::ranges::sort(edge_, {}, [&](int v) { return place(v).s; });
+    const Vec3 somewhere = path_.at((path_.begin() + path_.end()) / 2, Vec2::Zero());
+    if (edge_.size() < 2) m_.refuse("the skin beside it is not found", somewhere);
+    for (std::size_t k = 0; k + (path_.closed() ? 0 : 1) < edge_.size(); ++k) {
+        const int a = edge_[k], b = edge_[(k + 1) % edge_.size()];
+        std::array<int, 2>& beside = segments_.emplace_back();
+        for (const int side : {0, 1}) {
+            const auto found = domains[side].find({std::min(a, b), std::max(a, b)});
+            if (found == domains[side].end()) m_.refuse("the skin beside it is not found", at(a));
+            beside[side] = found->second;
+        }
+    }
+}
+
+/// The plane across the edge at a section's node, turned in the edge's direction.
+void FilletRun::set_normal(Section& section, const Vec3& normal) const {
+    section.normal = normal;
+    section.s = place(section.corner).s;
+    section.offset = normal.dot(at(section.corner));
+    const double step = path_.mean_edge() / 4;
+    const Vec3 along =
+        (path_.at(section.s + step, Vec2::Zero()) - path_.at(section.s - step, Vec2::Zero())).normalized();
+    if (normal.dot(along) > 0) return;
+    section.normal = -section.normal;
+    section.offset = -section.offset;
+}
+
+bool FilletRun::lies_in(const Section& section, const Triangle& t) const {
+    const double off = 1e-7 * (path_.radius() + path_.length());
+    return std::abs(m_.normal(t).dot(section.normal)) >= 1 - 1e-6 && std::ranges::none_of(t, [&](int v) {
+        return std::abs(section.normal.dot(at(v)) - section.offset) > off;
+    });
+}
+
+/// Where the edge leaves the part.
+FilletRun::Section FilletRun::end_section(int corner, std::size_t segment) {
+    Section section{corner};
+    Vec3 plane = Vec3::Zero();
+    for (const Face& face : m_.skin) {
+        if (!holds(face.nodes, corner)) continue;
+        const Vec3 n = m_.normal(face.nodes);
+        if (plane.isZero()) plane = n;
+        if ((n - plane).norm() > 1e-6)
+            m_.refuse(
+                "it ends at a corner of more than three faces, at a wall that stands across it, or at a face that is "
+                "not plane; there is no end for such a rounding yet",
+                at(corner));
+    }
+    if (plane.isZero()) m_.refuse("it does not end at a face of the part", at(corner));
+    set_normal(section, plane);
+    const double step = path_.mean_edge() / 4;
+    if (section.normal.dot(path_.at(section.s + step, Vec2::Zero()) - path_.at(section.s, Vec2::Zero())) < 0.3 * step)
+        m_.refuse("it runs into the face where it ends at too small an angle", at(corner));
+    const auto [one, other] = segments_[segment];
+    std::vector<int> sides{0, 1};
+    if (one == other) sides = {-1};
+    for (const int side : sides) {
+        Part part{side};
+        const int domain = side == 1 ? other : one;
+        std::erase_if(m_.skin, [&](const Face& face) {
+            if (face.domain != domain || !lies_in(section, face.nodes)) return false;
+            const bool behind = m_.normal(face.nodes).dot(section.normal) > 0;
+            part.domain[behind ? 0 : 1] = domain;
+            part.old.push_back(behind ? face.nodes : turned(face.nodes));
+            return true;
+        });
+        section.parts.push_back(std::move(part));
+    }
+    return section;
+}
+
+/// The borders between domains across the edge, one after the other along it.
+void FilletRun::find_borders() {
+    const std::size_t before = path_.closed() ? segments_.size() - 1 : 0;
+    for (std::size_t k = path_.closed() ? 0 : 1; k < segments_.size(); ++k)
+        if (segments_[k] != segments_[k > 0 ? k - 1 : before]) sections_.push_back(border_at(k));
+}
+
+/// That at a node of the edge.
+FilletRun::Section FilletRun::border_at(std::size_t node) {
+    const std::size_t previous = node > 0 ? node - 1 : segments_.size() - 1;
+    const std::array<int, 2> before = segments_[previous], after = segments_[node];
+    Section section{edge_[node]};
+    std::vector<int> sides;
+    for (const int side : {0, 1}) {
+        if (before[side] == after[side]) continue;
+        sides.push_back(side);
+        // The border's face at the line where it meets the skin beside the edge.
+        std::map<int, std::set<int>> beside;
+        for (const Face& face : m_.strip(place_, side))
+            if (holds(face.nodes, section.corner))
+                for (const int v : face.nodes) beside[v].insert(face.domain);
+        const Border* border = nullptr;
+        for (const Border& b : m_.borders)
+            if (holds(b.nodes, section.corner) && std::ranges::any_of(b.nodes, [&](int v) {
+                    return v != section.corner && beside[v].contains(before[side]) && beside[v].contains(after[side]);
+                }))
+                border = &b;
+        if (!border) m_.refuse("several borders meet there", at(section.corner));
+        const Vec3 normal = m_.normal(border->nodes);
+        if (section.normal.isZero()) set_normal(section, normal);
+        if (std::abs(normal.dot(section.normal)) < 1 - 1e-6)
+            m_.refuse("a border of groups that crosses it is not plane", at(section.corner));
+    }
+    const double step = path_.mean_edge() / 4;
+    if (section.normal.dot(path_.at(section.s + step, Vec2::Zero()) - path_.at(section.s, Vec2::Zero())) < 0.3 * step)
+        m_.refuse("a border of groups crosses it at too small an angle", at(section.corner));
+    if (sides.size() == 2 && !parted(previous) && !parted(node)) sides = {-1};
+    for (const int side : sides) {
+        const int k = std::max(side, 0);
+        section.parts.push_back(border_part(section, side, {before[k], after[k]}));
+    }
+    return section;
+}
+
+/// Takes the faces between two domains in a section's plane.
+FilletRun::Part FilletRun::border_part(const Section& section, int side, const std::array<int, 2>& domain) {
+    Part part{side, {}, {}, domain};
+    std::erase_if(m_.borders, [&](const Border& b) {
+        if (!lies_in(section, b.nodes)) return false;
+        const bool forwards = m_.normal(b.nodes).dot(section.normal) > 0;
+        if (b.domain != (forwards ? domain : std::array{domain[1], domain[0]})) return false;
+        part.old.push_back(forwards ? b.nodes : turned(b.nodes));
+        return true;
+    });
+    return part;
+}
+
+/// Domains must part the skin beside the edge along sections only.
+void FilletRun::check_strips() const {
+    for (const int side : {0, 1}) {
+        std::map<DirectedEdge, int> domains;
+        for (const Face& face : m_.strip(place_, side))
+            for (int k = 0; k < 3; ++k) domains[{face.nodes[k], face.nodes[(k + 1) % 3]}] = face.domain;
+        for (const auto& [e, domain] : domains) {
+            const auto other = domains.find({e[1], e[0]});
+            if (other == domains.end() || other->second == domain) continue;
+            const double off = 1e-7 * (path_.radius() + path_.length());
+            const bool known = std::ranges::any_of(sections_, [&](const Section& s) {
+                return s.has(side) && std::ranges::none_of(e, [&](int v) {
+                    return std::abs(s.normal.dot(at(v)) - s.offset) > off;
+                });
+            });
+            if (!known)
+                m_.refuse(
+                    "a border of groups, or another surface that is kept, runs through the material there, and does "
+                    "not cross the edge in one plane",
+                    at(e[0]));
+        }
+    }
+}
+
+void FilletRun::find_rows() {
+    for (const int side : {0, 1}) rows_[side] = find_row(side);
+    for (Section& section : sections_) place_in_rows(section);
+    put_rows_on_ball();
+}
+
+/// Where the outlines of what goes of a section leave the skin beside the edge.
+void FilletRun::place_in_rows(Section& section) const {
+    for (const int side : {0, 1}) {
+        if (!section.has(side)) continue;
+        std::set<int> nodes;
+        for (const Part& part : section.parts)
+            if (part.side < 0 || part.side == side)
+                for (const Triangle& t : part.old) nodes.insert(t.begin(), t.end());
+        const auto found = std::ranges::find_if(rows_[side], [&](int v) { return nodes.contains(v); });
+        if (found == rows_[side].end())
+            m_.refuse("a border or face across it does not reach the ball", at(section.corner));
+        section.in_row[side] = static_cast<std::size_t>(found - rows_[side].begin());
+    }
+}
+
+FilletRun::Row FilletRun::find_row(int side) const {
+    std::set<DirectedEdge> ends;
+    for (const Section& section : sections_)
+        for (const Part& part : section.parts)
+            if (part.domain[0] < 0 || part.domain[1] < 0)
+                for (const DirectedEdge& e : directed_edges(part.old)) ends.insert({{e[0], e[1]}, {e[1], e[0]}});
+    std::set<int> nodes;
+    std::size_t edges = 0;
+    for (const Face& face : m_.strip(place_, side))
+        for (int k = 0; k < 3; ++k) {
+            const DirectedEdge e{face.nodes[k], face.nodes[(k + 1) % 3]};
+            if (m_.is_strip_edge(e[1], e[0]) || ends.contains({e[1], e[0]})) continue;
+            nodes.insert(e.begin(), e.end());
+            ++edges;
+            for (const int v : e)
+                if (std::abs(path_.wall(side).distance(at(v))) > 10 * m_.workpiece().tolerance)
+                    m_.refuse(
+                        "the skin could not be parted along the line where the ball touches it; refine the mesh there",
+                        at(v));
+        }
+    Row row(nodes.begin(), nodes.end());
+    if (row.size() < 2 || row.size() != edges + (path_.closed() ? 0 : 1))
+        m_.refuse("the faces beside it do not go on as far as the ball touches them, all along",
+                  path_.at((path_.begin() + path_.end()) / 2, path_.tangent_point(side)));
+    std::ranges::sort(row, {}, [&](int v) { return place(v).s; });
+    return row;
+}
+
+/// Nodes of tangent lines on flat facets of a curved face go onto the face itself, if that spoils nothing.
+void FilletRun::put_rows_on_ball() {
+    Deformable& d = m_.workpiece().d;
+    for (const int side : {0, 1})
+        for (const int v : rows_[side]) {
+            const Vec3 x = path_.at(place(v).s, path_.tangent_point(side));
+            const Vec3 old = at(v);
+            if ((x - old).norm() <= m_.workpiece().tolerance) continue;
+            const double before = quality_around(d, v, old);
+            if (quality_around(d, v, x) < std::min(0.2, 0.7 * before)) continue;
+            d.band.nodes[v].at = x;
+        }
+}
+
+}  // namespace femscalpel
