@@ -73,6 +73,9 @@ public:
                 if (side == 1) blade.inside.push_back(&r.path->wall(0));
                 blades_.push_back(std::move(blade));
             }
+        for (const Rounding& r : roundings_)
+            for (const int which : {0, 1})
+                if (!plane_ && r.path->end_kind(which) == LineEnd::open) add_end(*r.path, which);
         for (const Rounding& r : roundings_) surroundings_.push_back({r.surroundings.get(), {}, {}, -1});
     }
 
@@ -98,6 +101,7 @@ public:
     Naming naming() const override {
         Naming out;
         out.groups.push_back({options_.name + "_FACE"});
+        if (has_ends_) out.groups.push_back({options_.name + "_END"});
         return out;
     }
 
@@ -153,11 +157,24 @@ private:
     void find_edges(const Mesh& mesh, const Along& along, double radius) {
         const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
         for (const FeatureLine& line : find_feature_lines(mesh, along, options_.feature_angle)) {
-            check_ends(mesh, line, skin);
-            roundings_.push_back({std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr});
+            const auto ends = line_ends(mesh, line, skin);
+            roundings_.push_back({std::make_unique<FilletPath>(mesh, line, radius, skin, ends), 0, nullptr});
             if (line.extended)
                 warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
         }
+    }
+
+    /// The skin beside the edge is parted where its rounding stops.
+    void add_end(const FilletPath& path, int which) {
+        has_ends_ = true;
+        const Vec3 tip = path.at(which == 0 ? path.begin() : path.end(), Vec2::Zero());
+        Blade blade{&path.end_plane(which), {}, {&path.wall(0), &path.wall(1)}, static_cast<int>(blades_.size())};
+        blade.bound = [tip, reach = 1.05 * path.tangent_length()](const Vec3& x) { return (x - tip).norm() - reach; };
+        blades_.push_back(std::move(blade));
+        std::ostringstream message;
+        message << "the edge ends at a corner where its rounding cannot run out: it stops at (" << tip.transpose()
+                << ") in a face across it, in the group " << options_.name << "_END";
+        warnings_.push_back(message.str());
     }
 
     /// What is replaced around one edge must not reach that of another.
@@ -195,6 +212,7 @@ private:
 
     const FilletOptions& options_;
     bool plane_ = false;  // a mesh of triangles, with corners
+    bool has_ends_ = false;
     std::vector<Rounding> roundings_;
     std::vector<Blade> blades_, surroundings_;
     std::vector<std::string> warnings_;

@@ -27,9 +27,19 @@ void FilletCavity::replace(int tag) {
     fill();
     for (FilletRun& run : runs_) run.carry_over();
     remove_elements(f_, material_.removed());
-    for (const FilletRun& run : runs_)
-        for (const auto& face : run.arc()) f_.d.band.cut_faces.add(face.nodes, tag);
+    for (const FilletRun& run : runs_) add_new_faces(run, tag);
     put_on_ball();
+}
+
+void FilletCavity::add_new_faces(const FilletRun& run, int tag) {
+    auto& faces = f_.d.band.cut_faces;
+    for (const auto& face : run.arc()) faces.add(face.nodes, tag);
+    for (const auto& section : run.sections())
+        for (const auto& part : section.parts) {
+            if (!part.free) continue;
+            for (const Triangle& t : part.fresh)
+                faces.add(part.domain[0] >= 0 ? t : Triangle{t[0], t[2], t[1]}, tag + 1);
+        }
 }
 
 /// Borders inside, that do not reach new material, stay where they are.

@@ -18,13 +18,15 @@ class FilletCavity {
 public:
     FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges);
 
-    /// Does it; the faces on the ball become BandMesh::cut_faces with this tag. Throws QualityError where it cannot.
+    /// Does it; the faces on the ball become BandMesh::cut_faces with this tag, new ones at open ends with the next.
+    /// Throws QualityError where it cannot.
     void replace(int tag);
 
     /// Mid-side nodes that are to lie exactly where they belong, by edge_key(); of second-order meshes.
     const std::map<std::uint64_t, Vec3>& middles() const { return middles_; }
 
 private:
+    void add_new_faces(const FilletRun& run, int tag);
     void keep_other_borders();
     std::vector<Triangle> surface_of(int domain) const;
     void fill();

@@ -61,19 +61,19 @@ void FilletRun::make_arc(Section& section) {
         }
         const Vec2 p = path_.arc(path_.arc_angle() * k / divisions_);
         const Vec3 x = path_.at(on_plane(p, section), p);
-        section.arc[k] = add_inner_node(m_.workpiece(), x, &path_.ball(), true, face_near(section, x));
+        section.arc[k] = add_inner_node(m_.workpiece(), x, &path_.ball(), true, nodes_near(section.parts, x));
     }
 }
 
 /// The nodes of a section on the wall between two shares of new material.
 void FilletRun::make_ridge(Section& section) {
-    if (std::ranges::any_of(section.parts, [](const Part& p) { return p.side < 0; })) return;
+    if (std::ranges::none_of(section.parts, [](const Part& p) { return p.side >= 0; })) return;
     const Sheet sheet = wall_sheet();
     section.ridge.push_back(section.corner);
     for (int k = 1; k < sheet.levels; ++k) {
         const Vec2 p = k * sheet.step * path_.centre().normalized();
         const Vec3 x = path_.at(on_plane(p, section), p);
-        section.ridge.push_back(add_inner_node(m_.workpiece(), x, {}, true, face_near(section, x)));
+        section.ridge.push_back(add_inner_node(m_.workpiece(), x, {}, true, nodes_near(section.parts, x)));
     }
     section.ridge.push_back(section.arc[divisions_ / 2]);
 }
@@ -94,6 +94,18 @@ std::vector<int> FilletRun::outline_of(const Part& part, const std::array<int, 2
     m_.refuse("a face across it is too small, or has a hole there", at(ends[0]));
 }
 
+/// That of a new face at an open end.
+std::vector<int> FilletRun::free_outline(const Section& section, const Part& part) const {
+    std::vector<int> outline;
+    if (part.side != 1) outline = rim(section, 0);
+    std::ranges::reverse(outline);
+    if (part.side != 0) {
+        const Row second = rim(section, 1);
+        outline.insert(outline.end(), second.begin() + (part.side < 0 ? 1 : 0), second.end());
+    }
+    return outline;
+}
+
 /// The outline of what is to be meshed of a section.
 std::vector<int> FilletRun::whole_outline(const Section& section, const Part& part) const {
     // From one end of the old faces' outline to the other.
@@ -105,7 +117,7 @@ std::vector<int> FilletRun::whole_outline(const Section& section, const Part& pa
         rest.assign(section.ridge.begin(), section.ridge.end() - 1);
         rest.insert(rest.end(), section.arc.begin() + divisions_ / 2, section.arc.end());
     }
-    std::vector<int> outline = outline_of(part, {rest.front(), rest.back()});
+    std::vector<int> outline = part.free ? free_outline(section, part) : outline_of(part, {rest.front(), rest.back()});
     if (outline.back() == rest.front())
         outline.insert(outline.end(), rest.begin() + 1, rest.end() - 1);
     else
@@ -122,6 +134,10 @@ void FilletRun::mesh_part(const Section& section, Part& part) {
         points.emplace_back(u.dot(at(outline[k]) - origin), w.dot(at(outline[k]) - origin));
         length += (at(outline[k]) - at(outline[(k + 1) % outline.size()])).norm();
     }
+    if (part.free && polygon_area(points) < 0) {
+        std::ranges::reverse(points);
+        std::ranges::reverse(outline);
+    }
     const std::vector<Vec2> inside = points_inside(points, length / static_cast<double>(outline.size()));
     const std::vector<Triangle> triangles = triangulate(points, inside);
     const std::size_t given = points.size();
@@ -129,7 +145,7 @@ void FilletRun::mesh_part(const Section& section, Part& part) {
     smooth(points, given, triangles, 5);
     for (std::size_t k = given; k < points.size(); ++k) {
         const Vec3 x = origin + points[k].x() * u + points[k].y() * w;
-        outline.push_back(add_inner_node(m_.workpiece(), x, {}, true, face_near(part, x)));
+        outline.push_back(add_inner_node(m_.workpiece(), x, {}, true, nodes_near({&part, 1}, x)));
     }
     for (const Triangle& t : triangles) part.fresh.push_back({outline[t[0]], outline[t[1]], outline[t[2]]});
 }
@@ -381,6 +397,7 @@ void FilletRun::carry_over(const Part& part) {
             if (sorted(list[s]) == sorted(face)) slots.push_back(s);
         return slots;
     };
+    if (part.free) return;
     for (const Triangle& t : part.fresh) {
         const Triangle& like = face_near(part, m_.middle(t));
         const auto turned_as = [&](const Triangle& other) {
@@ -404,13 +421,17 @@ const Triangle& FilletRun::face_near(const Part& part, const Vec3& x) const {
     return *std::ranges::min_element(part.old, {}, [&](const Triangle& t) { return (m_.middle(t) - x).squaredNorm(); });
 }
 
-const Triangle& FilletRun::face_near(const Section& section, const Vec3& x) const {
+/// The nodes of the old face of some parts that is nearest; of an element, where there is none.
+std::vector<int> FilletRun::nodes_near(std::span<const Part> parts, const Vec3& x) const {
     const Triangle* best = nullptr;
-    for (const Part& part : section.parts) {
+    for (const Part& part : parts) {
+        if (part.old.empty()) continue;
         const Triangle& t = face_near(part, x);
         if (!best || (m_.middle(t) - x).squaredNorm() < (m_.middle(*best) - x).squaredNorm()) best = &t;
     }
-    return *best;
+    if (best) return {best->begin(), best->end()};
+    const std::array<int, 4> nodes = m_.nodes_near(x);
+    return {nodes.begin(), nodes.end()};
 }
 
 }  // namespace femscalpel

@@ -30,8 +30,7 @@ void FilletMaterial::collect(std::span<const FilletReach> edges) {
     for (const auto& [path, reach] : edges) {
         const std::vector<int> inside =
             elements_inside(f_, f_.d.band.tetras, *path, reach, 1e-6 * path->radius() + 2 * path->sag());
-        if (inside.empty())
-            refuse("no element lies there", path->at((path->begin() + path->end()) / 2, Vec2::Zero()));
+        if (inside.empty()) refuse("no element lies there", path->at((path->begin() + path->end()) / 2, Vec2::Zero()));
         removed_.insert(removed_.end(), inside.begin(), inside.end());
     }
     std::ranges::sort(removed_);
@@ -130,6 +129,7 @@ bool FilletMaterial::is_skin(const Triangle& face) const {
 
 bool FilletMaterial::is_strip(const Triangle& face, const FilletPath& path, int side) const {
     const double length = std::sqrt((at(face[1]) - at(face[0])).squaredNorm());
+    if (path.is_beyond_end(middle(face))) return false;
     const auto [s, p] = path.place(middle(face));
     const Vec3 expected = (path.at(s, p + path.radius() * path.normal(side)) - path.at(s, p)).normalized();
     if (normal(face).dot(expected) < 0.9) return false;
@@ -143,11 +143,30 @@ bool FilletMaterial::reaches_out(int tetra, std::span<const FilletReach> edges) 
     return std::ranges::any_of(f_.d.band.tetras[tetra], [&](int v) {
         return std::ranges::any_of(edges, [&](const FilletReach& e) {
             const Tool &one = e.path->wall(0), &other = e.path->wall(1);
-            return e.path->convex() && e.path->distance(at(v), 0) <= e.reach &&
-                   one.distance(at(v)) < -f_.tolerance && other.distance(at(v)) < -f_.tolerance &&
-                   e.path->ball().distance(at(v)) > f_.tolerance;
+            return e.path->convex() && e.path->distance(at(v), 0) <= e.reach && one.distance(at(v)) < -f_.tolerance &&
+                   other.distance(at(v)) < -f_.tolerance && e.path->ball().distance(at(v)) > f_.tolerance;
         });
     });
+}
+
+/// Whether an element has a face that the new material's end, or that of what is rounded off, parts.
+bool FilletMaterial::meets_end(int tetra, std::span<const FilletReach> edges) const {
+    const auto parted = [&](const FilletPath& path, const Tool& end, const Triangle& face) {
+        if (std::ranges::any_of(face, [&](int v) { return std::abs(end.distance(at(v))) > 10 * f_.tolerance; }))
+            return false;
+        const Vec2 p = path.place(middle(face)).p;
+        const bool outside = p.dot(path.normal(0)) > 0 && p.dot(path.normal(1)) > 0;
+        if (!path.convex()) return outside;
+        return std::ranges::any_of(face, [&](int v) { return path.ball().distance(at(v)) > f_.tolerance; });
+    };
+    for (const auto& [path, reach] : edges)
+        for (const int which : {0, 1}) {
+            if (path->closed() || path->end_kind(which) == LineEnd::plane) continue;
+            const auto& n = f_.d.band.tetras[tetra];
+            for (const auto& f : outward_faces)
+                if (parted(*path, path->end_plane(which), {n[f[0]], n[f[1]], n[f[2]]})) return true;
+        }
+    return false;
 }
 
 /// Domains that have no skin beside the edges stay as they are.
@@ -157,7 +176,8 @@ void FilletMaterial::leave_untouched(std::span<const FilletReach> edges) {
         for (const auto& strip : sides)
             for (const Face& face : strip) goes[face.domain] = 1;
     for (std::size_t k = 0; k < removed_.size(); ++k)
-        if (!goes[domain_[k]] && reaches_out(removed_[k], edges)) goes[domain_[k]] = 1;
+        if (!goes[domain_[k]] && (reaches_out(removed_[k], edges) || meets_end(removed_[k], edges)))
+            goes[domain_[k]] = 1;
     std::vector<int> removed, domain;
     for (std::size_t k = 0; k < removed_.size(); ++k) {
         if (!goes[domain_[k]]) continue;

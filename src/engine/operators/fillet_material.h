@@ -74,6 +74,7 @@ private:
     bool is_skin(const Triangle& face) const;
     bool is_strip(const Triangle& face, const FilletPath& path, int side) const;
     bool reaches_out(int tetra, std::span<const FilletReach> edges) const;
+    bool meets_end(int tetra, std::span<const FilletReach> edges) const;
     void leave_untouched(std::span<const FilletReach> edges);
     void sort_centres();
     std::array<long, 3> cube(const Vec3& x) const;

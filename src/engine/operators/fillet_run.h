@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "operators/fillet_material.h"
@@ -23,9 +24,10 @@ public:
 
     /// A part of a surface across the edge that is made anew.
     struct Part {
-        int side;                                   ///< from one tangent line to the middle of the arc; -1: to the other
+        int side;  ///< from one tangent line to the middle of the arc; -1: to the other
         std::vector<Triangle> old = {}, fresh = {};  ///< normals in the edge's direction
-        std::array<int, 2> domain{-1, -1};          ///< before and behind, in the edge's direction; -1 outside
+        std::array<int, 2> domain{-1, -1};           ///< before and behind, in the edge's direction; -1 outside
+        bool free = false;  ///< a new face at an open end: between the skin that goes and the arc
     };
     /// A plane across the edge: where it leaves the part, or a border inside that is kept, such as one of materials.
     struct Section {
@@ -33,6 +35,7 @@ public:
         Vec3 normal = Vec3::Zero();
         double offset = 0;
         double s = 0;  ///< where the edge passes
+        int end = -1;  ///< which end of the edge it is
         std::vector<Part> parts = {};
         std::vector<int> arc = {};    ///< nodes from the first tangent line to the second, both included; -1: none
         std::vector<int> ridge = {};  ///< nodes from the edge to the middle of the arc, where a wall ends
@@ -87,7 +90,16 @@ private:
 
     void find_edge();
     int corner_at(double s) const;
-    Section end_section(int corner, std::size_t segment);
+    Section end_section(int which);
+    Section end_on_face(int which);
+    Vec3 plane_at(int corner) const;
+    int take_skin(const Section& section, Part& part, int domain);
+    Section end_in_wall(int which);
+    Section open_end(int which);
+    void add_borders_at_end(Section& section, int beyond);
+    std::array<int, 2> domains_at_end(int which) const;
+    int domain_beyond(const Section& section) const;
+    Row rim(const Section& section, int side) const;
     void find_borders();
     Section border_at(std::size_t node);
     Part border_part(const Section& section, int side, const std::array<int, 2>& domain);
@@ -103,10 +115,11 @@ private:
     void make_arc(Section& section);
     void make_ridge(Section& section);
     std::vector<int> outline_of(const Part& part, const std::array<int, 2>& ends) const;
+    std::vector<int> free_outline(const Section& section, const Part& part) const;
     std::vector<int> whole_outline(const Section& section, const Part& part) const;
     void mesh_part(const Section& section, Part& part);
     const Triangle& face_near(const Part& part, const Vec3& x) const;
-    const Triangle& face_near(const Section& section, const Vec3& x) const;
+    std::vector<int> nodes_near(std::span<const Part> parts, const Vec3& x) const;
     void carry_over(const Part& part);
 
     double spacing_along() const;
@@ -126,10 +139,10 @@ private:
     FilletMaterial& m_;
     const FilletPath& path_;
     std::size_t place_;
-    Row edge_;                                   // nodes on the edge
-    std::vector<std::array<int, 2>> segments_;   // domains on both sides of each of its segments
-    std::vector<Section> sections_;              // by s; of an open edge the first and last are its ends
-    std::array<Row, 3> rows_;                    // on the tangent lines; on the middle of the arc, where it is halved
+    Row edge_;                                  // nodes on the edge
+    std::vector<std::array<int, 2>> segments_;  // domains on both sides of each of its segments
+    std::vector<Section> sections_;             // by s; of an open edge the first and last are its ends
+    std::array<Row, 3> rows_;                   // on the tangent lines; on the middle of the arc, where it is halved
     int divisions_ = 4;
     std::vector<Face> arc_;
     std::vector<Border> walls_;

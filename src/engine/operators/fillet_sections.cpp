@@ -30,9 +30,9 @@ bool FilletRun::halved() const {
 
 void FilletRun::find_sections() {
     find_edge();
-    if (!path_.closed()) sections_.push_back(end_section(edge_.front(), 0));
+    if (!path_.closed()) sections_.push_back(end_section(0));
     find_borders();
-    if (!path_.closed()) sections_.push_back(end_section(edge_.back(), segments_.size() - 1));
+    if (!path_.closed()) sections_.push_back(end_section(1));
     check_strips();
 }
 
@@ -78,46 +78,8 @@ void FilletRun::set_normal(Section& section, const Vec3& normal) const {
 
 bool FilletRun::lies_in(const Section& section, const Triangle& t) const {
     const double off = 1e-7 * (path_.radius() + path_.length());
-    return std::abs(m_.normal(t).dot(section.normal)) >= 1 - 1e-6 && std::ranges::none_of(t, [&](int v) {
-        return std::abs(section.normal.dot(at(v)) - section.offset) > off;
-    });
-}
-
-/// Where the edge leaves the part.
-FilletRun::Section FilletRun::end_section(int corner, std::size_t segment) {
-    Section section{corner};
-    Vec3 plane = Vec3::Zero();
-    for (const Face& face : m_.skin) {
-        if (!holds(face.nodes, corner)) continue;
-        const Vec3 n = m_.normal(face.nodes);
-        if (plane.isZero()) plane = n;
-        if ((n - plane).norm() > 1e-6)
-            m_.refuse(
-                "it ends at a corner of more than three faces, at a wall that stands across it, or at a face that is "
-                "not plane; there is no end for such a rounding yet",
-                at(corner));
-    }
-    if (plane.isZero()) m_.refuse("it does not end at a face of the part", at(corner));
-    set_normal(section, plane);
-    const double step = path_.mean_edge() / 4;
-    if (section.normal.dot(path_.at(section.s + step, Vec2::Zero()) - path_.at(section.s, Vec2::Zero())) < 0.3 * step)
-        m_.refuse("it runs into the face where it ends at too small an angle", at(corner));
-    const auto [one, other] = segments_[segment];
-    std::vector<int> sides{0, 1};
-    if (one == other) sides = {-1};
-    for (const int side : sides) {
-        Part part{side};
-        const int domain = side == 1 ? other : one;
-        std::erase_if(m_.skin, [&](const Face& face) {
-            if (face.domain != domain || !lies_in(section, face.nodes)) return false;
-            const bool behind = m_.normal(face.nodes).dot(section.normal) > 0;
-            part.domain[behind ? 0 : 1] = domain;
-            part.old.push_back(behind ? face.nodes : turned(face.nodes));
-            return true;
-        });
-        section.parts.push_back(std::move(part));
-    }
-    return section;
+    return std::abs(m_.normal(t).dot(section.normal)) >= 1 - 1e-6 &&
+           std::ranges::none_of(t, [&](int v) { return std::abs(section.normal.dot(at(v)) - section.offset) > off; });
 }
 
 /// The borders between domains across the edge, one after the other along it.
@@ -188,9 +150,8 @@ void FilletRun::check_strips() const {
             if (other == domains.end() || other->second == domain) continue;
             const double off = 1e-7 * (path_.radius() + path_.length());
             const bool known = std::ranges::any_of(sections_, [&](const Section& s) {
-                return s.has(side) && std::ranges::none_of(e, [&](int v) {
-                    return std::abs(s.normal.dot(at(v)) - s.offset) > off;
-                });
+                return s.has(side) &&
+                       std::ranges::none_of(e, [&](int v) { return std::abs(s.normal.dot(at(v)) - s.offset) > off; });
             });
             if (!known)
                 m_.refuse(
@@ -211,6 +172,10 @@ void FilletRun::find_rows() {
 void FilletRun::place_in_rows(Section& section) const {
     for (const int side : {0, 1}) {
         if (!section.has(side)) continue;
+        if (section.end >= 0) {
+            section.in_row[side] = section.end == 0 ? 0 : rows_[side].size() - 1;
+            continue;
+        }
         std::set<int> nodes;
         for (const Part& part : section.parts)
             if (part.side < 0 || part.side == side)
@@ -228,12 +193,19 @@ FilletRun::Row FilletRun::find_row(int side) const {
         for (const Part& part : section.parts)
             if (part.domain[0] < 0 || part.domain[1] < 0)
                 for (const DirectedEdge& e : directed_edges(part.old)) ends.insert({{e[0], e[1]}, {e[1], e[0]}});
+    const auto at_open_end = [&](const DirectedEdge& e) {
+        return std::ranges::any_of(sections_, [&](const Section& s) {
+            return s.end >= 0 && path_.end_kind(s.end) == LineEnd::open && std::ranges::all_of(e, [&](int v) {
+                       return std::abs(path_.end_plane(s.end).distance(at(v))) <= 10 * m_.workpiece().tolerance;
+                   });
+        });
+    };
     std::set<int> nodes;
     std::size_t edges = 0;
     for (const Face& face : m_.strip(place_, side))
         for (int k = 0; k < 3; ++k) {
             const DirectedEdge e{face.nodes[k], face.nodes[(k + 1) % 3]};
-            if (m_.is_strip_edge(e[1], e[0]) || ends.contains({e[1], e[0]})) continue;
+            if (m_.is_strip_edge(e[1], e[0]) || ends.contains({e[1], e[0]}) || at_open_end(e)) continue;
             nodes.insert(e.begin(), e.end());
             ++edges;
             for (const int v : e)
