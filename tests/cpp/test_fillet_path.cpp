@@ -125,7 +125,7 @@ TEST(FilletPath, EndsOfLines) {
     EXPECT_THAT(ends(mesh, {4, 0, 1}), testing::ElementsAre(plane, plane));
     EXPECT_THAT(ends(mesh, {3, 2, 2}), testing::UnorderedElementsAre(plane, open)) << "at the concave edge";
     const FilletPath path(mesh, find_feature_lines(mesh, {{}, {}, {{3, 2, 2}}}, 30).at(0), 0.8, skin_of(mesh),
-                          ends(mesh, {3, 2, 2}));
+                          {ends(mesh, {3, 2, 2})});
     EXPECT_NEAR(path.length(), 2, 1e-12) << "the faces reach up to the concave edge";
     const int open_end = path.end_kind(0) == open ? 0 : 1;
     EXPECT_NEAR(path.end_plane(open_end).distance({2, 1, 1}), 0, 1e-12);

@@ -31,9 +31,10 @@ std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh);
 
 /// How a feature line ends, for what is swept along it.
 enum class LineEnd {
-    plane,  ///< in a plane face, through which it runs out of the part: none of the faces there goes on beyond
-    wall,   ///< a concave line in a plane face that stands across it, and in which it ends
-    open,   ///< in another way: its faces go on, several others or a curved one meet there
+    plane,   ///< in a plane face, through which it runs out of the part: none of the faces there goes on beyond
+    wall,    ///< a concave line in a plane face that stands across it, and in which it ends
+    open,    ///< in another way: its faces go on, several others or a curved one meet there
+    joined,  ///< at a corner where it is joined to other lines; never found by line_ends()
 };
 
 /// Those at the beginning and the end of an open line.

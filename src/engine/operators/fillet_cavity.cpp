@@ -10,25 +10,50 @@
 
 namespace femscalpel {
 
-FilletCavity::FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges)
-    : f_(workpiece), material_(workpiece, mesh, edges) {
+FilletCavity::FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges,
+                           std::vector<FilletVertex> vertices)
+    : f_(workpiece), material_(workpiece, mesh, edges), vertices_(std::move(vertices)) {
     for (std::size_t k = 0; k < edges.size(); ++k) runs_.emplace_back(material_, *edges[k].path, k);
+    for (const FilletVertex& vertex : vertices_)
+        for (std::size_t k = 0; k < vertex.members.size(); ++k)
+            runs_[vertex.members[k].edge].end_in_plane(vertex.members[k].which, vertex.across[k], vertex.centre);
 }
 
 void FilletCavity::replace(int tag) {
     for (FilletRun& run : runs_) run.find_sections();
     keep_other_borders();
-    int divisions = 0;
-    for (FilletRun& run : runs_) {
-        run.find_rows();
-        divisions = std::max(divisions, run.wanted_divisions());
-    }
-    for (FilletRun& run : runs_) run.make_faces(divisions);
+    for (FilletRun& run : runs_) run.find_rows();
+    make_arcs();
+    for (FilletRun& run : runs_) run.make_faces();
+    for (const FilletVertex& vertex : vertices_)
+        if (vertex.sphere) mesh_sphere(vertex);
     fill();
     for (FilletRun& run : runs_) run.carry_over();
     remove_elements(f_, material_.removed());
     for (const FilletRun& run : runs_) add_new_faces(run, tag);
+    for (const auto& face : spheres_) f_.d.band.cut_faces.add(face.nodes, tag);
     put_on_ball();
+    touch_at_vertices();
+}
+
+/// Edges that meet in a plane share the nodes there.
+void FilletCavity::make_arcs() {
+    int divisions = 0;
+    for (const FilletRun& run : runs_) divisions = std::max(divisions, run.wanted_divisions());
+    if (std::ranges::any_of(runs_, [](const FilletRun& run) { return run.halved(); })) divisions += divisions % 2;
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+        runs_[k].make_arcs(divisions);
+        for (const FilletVertex& vertex : vertices_) {
+            if (!vertex.is_mitre()) continue;
+            const bool first = vertex.members[0].edge < vertex.members[1].edge;
+            const FilletVertex::Member &from = vertex.members[first ? 0 : 1], &to = vertex.members[first ? 1 : 0];
+            if (from.edge != k) continue;
+            std::vector<int> nodes = runs_[k].arc_at(from.which);
+            const auto& row = runs_[to.edge].row(0);
+            if ((to.which == 0 ? row.front() : row.back()) != nodes.front()) std::ranges::reverse(nodes);
+            runs_[to.edge].give_arc(to.which, std::move(nodes));
+        }
+    }
 }
 
 void FilletCavity::add_new_faces(const FilletRun& run, int tag) {
@@ -44,11 +69,11 @@ void FilletCavity::add_new_faces(const FilletRun& run, int tag) {
 
 /// Borders inside, that do not reach new material, stay where they are.
 void FilletCavity::keep_other_borders() {
-    const FilletPath& path = runs_[0].path();
+    const bool convex = std::ranges::any_of(runs_, [](const FilletRun& run) { return run.path().convex(); });
     for (const FilletMaterial::Border& b : material_.borders) {
         const Vec3& near = material_.at(b.nodes[0]);
         if (b.domain[0] == b.domain[1]) material_.refuse("a surface that is kept ends inside the material there", near);
-        if (path.convex())
+        if (convex)
             material_.refuse(
                 "a border of groups, or another surface that is kept, runs along the edge, or beside it, where "
                 "material is rounded off. Round the edge before the groups are made",
@@ -68,7 +93,8 @@ std::vector<Triangle> FilletCavity::surface_of(int domain) const {
         if (sides[0] == domain) surface.push_back(t);
         if (sides[1] == domain) surface.push_back({t[0], t[2], t[1]});
     };
-    for (const auto& face : material_.kept) add(face.nodes, {face.domain, -1});
+    for (const auto* faces : {&material_.kept, &spheres_})
+        for (const auto& face : *faces) add(face.nodes, {face.domain, -1});
     for (const FilletRun& run : runs_) {
         for (const auto& face : run.arc()) add(face.nodes, {face.domain, -1});
         for (const auto& section : run.sections())
@@ -106,6 +132,16 @@ void FilletCavity::fill() {
     }
 }
 
+void FilletCavity::touch(int v, const Tool& ball) {
+    const auto is_ball = [&](const Tool* t) {
+        return std::ranges::any_of(runs_, [&](const FilletRun& run) { return t == &run.path().ball(); });
+    };
+    Contact on;
+    for (const Tool* t : f_.d.contact[v].tools())
+        if (is_ball(t)) on = on.with(t);
+    f_.d.contact[v] = on.with(&ball);
+}
+
 /// Nodes on the tangent lines.
 void FilletCavity::put_on_ball() {
     for (FilletRun& run : runs_) {
@@ -114,7 +150,7 @@ void FilletCavity::put_on_ball() {
             continue;
         }
         for (const int side : {0, 1})
-            for (const int v : run.row(side)) f_.d.contact[v] = &run.path().ball();
+            for (const int v : run.row(side)) touch(v, run.path().ball());
     }
 }
 

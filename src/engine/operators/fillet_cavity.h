@@ -8,6 +8,7 @@
 
 #include "operators/fillet_material.h"
 #include "operators/fillet_run.h"
+#include "operators/fillet_vertex.h"
 
 namespace femscalpel {
 
@@ -16,7 +17,9 @@ namespace femscalpel {
 /// away stay.
 class FilletCavity {
 public:
-    FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges);
+    /// The vertices are those at which these edges meet.
+    FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges,
+                 std::vector<FilletVertex> vertices = {});
 
     /// Does it; the faces on the ball become BandMesh::cut_faces with this tag, new ones at open ends with the next.
     /// Throws QualityError where it cannot.
@@ -26,6 +29,10 @@ public:
     const std::map<std::uint64_t, Vec3>& middles() const { return middles_; }
 
 private:
+    void make_arcs();
+    void mesh_sphere(const FilletVertex& vertex);
+    void touch(int v, const Tool& ball);
+    void touch_at_vertices();
     void add_new_faces(const FilletRun& run, int tag);
     void keep_other_borders();
     std::vector<Triangle> surface_of(int domain) const;
@@ -34,7 +41,9 @@ private:
 
     Workpiece& f_;
     FilletMaterial material_;
+    std::vector<FilletVertex> vertices_;
     std::vector<FilletRun> runs_;
+    std::vector<FilletMaterial::Face> spheres_;
     std::map<std::uint64_t, Vec3> middles_;
 };
 

@@ -14,11 +14,33 @@ Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 }  // namespace
 
 FilletRun::Section FilletRun::end_section(int which) {
-    Section section = path_.end_kind(which) == LineEnd::plane  ? end_on_face(which)
-                      : path_.end_kind(which) == LineEnd::wall ? end_in_wall(which)
-                                                               : open_end(which);
+    Section section = [&] {
+        switch (path_.end_kind(which)) {
+            case LineEnd::plane:
+                return end_on_face(which);
+            case LineEnd::wall:
+                return end_in_wall(which);
+            case LineEnd::joined:
+                return joined_end(which);
+            default:
+                return open_end(which);
+        }
+    }();
     section.end = which;
     return section;
+}
+
+/// Where the new face ends on that of another edge, or on a ball at the corner: with no face across the edge.
+FilletRun::Section FilletRun::joined_end(int which) {
+    Section section{which == 0 ? edge_.front() : edge_.back()};
+    set_normal(section, end_normals_[which]);
+    section.offset = section.normal.dot(end_points_[which]);
+    section.parts.push_back({-1});
+    return section;
+}
+
+const std::vector<int>& FilletRun::arc_at(int which) const {
+    return (which == 0 ? sections_.front() : sections_.back()).arc;
 }
 
 /// Where the edge leaves the part.

@@ -23,15 +23,20 @@ int FilletRun::wanted_divisions() const {
     return std::max({4, static_cast<int>(std::lround(by_length)), static_cast<int>(std::ceil(by_angle - 1e-6))});
 }
 
-void FilletRun::make_faces(int divisions) {
-    divisions_ = divisions + (halved() ? divisions % 2 : 0);
-    for (Section& section : sections_) make_arc(section);
+void FilletRun::make_arcs(int divisions) {
+    divisions_ = divisions;
+    for (Section& section : sections_)
+        if (section.arc.empty()) make_arc(section);
+}
+
+void FilletRun::make_faces() {
     if (halved()) {
         for (Section& section : sections_) make_ridge(section);
         make_middle_row();
     }
     for (Section& section : sections_)
-        for (Part& part : section.parts) mesh_part(section, part);
+        for (Part& part : section.parts)
+            if (part.free || !part.old.empty()) mesh_part(section, part);
     mesh_arcs();
     if (halved()) mesh_walls();
 }
@@ -175,7 +180,8 @@ std::vector<double> FilletRun::unrolled(const std::vector<int>& nodes, double ne
 /// About that of the nodes on the tangent lines.
 double FilletRun::spacing_along() const {
     const double step = path_.arc_length() / divisions_,
-                 mean = path_.length() / (0.5 * static_cast<double>(rows_[0].size() + rows_[1].size() - 2) + 1e-9);
+                 length = path_.length() - path_.cut_back(0) - path_.cut_back(1),
+                 mean = length / (0.5 * static_cast<double>(rows_[0].size() + rows_[1].size() - 2) + 1e-9);
     return std::clamp(mean, step, 2.5 * step);
 }
 

@@ -18,7 +18,7 @@ void FilletMaterial::refuse(const std::string& text, const Vec3& near) {
 }
 
 FilletMaterial::FilletMaterial(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges)
-    : f_(workpiece), mesh_(mesh), strips_(edges.size()) {
+    : f_(workpiece), mesh_(mesh), edges_(edges.begin(), edges.end()), strips_(edges.size()) {
     collect(edges);
     find_domains();
     find_boundary(edges);
@@ -27,7 +27,7 @@ FilletMaterial::FilletMaterial(Workpiece& workpiece, const Mesh& mesh, std::span
 }
 
 void FilletMaterial::collect(std::span<const FilletReach> edges) {
-    for (const auto& [path, reach] : edges) {
+    for (const auto& [path, reach, next] : edges) {
         const std::vector<int> inside =
             elements_inside(f_, f_.d.band.tetras, *path, reach, 1e-6 * path->radius() + 2 * path->sag());
         if (inside.empty()) refuse("no element lies there", path->at((path->begin() + path->end()) / 2, Vec2::Zero()));
@@ -99,18 +99,15 @@ void FilletMaterial::find_boundary(std::span<const FilletReach> edges) {
             kept.push_back(face);
             continue;
         }
-        // Of the edge that is nearest: opposite ones may be at the same plane.
-        std::vector<Face>* strip = nullptr;
-        double nearest = std::numeric_limits<double>::infinity();
+        bool beside = false;
         for (std::size_t e = 0; e < edges.size(); ++e)
-            for (const int side : {1, 0}) {
-                if (!is_strip(face.nodes, *edges[e].path, side)) continue;
-                const double distance = edges[e].path->distance(middle(face.nodes), 0);
-                if (distance > nearest) continue;
-                nearest = distance;
-                strip = &strips_[e][side];
-            }
-        (strip ? *strip : skin).push_back(face);
+            for (const int side : {0, 1})
+                if (is_strip(face.nodes, edges[e], side)) {
+                    strips_[e][side].push_back(face);
+                    beside = true;
+                    break;
+                }
+        if (!beside) skin.push_back(face);
     }
     for (const auto& sides : strips_)
         for (const auto& strip : sides)
@@ -127,15 +124,42 @@ bool FilletMaterial::is_skin(const Triangle& face) const {
     });
 }
 
-bool FilletMaterial::is_strip(const Triangle& face, const FilletPath& path, int side) const {
+bool FilletMaterial::is_strip(const Triangle& face, const FilletReach& edge, int side) const {
+    const FilletPath& path = *edge.path;
     const double length = std::sqrt((at(face[1]) - at(face[0])).squaredNorm());
-    if (path.is_beyond_end(middle(face))) return false;
+    if (!is_within_ends(middle(face), edge, side)) return false;
     const auto [s, p] = path.place(middle(face));
     const Vec3 expected = (path.at(s, p + path.radius() * path.normal(side)) - path.at(s, p)).normalized();
     if (normal(face).dot(expected) < 0.9) return false;
     const double off = 2 * path.sag() + 1e-3 * length;
-    return std::ranges::all_of(face,
-                               [&](int v) { return std::abs(path.place(at(v)).p.dot(path.normal(side))) <= off; });
+    return std::ranges::all_of(face, [&](int v) {
+        const Vec2 q = path.place(at(v)).p;
+        return path.wall(side).distance(at(v)) <= 10 * f_.tolerance && std::abs(q.dot(path.normal(side))) <= off &&
+               q.dot(path.along_face(side)) >= -off;
+    });
+}
+
+/// Whether a point is not beyond where the new face ends on a side of the edge.
+bool FilletMaterial::is_within_ends(const Vec3& x, const FilletReach& edge, int side) const {
+    const FilletPath& path = *edge.path;
+    if (path.is_beyond_end(x)) return false;
+    const auto [s, p] = path.place(x);
+    for (const int which : {0, 1}) {
+        if (path.end_kind(which) != LineEnd::joined) continue;
+        if (which == 0 ? s >= path.begin() : s <= path.end()) continue;
+        // Beyond a corner: as far as the other edge there has the face, too.
+        const FilletPath* next = edge.next[which];
+        if (!next) return false;
+        const auto normal_of = [&](const FilletPath& of, int face) {
+            const auto [t, q] = of.place(x);
+            return Vec3(of.at(t, q + of.normal(face)) - of.at(t, q));
+        };
+        const auto shares = [&](int face) {
+            return (normal_of(*next, face) - normal_of(path, side)).norm() < 1e-3 && next->wall(face).distance(x) < 0;
+        };
+        if (!shares(0) && !shares(1)) return false;
+    }
+    return true;
 }
 
 /// Whether an element reaches into what is rounded off a convex edge.
@@ -159,7 +183,7 @@ bool FilletMaterial::meets_end(int tetra, std::span<const FilletReach> edges) co
         if (!path.convex()) return outside;
         return std::ranges::any_of(face, [&](int v) { return path.ball().distance(at(v)) > f_.tolerance; });
     };
-    for (const auto& [path, reach] : edges)
+    for (const auto& [path, reach, next] : edges)
         for (const int which : {0, 1}) {
             if (path->closed() || path->end_kind(which) == LineEnd::plane) continue;
             const auto& n = f_.d.band.tetras[tetra];
@@ -206,6 +230,11 @@ void FilletMaterial::sort_centres() {
         const auto& n = f_.d.band.tetras[t];
         volume += signed_volume(at(n[0]), at(n[1]), at(n[2]), at(n[3]));
         centres_.push_back(middle_of(f_.d.band, n));
+        on_edges_.push_back(std::ranges::all_of(n, [&](int v) {
+            return std::ranges::any_of(edges_, [&](const FilletReach& e) {
+                return e.path->distance(at(v), 0) <= 2 * e.path->sag() + 1e-6 * e.path->radius();
+            });
+        }));
     }
     cell_ = 2 * std::cbrt(volume / static_cast<double>(removed_.size()));
     for (int k = 0; k < static_cast<int>(centres_.size()); ++k) near_[cube(centres_[k])].push_back(k);
@@ -216,10 +245,19 @@ std::array<long, 3> FilletMaterial::cube(const Vec3& x) const {
 }
 
 int FilletMaterial::parent(const Vec3& x, int domain) const {
+    return removed_[nearest(x, [&](int c) { return domain < 0 || domain_[c] == domain; })];
+}
+
+std::array<int, 4> FilletMaterial::nodes_near(const Vec3& x) const {
+    return f_.d.band.tetras[removed_[nearest(x, [&](int c) { return !on_edges_[c]; })]];
+}
+
+/// Place of the element of some that is nearest.
+int FilletMaterial::nearest(const Vec3& x, const std::function<bool(int)>& counts) const {
     const auto [i, j, k] = cube(x);
     int best = -1;
     const auto look = [&](int c) {
-        if (domain >= 0 && domain_[c] != domain) return;
+        if (!counts(c)) return;
         if (best < 0 || (centres_[c] - x).squaredNorm() < (centres_[best] - x).squaredNorm()) best = c;
     };
     for (long reach = 1; best < 0 && reach < 4; ++reach)
@@ -230,7 +268,7 @@ int FilletMaterial::parent(const Vec3& x, int domain) const {
                         for (const int place : found->second) look(place);
     if (best < 0)
         for (int c = 0; c < static_cast<int>(centres_.size()); ++c) look(c);
-    return removed_[best];
+    return std::max(best, 0);
 }
 
 }  // namespace femscalpel

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -19,6 +20,8 @@ namespace femscalpel {
 struct FilletReach {
     const FilletPath* path;
     double reach;
+    /// At each end, the one other edge with which it meets there, in a plane.
+    std::array<const FilletPath*, 2> next = {};
 };
 
 /// The elements that a fillet replaces, and what bounds them. They fall into domains: parts between the borders of
@@ -53,9 +56,10 @@ public:
     int domains() const { return domains_; }
     /// The element that is nearest, of a domain if not -1; of one that is about so, far from all.
     int parent(const Vec3& x, int domain) const;
-    /// The nodes of the element that is nearest.
-    std::array<int, 4> nodes_near(const Vec3& x) const { return f_.d.band.tetras[parent(x, -1)]; }
-    /// The skin that goes, beside an edge, by its place and face.
+    /// The nodes of the element that is nearest, of those with a node off the edges.
+    std::array<int, 4> nodes_near(const Vec3& x) const;
+    const FilletReach& edge(std::size_t place) const { return edges_[place]; }
+    /// The skin that goes, beside an edge, by its place and face. Edges that meet share some.
     const std::vector<Face>& strip(std::size_t edge, int side) const { return strips_[edge][side]; }
     /// Whether an edge is one of the skin that goes beside the edges, in this direction.
     bool is_strip_edge(int a, int b) const { return strip_edges_.contains({a, b}); }
@@ -72,21 +76,25 @@ private:
     void join_domains(const std::vector<std::vector<int>>& joined);
     void find_boundary(std::span<const FilletReach> edges);
     bool is_skin(const Triangle& face) const;
-    bool is_strip(const Triangle& face, const FilletPath& path, int side) const;
+    bool is_strip(const Triangle& face, const FilletReach& edge, int side) const;
+    bool is_within_ends(const Vec3& x, const FilletReach& edge, int side) const;
     bool reaches_out(int tetra, std::span<const FilletReach> edges) const;
     bool meets_end(int tetra, std::span<const FilletReach> edges) const;
     void leave_untouched(std::span<const FilletReach> edges);
+    int nearest(const Vec3& x, const std::function<bool(int)>& counts) const;
     void sort_centres();
     std::array<long, 3> cube(const Vec3& x) const;
 
     Workpiece& f_;
     const Mesh& mesh_;
+    std::vector<FilletReach> edges_;
     std::vector<int> removed_;
     std::vector<int> domain_;  // of removed_
     int domains_ = 0;
     std::vector<std::array<std::vector<Face>, 2>> strips_;
     std::set<DirectedEdge> strip_edges_;
     std::vector<Vec3> centres_;                             // of removed_
+    std::vector<char> on_edges_;                            // of removed_: with all nodes
     double cell_ = 0;                                       // side of the cubes of near_
     std::map<std::array<long, 3>, std::vector<int>> near_;  // places in centres_, by cube
 };

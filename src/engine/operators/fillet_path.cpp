@@ -78,8 +78,8 @@ private:
 }  // namespace
 
 FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
-                       const std::vector<std::array<Index, 3>>& skin, const std::array<LineEnd, 2>& ends)
-    : closed_(line.closed), radius_(radius), ends_(ends) {
+                       const std::vector<std::array<Index, 3>>& skin, const FilletEnds& ends)
+    : closed_(line.closed), radius_(radius), ends_(ends.kind) {
     std::vector<Vec3> points;
     points.reserve(line.nodes.size() + 1);
     for (const Index n : line.nodes) points.push_back(mesh.points[n]);
@@ -90,6 +90,7 @@ FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
     for (const int which : {0, 1}) {
         if (closed_) break;
         if (ends_[which] == LineEnd::open) stop_at_corner(which, near);
+        if (ends_[which] == LineEnd::joined) cut_back_at(which, ends.to_centre[which]);
         end_planes_[which] = std::make_unique<EndPlane>(*this, which);
     }
     check_room(near);
@@ -361,12 +362,23 @@ void FilletPath::stop_at_corner(int which, const SkinNear& near) {
     (which == 0 ? begin_ : end_) = end + inwards * high;
 }
 
+void FilletPath::cut_back_at(int which, const Vec3& to_centre) {
+    const Vec3 tip = at(which == 0 ? begin_ : end_, Vec2::Zero());
+    if (!is_straight()) refuse("a curved edge that meets others at a corner is not rounded", tip, "along");
+    const Vec3 inwards = (which == 0 ? 1 : -1) * pieces_[0].tangent;
+    cut_back_[which] = (convex_ ? -radius_ : radius_) * to_centre.dot(inwards);
+}
+
 /// Each face must be found under the tangent point, at some places along the edge.
 void FilletPath::check_room(const SkinNear& near) const {
     const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
+    const double begin = begin_ + std::max(0.0, cut_back_[0]), end = end_ - std::max(0.0, cut_back_[1]);
+    if (end - begin < 0.02 * length())
+        refuse("too large for an edge between corners, whose roundings would meet", at((begin + end) / 2, Vec2::Zero()),
+               "radius");
     for (int k = 0; k < places; ++k)
         for (const int side : {0, 1}) {
-            const double s = begin_ + length() * (k + 0.5) / places;
+            const double s = begin + (end - begin) * (k + 0.5) / places;
             const bool past_axis = std::ranges::any_of(
                 pieces_, [&](const Piece& q) { return 1 + q.curvature * 1.02 * tangent_point(side).x() <= 0; });
             if (past_axis)

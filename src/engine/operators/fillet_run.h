@@ -47,14 +47,28 @@ public:
     /// The edge in that place of those that the material was collected for.
     FilletRun(FilletMaterial& material, const FilletPath& path, std::size_t place);
 
+    /// Where the edge is joined to others at an end: its new face ends in this plane. To be called first.
+    void end_in_plane(int which, const Vec3& normal, const Vec3& point) {
+        end_normals_[which] = normal, end_points_[which] = point;
+    }
+
     /// Takes what is across the edge out of the material's skin and borders. Throws QualityError where it cannot.
     void find_sections();
     /// Finds the tangent lines on the skin, and moves them onto the ball where facets have them off it.
     void find_rows();
     /// Into how many parts the arc should be divided.
     int wanted_divisions() const;
-    /// Makes all faces.
-    void make_faces(int divisions);
+    /// Whether the arc is divided in its middle.
+    bool halved() const;
+    /// The nodes of sections on the ball, but for those that are given for ends.
+    void make_arcs(int divisions);
+    void give_arc(int which, std::vector<int> nodes) { end_section_at(which).arc = std::move(nodes); }
+    /// Those of an end, from the first tangent line to the second.
+    const std::vector<int>& arc_at(int which) const;
+    /// The domains beside the edge at an end.
+    std::array<int, 2> domains_at_end(int which) const;
+    /// Makes all faces. To be called last.
+    void make_faces();
     /// Mid-side nodes at the tangent lines of a circular edge go onto it: of second-order meshes; by edge_key().
     void bend_row_edges(std::map<std::uint64_t, Vec3>& middles);
     /// What lay on the old faces of sections lies on the new ones.
@@ -85,7 +99,6 @@ private:
     const Vec3& at(int v) const { return m_.at(v); }
     FilletPath::Place place(int v) const { return path_.place(at(v)); }
     double on_edge() const { return 2 * path_.sag() + 1e-6 * path_.radius(); }
-    bool halved() const;
     bool parted(std::size_t segment) const { return segments_[segment][0] != segments_[segment][1]; }
 
     void find_edge();
@@ -97,7 +110,8 @@ private:
     Section end_in_wall(int which);
     Section open_end(int which);
     void add_borders_at_end(Section& section, int beyond);
-    std::array<int, 2> domains_at_end(int which) const;
+    Section joined_end(int which);
+    Section& end_section_at(int which) { return which == 0 ? sections_.front() : sections_.back(); }
     int domain_beyond(const Section& section) const;
     Row rim(const Section& section, int side) const;
     void find_borders();
@@ -142,7 +156,8 @@ private:
     Row edge_;                                  // nodes on the edge
     std::vector<std::array<int, 2>> segments_;  // domains on both sides of each of its segments
     std::vector<Section> sections_;             // by s; of an open edge the first and last are its ends
-    std::array<Row, 3> rows_;                   // on the tangent lines; on the middle of the arc, where it is halved
+    std::array<Vec3, 2> end_normals_{Vec3::Zero(), Vec3::Zero()}, end_points_ = end_normals_;
+    std::array<Row, 3> rows_;  // on the tangent lines; on the middle of the arc, where it is halved
     int divisions_ = 4;
     std::vector<Face> arc_;
     std::vector<Border> walls_;

@@ -78,6 +78,11 @@ void FilletRun::set_normal(Section& section, const Vec3& normal) const {
 
 bool FilletRun::lies_in(const Section& section, const Triangle& t) const {
     const double off = 1e-7 * (path_.radius() + path_.length());
+    // Other edges may end in the same plane.
+    const Vec3 middle = m_.middle(t);
+    if (path_.wall(0).distance(middle) > 0 || path_.wall(1).distance(middle) > 0 ||
+        path_.place(middle).p.norm() > 1.1 * m_.edge(place_).reach)
+        return false;
     return std::abs(m_.normal(t).dot(section.normal)) >= 1 - 1e-6 &&
            std::ranges::none_of(t, [&](int v) { return std::abs(section.normal.dot(at(v)) - section.offset) > off; });
 }
@@ -200,12 +205,22 @@ FilletRun::Row FilletRun::find_row(int side) const {
                    });
         });
     };
+    // Beyond a corner the skin that goes is that of another edge, too.
+    const auto is_others = [&](const DirectedEdge& e) {
+        const auto on = [&](const Tool& wall) {
+            return std::ranges::all_of(
+                e, [&](int v) { return std::abs(wall.distance(at(v))) <= 10 * m_.workpiece().tolerance; });
+        };
+        return !on(path_.wall(side)) && std::ranges::any_of(m_.edge(place_).next, [&](const FilletPath* next) {
+            return next && (on(next->wall(0)) || on(next->wall(1)));
+        });
+    };
     std::set<int> nodes;
     std::size_t edges = 0;
     for (const Face& face : m_.strip(place_, side))
         for (int k = 0; k < 3; ++k) {
             const DirectedEdge e{face.nodes[k], face.nodes[(k + 1) % 3]};
-            if (m_.is_strip_edge(e[1], e[0]) || ends.contains({e[1], e[0]}) || at_open_end(e)) continue;
+            if (m_.is_strip_edge(e[1], e[0]) || ends.contains({e[1], e[0]}) || at_open_end(e) || is_others(e)) continue;
             nodes.insert(e.begin(), e.end());
             ++edges;
             for (const int v : e)
