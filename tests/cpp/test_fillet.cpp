@@ -11,6 +11,7 @@
 #include "operators/fillet_corner.h"
 #include "operators/fillet_inside.h"
 #include "operators/fillet_material.h"
+#include "operators/fillet_patch.h"
 #include "operators/fillet_run.h"
 #include "simple_meshes.h"
 #include "whole_workpiece.h"
@@ -142,10 +143,13 @@ TEST(Fillet, MaterialThatGoesFallsIntoDomains) {
     EXPECT_EQ(material.removed().size(), 2U * 6U);
     EXPECT_EQ(material.borders.size(), 2U) << "the square between them";
     EXPECT_EQ(material.strip(0, 0).size(), 4U);
-    FilletRun run(material, path, 0);
+    FilletPatches patches(material);
+    FilletRun run(material, patches, path, 0);
     run.find_sections();
     ASSERT_EQ(run.sections().size(), 3U) << "both ends and the border";
     EXPECT_TRUE(material.borders.empty());
+    ASSERT_EQ(patches.all().size(), 3U);
+    for (const FilletPatch& patch : patches.all()) EXPECT_EQ(patch.old.size(), 2U) << "a square";
     run.find_rows();
     EXPECT_EQ(run.row(0).size(), 3U);
     EXPECT_NEAR(run.sections()[1].s, 1, 1e-12);

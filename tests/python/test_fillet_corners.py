@@ -217,14 +217,18 @@ def test_both_toes_of_a_rib_in_another_group():
     check_conforming(result.mesh)
 
 
-def test_toe_around_a_boss_in_another_group():
+@pytest.mark.parametrize("radius", [1.0, 2.5])
+def test_toe_around_a_boss_in_another_group(radius):
     groups = {"PLATE": lambda x, y, z: z < 3, "BOSS": lambda x, y, z: z > 3}
-    mesh = grouped(part_of_box(lambda x, y, z: (z < 3) | ((np.abs(x - 4) < 1) & (np.abs(y - 4) < 1)), (8, 8, 6)), groups)
+    mesh = grouped(
+        part_of_box(lambda x, y, z: (z < 3) | ((np.abs(x - 4) < 1) & (np.abs(y - 4) < 1)), (8, 8, 6)), groups
+    )
     on_toe = (mesh.points[:, 2] == 3) & (np.abs(mesh.points[:, :2] - 4).max(axis=1) == 1)
     before = group_volumes(mesh, groups)
-    result = fs.fillet(mesh, mesh.node_ids[on_toe], 1.0)
+    result = fs.fillet(mesh, mesh.node_ids[on_toe], radius)
     after = group_volumes(result.mesh, groups)
     grown = {n: after[n] - before[n] for n in groups}
     assert sum(grown.values()) == pytest.approx(measure(result.mesh) - measure(mesh), rel=1e-9)
     assert 0.3 < grown["BOSS"] / sum(grown.values()) < 0.5
+    assert quality(result.mesh).min() >= 0.15
     check_conforming(result.mesh)

@@ -12,8 +12,8 @@ namespace femscalpel {
 
 FilletCavity::FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges,
                            std::vector<FilletVertex> vertices)
-    : f_(workpiece), material_(workpiece, mesh, edges), vertices_(std::move(vertices)) {
-    for (std::size_t k = 0; k < edges.size(); ++k) runs_.emplace_back(material_, *edges[k].path, k);
+    : f_(workpiece), material_(workpiece, mesh, edges), vertices_(std::move(vertices)), patches_(material_) {
+    for (std::size_t k = 0; k < edges.size(); ++k) runs_.emplace_back(material_, patches_, *edges[k].path, k);
     for (const FilletVertex& vertex : vertices_)
         for (std::size_t k = 0; k < vertex.members.size(); ++k)
             runs_[vertex.members[k].edge].end_in_plane(vertex.members[k].which, vertex.across[k], vertex.centre);
@@ -23,15 +23,16 @@ void FilletCavity::replace(int tag) {
     for (FilletRun& run : runs_) run.find_sections();
     keep_other_borders();
     for (FilletRun& run : runs_) run.find_rows();
+    for (const FilletVertex& vertex : vertices_) check_domains(vertex);
     make_arcs();
     for (FilletRun& run : runs_) run.make_faces();
+    patches_.mesh();
     for (const FilletVertex& vertex : vertices_)
         if (vertex.sphere) mesh_sphere(vertex);
     fill();
-    for (FilletRun& run : runs_) run.carry_over();
+    patches_.carry_over();
     remove_elements(f_, material_.removed());
-    for (const FilletRun& run : runs_) add_new_faces(run, tag);
-    for (const auto& face : spheres_) f_.d.band.cut_faces.add(face.nodes, tag);
+    add_new_faces(tag);
     put_on_ball();
     touch_at_vertices();
 }
@@ -49,22 +50,34 @@ void FilletCavity::make_arcs() {
             const FilletVertex::Member &from = vertex.members[first ? 0 : 1], &to = vertex.members[first ? 1 : 0];
             if (from.edge != k) continue;
             std::vector<int> nodes = runs_[k].arc_at(from.which);
-            const auto& row = runs_[to.edge].row(0);
-            if ((to.which == 0 ? row.front() : row.back()) != nodes.front()) std::ranges::reverse(nodes);
+            if (!runs_[to.edge].begins_like(to.which, runs_[k], from.which)) std::ranges::reverse(nodes);
             runs_[to.edge].give_arc(to.which, std::move(nodes));
+            runs_[to.edge].give_ridge(to.which, runs_[k].ridge_at(from.which));
         }
     }
 }
 
-void FilletCavity::add_new_faces(const FilletRun& run, int tag) {
+/// Groups may meet along edges at a corner of two, if they do so in the same way along both.
+void FilletCavity::check_domains(const FilletVertex& vertex) const {
+    std::vector<std::array<int, 2>> all;
+    for (const auto& [edge, which] : vertex.members) {
+        all.push_back(runs_[edge].domains_at_end(which));
+        if (!runs_[edge].begins_like(which, runs_[vertex.members[0].edge], vertex.members[0].which))
+            std::swap(all.back()[0], all.back()[1]);
+    }
+    const bool same = std::ranges::all_of(all, [&](const auto& d) { return d == all[0]; });
+    if (!same || (!vertex.is_mitre() && all[0][0] != all[0][1]))
+        material_.refuse("groups meet at the corner", vertex.at);
+}
+
+void FilletCavity::add_new_faces(int tag) {
     auto& faces = f_.d.band.cut_faces;
-    for (const auto& face : run.arc()) faces.add(face.nodes, tag);
-    for (const auto& section : run.sections())
-        for (const auto& part : section.parts) {
-            if (!part.free) continue;
-            for (const Triangle& t : part.fresh)
-                faces.add(part.domain[0] >= 0 ? t : Triangle{t[0], t[2], t[1]}, tag + 1);
-        }
+    for (const FilletRun& run : runs_)
+        for (const auto& face : run.arc()) faces.add(face.nodes, tag);
+    for (const auto& face : spheres_) faces.add(face.nodes, tag);
+    for (const FilletPatch& patch : patches_.all())
+        for (const Triangle& t : patch.fresh)
+            if (patch.free) faces.add(patch.domain[0] >= 0 ? t : Triangle{t[0], t[2], t[1]}, tag + 1);
 }
 
 /// Borders inside, that do not reach new material, stay where they are.
@@ -97,11 +110,10 @@ std::vector<Triangle> FilletCavity::surface_of(int domain) const {
         for (const auto& face : *faces) add(face.nodes, {face.domain, -1});
     for (const FilletRun& run : runs_) {
         for (const auto& face : run.arc()) add(face.nodes, {face.domain, -1});
-        for (const auto& section : run.sections())
-            for (const auto& part : section.parts)
-                for (const Triangle& t : part.fresh) add(t, part.domain);
         for (const auto& wall : run.walls()) add(wall.nodes, wall.domain);
     }
+    for (const FilletPatch& patch : patches_.all())
+        for (const Triangle& t : patch.fresh) add(t, patch.domain);
     return surface;
 }
 

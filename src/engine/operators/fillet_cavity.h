@@ -33,7 +33,8 @@ private:
     void mesh_sphere(const FilletVertex& vertex);
     void touch(int v, const Tool& ball);
     void touch_at_vertices();
-    void add_new_faces(const FilletRun& run, int tag);
+    void check_domains(const FilletVertex& vertex) const;
+    void add_new_faces(int tag);
     void keep_other_borders();
     std::vector<Triangle> surface_of(int domain) const;
     void fill();
@@ -42,6 +43,7 @@ private:
     Workpiece& f_;
     FilletMaterial material_;
     std::vector<FilletVertex> vertices_;
+    FilletPatches patches_;
     std::vector<FilletRun> runs_;
     std::vector<FilletMaterial::Face> spheres_;
     std::map<std::uint64_t, Vec3> middles_;

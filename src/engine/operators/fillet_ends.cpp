@@ -7,12 +7,6 @@
 #include "operators/fillet_run.h"
 
 namespace femscalpel {
-namespace {
-
-Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
-
-}  // namespace
-
 FilletRun::Section FilletRun::end_section(int which) {
     Section section = [&] {
         switch (path_.end_kind(which)) {
@@ -35,8 +29,16 @@ FilletRun::Section FilletRun::joined_end(int which) {
     Section section{which == 0 ? edge_.front() : edge_.back()};
     set_normal(section, end_normals_[which]);
     section.offset = section.normal.dot(end_points_[which]);
-    section.parts.push_back({-1});
+    const auto [one, other] = domains_at_end(which);
+    if (one == other)
+        section.parts = {{-1, -1}};
+    else
+        section.parts = {{0, -1}, {1, -1}};
     return section;
+}
+
+const std::vector<int>& FilletRun::ridge_at(int which) const {
+    return (which == 0 ? sections_.front() : sections_.back()).ridge;
 }
 
 const std::vector<int>& FilletRun::arc_at(int which) const {
@@ -53,40 +55,33 @@ FilletRun::Section FilletRun::end_on_face(int which) {
     const auto [one, other] = domains_at_end(which);
     std::vector<int> sides{0, 1};
     if (one == other) sides = {-1};
-    for (const int side : sides) {
-        Part part{side};
-        take_skin(section, part, side == 1 ? other : one);
-        section.parts.push_back(std::move(part));
-    }
+    for (const int side : sides) skin_part(section, side, side == 1 ? other : one);
     return section;
 }
 
 /// Takes skin in a section's plane, of a domain; of the only one there is for -1. Returns the domain.
-int FilletRun::take_skin(const Section& section, Part& part, int domain) {
-    const bool any = domain < 0;
-    std::erase_if(m_.skin, [&](const Face& face) {
-        if (!lies_in(section, face.nodes) || (!any && face.domain != domain)) return false;
-        if (any && domain >= 0 && face.domain != domain)
-            m_.refuse("groups meet on the face in which it ends", at(section.corner));
-        domain = face.domain;
-        const bool behind = m_.normal(face.nodes).dot(section.normal) > 0;
-        part.domain[behind ? 0 : 1] = domain;
-        part.old.push_back(behind ? face.nodes : turned(face.nodes));
-        return true;
-    });
-    return domain;
+int FilletRun::skin_part(Section& section, int side, int domain) {
+    const int patch = patches_.take_skin(section.normal, section.offset, off_plane(), section.corner, domain);
+    if (patch < 0) m_.refuse("it does not end at a plane face of the part", at(section.corner));
+    section.parts.push_back({side, patch});
+    return std::ranges::max(patches_[patch].domain);
 }
 
 /// The normal of the plane faces across the edge at its end.
 Vec3 FilletRun::plane_at(int corner) const {
     Vec3 plane = Vec3::Zero();
-    for (const Face& face : m_.skin) {
-        if (std::ranges::find(face.nodes, corner) == face.nodes.end()) continue;
-        const Vec3 n = m_.normal(face.nodes);
+    const auto add = [&](const Triangle& face, double sign) {
+        if (std::ranges::find(face, corner) == face.end()) return;
+        const Vec3 n = sign * m_.normal(face);
         if (plane.isZero()) plane = n;
         if ((n - plane).norm() > 1e-6)
             m_.refuse("it ends at a corner of more than three faces, or at a face that is not plane", at(corner));
-    }
+    };
+    for (const Face& face : m_.skin) add(face.nodes, 1);
+    // What another edge has taken.
+    for (const FilletPatch& patch : patches_.all())
+        if (std::ranges::min(patch.domain) < 0)
+            for (const Triangle& face : patch.old) add(face, patch.domain[0] >= 0 ? 1 : -1);
     if (plane.isZero()) m_.refuse("it does not end at a face of the part", at(corner));
     return plane;
 }
@@ -96,10 +91,7 @@ FilletRun::Section FilletRun::end_in_wall(int which) {
     Section section{which == 0 ? edge_.front() : edge_.back()};
     section.end = which;
     set_normal(section, plane_at(section.corner));
-    Part wall{-1};
-    const int domain = take_skin(section, wall, -1);
-    section.parts.push_back(std::move(wall));
-    add_borders_at_end(section, domain);
+    add_borders_at_end(section, skin_part(section, -1, -1));
     return section;
 }
 
@@ -110,7 +102,8 @@ FilletRun::Section FilletRun::open_end(int which) {
     set_normal(section, path_.end_plane(which).normal(at(section.corner)));
     const auto add = [&](int side, int domain) {
         const bool behind = (which == 1) == path_.convex();
-        section.parts.push_back({side, {}, {}, {behind ? -1 : domain, behind ? domain : -1}, true});
+        section.parts.push_back(
+            {side, patches_.add_free(section.normal, section.offset, {behind ? -1 : domain, behind ? domain : -1})});
     };
     const auto [one, other] = domains_at_end(which);
     if (path_.convex()) {
@@ -135,10 +128,8 @@ void FilletRun::add_borders_at_end(Section& section, int beyond) {
         const int domain = domains[std::max(side, 0)];
         if (domain == beyond) continue;
         const bool behind = section.end == 1;
-        Part part = border_part(section, side, {behind ? domain : beyond, behind ? beyond : domain});
-        if (part.old.empty())
+        if (!border_part(section, side, {behind ? domain : beyond, behind ? beyond : domain}))
             m_.refuse("groups meet at the edge's end in another way than in a plane across it", at(section.corner));
-        section.parts.push_back(std::move(part));
     }
 }
 

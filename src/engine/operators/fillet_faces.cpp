@@ -25,18 +25,15 @@ int FilletRun::wanted_divisions() const {
 
 void FilletRun::make_arcs(int divisions) {
     divisions_ = divisions;
-    for (Section& section : sections_)
+    for (Section& section : sections_) {
         if (section.arc.empty()) make_arc(section);
+        if (section.ridge.empty() && halved()) make_ridge(section);
+    }
 }
 
 void FilletRun::make_faces() {
-    if (halved()) {
-        for (Section& section : sections_) make_ridge(section);
-        make_middle_row();
-    }
-    for (Section& section : sections_)
-        for (Part& part : section.parts)
-            if (part.free || !part.old.empty()) mesh_part(section, part);
+    if (halved()) make_middle_row();
+    for (const Section& section : sections_) link_patches(section);
     mesh_arcs();
     if (halved()) mesh_walls();
 }
@@ -66,7 +63,7 @@ void FilletRun::make_arc(Section& section) {
         }
         const Vec2 p = path_.arc(path_.arc_angle() * k / divisions_);
         const Vec3 x = path_.at(on_plane(p, section), p);
-        section.arc[k] = add_inner_node(m_.workpiece(), x, &path_.ball(), true, nodes_near(section.parts, x));
+        section.arc[k] = add_inner_node(m_.workpiece(), x, &path_.ball(), true, nodes_near(section, x));
     }
 }
 
@@ -78,81 +75,40 @@ void FilletRun::make_ridge(Section& section) {
     for (int k = 1; k < sheet.levels; ++k) {
         const Vec2 p = k * sheet.step * path_.centre().normalized();
         const Vec3 x = path_.at(on_plane(p, section), p);
-        section.ridge.push_back(add_inner_node(m_.workpiece(), x, {}, true, nodes_near(section.parts, x)));
+        section.ridge.push_back(add_inner_node(m_.workpiece(), x, {}, true, nodes_near(section, x)));
     }
     section.ridge.push_back(section.arc[divisions_ / 2]);
 }
 
-/// The outline of the old faces of a part from one of its ends to the other, without what they share with the skin that
-/// goes, counter-clockwise.
-std::vector<int> FilletRun::outline_of(const Part& part, const std::array<int, 2>& ends) const {
-    std::map<int, int> next;
-    const std::set<DirectedEdge> own = directed_edges(part.old);
-    for (const DirectedEdge& e : own)
-        if (!own.contains({e[1], e[0]}) && !m_.is_strip_edge(e[0], e[1]) && !m_.is_strip_edge(e[1], e[0]))
-            if (!next.emplace(e[0], e[1]).second) m_.refuse("a face across it is only joined at a point", at(e[0]));
-    for (const auto& [from, to] : {std::pair(ends[0], ends[1]), std::pair(ends[1], ends[0])}) {
-        std::vector<int> outline{from};
-        while (next.contains(outline.back()) && outline.size() <= next.size()) outline.push_back(next[outline.back()]);
-        if (outline.back() == to && outline.size() == next.size() + 1) return outline;
+/// Closes the outlines of a section's patches.
+void FilletRun::link_patches(const Section& section) {
+    for (const auto& [side, patch] : section.parts) {
+        if (patch < 0) continue;
+        std::vector<int> link = section.arc;
+        if (side == 0) {
+            link.resize(static_cast<std::size_t>(divisions_ / 2) + 1);
+            link.insert(link.end(), section.ridge.rbegin() + 1, section.ridge.rend());
+        } else if (side == 1) {
+            link.assign(section.ridge.begin(), section.ridge.end() - 1);
+            link.insert(link.end(), section.arc.begin() + divisions_ / 2, section.arc.end());
+        }
+        patches_[patch].links.push_back(std::move(link));
+        if (!patches_[patch].free) continue;
+        std::vector<int> skin;
+        if (side != 1) skin = rim(section, 0);
+        std::ranges::reverse(skin);
+        if (side != 0) {
+            const Row second = rim(section, 1);
+            skin.insert(skin.end(), second.begin() + (side < 0 ? 1 : 0), second.end());
+        }
+        patches_[patch].links.push_back(std::move(skin));
     }
-    m_.refuse("a face across it is too small, or has a hole there", at(ends[0]));
 }
 
-/// That of a new face at an open end.
-std::vector<int> FilletRun::free_outline(const Section& section, const Part& part) const {
-    std::vector<int> outline;
-    if (part.side != 1) outline = rim(section, 0);
-    std::ranges::reverse(outline);
-    if (part.side != 0) {
-        const Row second = rim(section, 1);
-        outline.insert(outline.end(), second.begin() + (part.side < 0 ? 1 : 0), second.end());
-    }
-    return outline;
-}
-
-/// The outline of what is to be meshed of a section.
-std::vector<int> FilletRun::whole_outline(const Section& section, const Part& part) const {
-    // From one end of the old faces' outline to the other.
-    std::vector<int> rest = section.arc;
-    if (part.side == 0) {
-        rest.resize(static_cast<std::size_t>(divisions_ / 2) + 1);
-        rest.insert(rest.end(), section.ridge.rbegin() + 1, section.ridge.rend());
-    } else if (part.side == 1) {
-        rest.assign(section.ridge.begin(), section.ridge.end() - 1);
-        rest.insert(rest.end(), section.arc.begin() + divisions_ / 2, section.arc.end());
-    }
-    std::vector<int> outline = part.free ? free_outline(section, part) : outline_of(part, {rest.front(), rest.back()});
-    if (outline.back() == rest.front())
-        outline.insert(outline.end(), rest.begin() + 1, rest.end() - 1);
-    else
-        outline.insert(outline.end(), rest.rbegin() + 1, rest.rend() - 1);
-    return outline;
-}
-
-void FilletRun::mesh_part(const Section& section, Part& part) {
-    std::vector<int> outline = whole_outline(section, part);
-    const Vec3 u = section.normal.unitOrthogonal(), w = section.normal.cross(u), origin = at(outline[0]);
-    std::vector<Vec2> points;
-    double length = 0;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        points.emplace_back(u.dot(at(outline[k]) - origin), w.dot(at(outline[k]) - origin));
-        length += (at(outline[k]) - at(outline[(k + 1) % outline.size()])).norm();
-    }
-    if (part.free && polygon_area(points) < 0) {
-        std::ranges::reverse(points);
-        std::ranges::reverse(outline);
-    }
-    const std::vector<Vec2> inside = points_inside(points, length / static_cast<double>(outline.size()));
-    const std::vector<Triangle> triangles = triangulate(points, inside);
-    const std::size_t given = points.size();
-    points.insert(points.end(), inside.begin(), inside.end());
-    smooth(points, given, triangles, 5);
-    for (std::size_t k = given; k < points.size(); ++k) {
-        const Vec3 x = origin + points[k].x() * u + points[k].y() * w;
-        outline.push_back(add_inner_node(m_.workpiece(), x, {}, true, nodes_near({&part, 1}, x)));
-    }
-    for (const Triangle& t : triangles) part.fresh.push_back({outline[t[0]], outline[t[1]], outline[t[2]]});
+std::vector<int> FilletRun::nodes_near(const Section& section, const Vec3& x) const {
+    std::vector<int> patches;
+    for (const Part& part : section.parts) patches.push_back(part.patch);
+    return patches_.nodes_near(patches, x);
 }
 
 /// Between two places of a row, both included; on beyond the row's end for a closed edge.
@@ -388,56 +344,6 @@ void FilletRun::bend_row_edges(std::map<std::uint64_t, Vec3>& middles) {
             else
                 d.mids.set_bulge(a, b, middle - chord);
         }
-}
-
-void FilletRun::carry_over() {
-    for (const Section& section : sections_)
-        for (const Part& part : section.parts) carry_over(part);
-}
-
-void FilletRun::carry_over(const Part& part) {
-    BandMesh& band = m_.workpiece().d.band;
-    const auto on = [&](const auto& list, const Triangle& face) {
-        std::vector<int> slots;
-        for (const int s : list.around(face[0]))
-            if (sorted(list[s]) == sorted(face)) slots.push_back(s);
-        return slots;
-    };
-    if (part.free) return;
-    for (const Triangle& t : part.fresh) {
-        const Triangle& like = face_near(part, m_.middle(t));
-        const auto turned_as = [&](const Triangle& other) {
-            const bool same = other == like || other == Triangle{like[1], like[2], like[0]} ||
-                              other == Triangle{like[2], like[0], like[1]};
-            return same ? t : Triangle{t[0], t[2], t[1]};
-        };
-        for (const int s : on(band.skin, like)) band.skin.add_part(turned_as(band.skin[s]), s);
-        for (const int s : on(band.facet_faces, like))
-            band.facet_faces.add(turned_as(band.facet_faces[s]), band.facet_faces.tag(s));
-        for (const int s : on(band.triangles, like)) {
-            band.triangles.add_part(turned_as(band.triangles[s]), s);
-            m_.workpiece().taken.push_back({band.triangle_cells[band.triangles.origin(s)],
-                                            -(at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).norm() / 2});
-        }
-    }
-}
-
-/// The old face of a part whose middle is nearest.
-const Triangle& FilletRun::face_near(const Part& part, const Vec3& x) const {
-    return *std::ranges::min_element(part.old, {}, [&](const Triangle& t) { return (m_.middle(t) - x).squaredNorm(); });
-}
-
-/// The nodes of the old face of some parts that is nearest; of an element, where there is none.
-std::vector<int> FilletRun::nodes_near(std::span<const Part> parts, const Vec3& x) const {
-    const Triangle* best = nullptr;
-    for (const Part& part : parts) {
-        if (part.old.empty()) continue;
-        const Triangle& t = face_near(part, x);
-        if (!best || (m_.middle(t) - x).squaredNorm() < (m_.middle(*best) - x).squaredNorm()) best = &t;
-    }
-    if (best) return {best->begin(), best->end()};
-    const std::array<int, 4> nodes = m_.nodes_near(x);
-    return {nodes.begin(), nodes.end()};
 }
 
 }  // namespace femscalpel

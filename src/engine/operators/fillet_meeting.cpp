@@ -53,12 +53,8 @@ std::vector<int> joined(std::vector<std::vector<int>> chains) {
 /// The triangle of the ball at a corner where three edges meet.
 void FilletCavity::mesh_sphere(const FilletVertex& vertex) {
     std::vector<std::vector<int>> arcs;
-    std::set<int> domains;
-    for (const auto& [edge, which] : vertex.members) {
-        arcs.push_back(runs_[edge].arc_at(which));
-        for (const int domain : runs_[edge].domains_at_end(which)) domains.insert(domain);
-    }
-    if (domains.size() > 1) material_.refuse("groups meet at the corner", vertex.at);
+    for (const auto& [edge, which] : vertex.members) arcs.push_back(runs_[edge].arc_at(which));
+    const int domain = runs_[vertex.members[0].edge].domains_at_end(vertex.members[0].which)[0];
     const std::vector<int> outline = joined(arcs);
     if (outline.empty()) material_.refuse("the tangent lines do not meet at the corner", vertex.at);
 
@@ -88,7 +84,7 @@ void FilletCavity::mesh_sphere(const FilletVertex& vertex) {
         Triangle face{nodes[t[0]], nodes[t[1]], nodes[t[2]]};
         const bool outwards = material_.normal(face).dot(material_.at(face[0]) - vertex.centre) > 0;
         if (outwards != convex) std::swap(face[1], face[2]);
-        spheres_.push_back({face, *domains.begin()});
+        spheres_.push_back({face, domain});
     }
 }
 

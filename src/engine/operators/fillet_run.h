@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "operators/fillet_material.h"
+#include "operators/fillet_patch.h"
 
 namespace femscalpel {
 
@@ -22,12 +23,10 @@ public:
     /// Nodes along the edge, in its direction.
     using Row = std::vector<int>;
 
-    /// A part of a surface across the edge that is made anew.
+    /// A patch of a section.
     struct Part {
-        int side;  ///< from one tangent line to the middle of the arc; -1: to the other
-        std::vector<Triangle> old = {}, fresh = {};  ///< normals in the edge's direction
-        std::array<int, 2> domain{-1, -1};           ///< before and behind, in the edge's direction; -1 outside
-        bool free = false;  ///< a new face at an open end: between the skin that goes and the arc
+        int side;   ///< from one tangent line to the middle of the arc; -1: to the other
+        int patch;  ///< -1 where the new face ends on that of another edge
     };
     /// A plane across the edge: where it leaves the part, or a border inside that is kept, such as one of materials.
     struct Section {
@@ -45,7 +44,7 @@ public:
     };
 
     /// The edge in that place of those that the material was collected for.
-    FilletRun(FilletMaterial& material, const FilletPath& path, std::size_t place);
+    FilletRun(FilletMaterial& material, FilletPatches& patches, const FilletPath& path, std::size_t place);
 
     /// Where the edge is joined to others at an end: its new face ends in this plane. To be called first.
     void end_in_plane(int which, const Vec3& normal, const Vec3& point) {
@@ -63,17 +62,22 @@ public:
     /// The nodes of sections on the ball, but for those that are given for ends.
     void make_arcs(int divisions);
     void give_arc(int which, std::vector<int> nodes) { end_section_at(which).arc = std::move(nodes); }
+    void give_ridge(int which, std::vector<int> nodes) { end_section_at(which).ridge = std::move(nodes); }
+    /// Those of an end, from the edge to the arc; none where groups do not meet there.
+    const std::vector<int>& ridge_at(int which) const;
     /// Those of an end, from the first tangent line to the second.
     const std::vector<int>& arc_at(int which) const;
+    /// Whether the first tangent line ends at one node with that of another edge.
+    bool begins_like(int which, const FilletRun& other, int others) const {
+        const Row &own = rows_[0], &row = other.rows_[0];
+        return (which == 0 ? own.front() : own.back()) == (others == 0 ? row.front() : row.back());
+    }
     /// The domains beside the edge at an end.
     std::array<int, 2> domains_at_end(int which) const;
     /// Makes all faces. To be called last.
     void make_faces();
     /// Mid-side nodes at the tangent lines of a circular edge go onto it: of second-order meshes; by edge_key().
     void bend_row_edges(std::map<std::uint64_t, Vec3>& middles);
-    /// What lay on the old faces of sections lies on the new ones.
-    void carry_over();
-
     const FilletPath& path() const { return path_; }
     const std::vector<Face>& arc() const { return arc_; }
     const std::vector<Border>& walls() const { return walls_; }
@@ -106,7 +110,8 @@ private:
     Section end_section(int which);
     Section end_on_face(int which);
     Vec3 plane_at(int corner) const;
-    int take_skin(const Section& section, Part& part, int domain);
+    double off_plane() const { return 1e-7 * (path_.radius() + path_.length()); }
+    int skin_part(Section& section, int side, int domain);
     Section end_in_wall(int which);
     Section open_end(int which);
     void add_borders_at_end(Section& section, int beyond);
@@ -116,9 +121,8 @@ private:
     Row rim(const Section& section, int side) const;
     void find_borders();
     Section border_at(std::size_t node);
-    Part border_part(const Section& section, int side, const std::array<int, 2>& domain);
+    bool border_part(Section& section, int side, const std::array<int, 2>& domain);
     void set_normal(Section& section, const Vec3& normal) const;
-    bool lies_in(const Section& section, const Triangle& t) const;
     void check_strips() const;
 
     Row find_row(int side) const;
@@ -128,13 +132,8 @@ private:
     double on_plane(const Vec2& p, const Section& section) const;
     void make_arc(Section& section);
     void make_ridge(Section& section);
-    std::vector<int> outline_of(const Part& part, const std::array<int, 2>& ends) const;
-    std::vector<int> free_outline(const Section& section, const Part& part) const;
-    std::vector<int> whole_outline(const Section& section, const Part& part) const;
-    void mesh_part(const Section& section, Part& part);
-    const Triangle& face_near(const Part& part, const Vec3& x) const;
-    std::vector<int> nodes_near(std::span<const Part> parts, const Vec3& x) const;
-    void carry_over(const Part& part);
+    void link_patches(const Section& section);
+    std::vector<int> nodes_near(const Section& section, const Vec3& x) const;
 
     double spacing_along() const;
     void make_middle_row();
@@ -151,6 +150,7 @@ private:
     std::vector<Triangle> mesh_patch(const Sheet& sheet, const Patch& patch, int first, int last);
 
     FilletMaterial& m_;
+    FilletPatches& patches_;
     const FilletPath& path_;
     std::size_t place_;
     Row edge_;                                  // nodes on the edge

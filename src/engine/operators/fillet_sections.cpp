@@ -13,16 +13,14 @@ namespace {
 
 bool holds(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end(); }
 
-Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
-
 }  // namespace
 
 bool FilletRun::Section::has(int side) const {
     return std::ranges::any_of(parts, [&](const Part& p) { return p.side < 0 || p.side == side; });
 }
 
-FilletRun::FilletRun(FilletMaterial& material, const FilletPath& path, std::size_t place)
-    : m_(material), path_(path), place_(place) {}
+FilletRun::FilletRun(FilletMaterial& material, FilletPatches& patches, const FilletPath& path, std::size_t place)
+    : m_(material), patches_(patches), path_(path), place_(place) {}
 
 bool FilletRun::halved() const {
     return std::ranges::any_of(segments_, [](const auto& sides) { return sides[0] != sides[1]; });
@@ -76,17 +74,6 @@ void FilletRun::set_normal(Section& section, const Vec3& normal) const {
     section.offset = -section.offset;
 }
 
-bool FilletRun::lies_in(const Section& section, const Triangle& t) const {
-    const double off = 1e-7 * (path_.radius() + path_.length());
-    // Other edges may end in the same plane.
-    const Vec3 middle = m_.middle(t);
-    if (path_.wall(0).distance(middle) > 0 || path_.wall(1).distance(middle) > 0 ||
-        path_.place(middle).p.norm() > 1.1 * m_.edge(place_).reach)
-        return false;
-    return std::abs(m_.normal(t).dot(section.normal)) >= 1 - 1e-6 &&
-           std::ranges::none_of(t, [&](int v) { return std::abs(section.normal.dot(at(v)) - section.offset) > off; });
-}
-
 /// The borders between domains across the edge, one after the other along it.
 void FilletRun::find_borders() {
     const std::size_t before = path_.closed() ? segments_.size() - 1 : 0;
@@ -126,22 +113,17 @@ FilletRun::Section FilletRun::border_at(std::size_t node) {
     if (sides.size() == 2 && !parted(previous) && !parted(node)) sides = {-1};
     for (const int side : sides) {
         const int k = std::max(side, 0);
-        section.parts.push_back(border_part(section, side, {before[k], after[k]}));
+        if (!border_part(section, side, {before[k], after[k]}))
+            m_.refuse("several borders meet there", at(section.corner));
     }
     return section;
 }
 
-/// Takes the faces between two domains in a section's plane.
-FilletRun::Part FilletRun::border_part(const Section& section, int side, const std::array<int, 2>& domain) {
-    Part part{side, {}, {}, domain};
-    std::erase_if(m_.borders, [&](const Border& b) {
-        if (!lies_in(section, b.nodes)) return false;
-        const bool forwards = m_.normal(b.nodes).dot(section.normal) > 0;
-        if (b.domain != (forwards ? domain : std::array{domain[1], domain[0]})) return false;
-        part.old.push_back(forwards ? b.nodes : turned(b.nodes));
-        return true;
-    });
-    return part;
+/// Takes the faces between two domains in a section's plane. False when there are none.
+bool FilletRun::border_part(Section& section, int side, const std::array<int, 2>& domain) {
+    const int patch = patches_.take_border(section.normal, section.offset, off_plane(), section.corner, domain);
+    if (patch >= 0) section.parts.push_back({side, patch});
+    return patch >= 0;
 }
 
 /// Domains must part the skin beside the edge along sections only.
@@ -153,7 +135,7 @@ void FilletRun::check_strips() const {
         for (const auto& [e, domain] : domains) {
             const auto other = domains.find({e[1], e[0]});
             if (other == domains.end() || other->second == domain) continue;
-            const double off = 1e-7 * (path_.radius() + path_.length());
+            const double off = off_plane();
             const bool known = std::ranges::any_of(sections_, [&](const Section& s) {
                 return s.has(side) &&
                        std::ranges::none_of(e, [&](int v) { return std::abs(s.normal.dot(at(v)) - s.offset) > off; });
@@ -184,7 +166,7 @@ void FilletRun::place_in_rows(Section& section) const {
         std::set<int> nodes;
         for (const Part& part : section.parts)
             if (part.side < 0 || part.side == side)
-                for (const Triangle& t : part.old) nodes.insert(t.begin(), t.end());
+                for (const Triangle& t : patches_[part.patch].old) nodes.insert(t.begin(), t.end());
         const auto found = std::ranges::find_if(rows_[side], [&](int v) { return nodes.contains(v); });
         if (found == rows_[side].end())
             m_.refuse("a border or face across it does not reach the ball", at(section.corner));
@@ -196,8 +178,9 @@ FilletRun::Row FilletRun::find_row(int side) const {
     std::set<DirectedEdge> ends;
     for (const Section& section : sections_)
         for (const Part& part : section.parts)
-            if (part.domain[0] < 0 || part.domain[1] < 0)
-                for (const DirectedEdge& e : directed_edges(part.old)) ends.insert({{e[0], e[1]}, {e[1], e[0]}});
+            if (part.patch >= 0 && std::ranges::min(patches_[part.patch].domain) < 0)
+                for (const DirectedEdge& e : directed_edges(patches_[part.patch].old))
+                    ends.insert({{e[0], e[1]}, {e[1], e[0]}});
     const auto at_open_end = [&](const DirectedEdge& e) {
         return std::ranges::any_of(sections_, [&](const Section& s) {
             return s.end >= 0 && path_.end_kind(s.end) == LineEnd::open && std::ranges::all_of(e, [&](int v) {

@@ -24,8 +24,9 @@ std::vector<Vec3> planes_at(const Mesh& mesh, Index node, const std::vector<std:
             (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
         if (std::ranges::none_of(normals, [&](const Vec3& m) { return (m - n).norm() < 1e-3; })) normals.push_back(n);
         if (normals.size() > 3)
-            refuse(mesh.points[node], "where more than three faces do, or one that is not plane; only corners of "
-                                      "three plane faces are rounded. Round the edges one after the other");
+            refuse(mesh.points[node],
+                   "where more than three faces do, or one that is not plane; only corners of "
+                   "three plane faces are rounded. Round the edges one after the other");
     }
     if (normals.size() < 3) refuse(mesh.points[node], "where there are less than three faces");
     return normals;
@@ -83,8 +84,9 @@ void FilletVertex::join(const std::vector<const FilletPath*>& paths) {
         return;
     }
     if (std::abs(first.arc_angle() - paths[members[1].edge]->arc_angle()) > 1e-6)
-        refuse(at, "between faces at different angles, and the third edge there is not rounded: the two do not meet in "
-                   "a plane. Round all three, or one after the other");
+        refuse(at,
+               "between faces at different angles, and the third edge there is not rounded: the two do not meet in "
+               "a plane. Round all three, or one after the other");
     const Vec3 normal = (away[0] - away[1]).normalized();
     across = {normal, normal};
 }
