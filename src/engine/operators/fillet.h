@@ -22,8 +22,12 @@ struct FilletOptions : OperatorOptions {
 /// along a concave edge, each gets half of what is added, up to a wall from the edge to the middle of the arc. The mesh
 /// is refined first to four elements over the arc at least.
 ///
+/// Edges that meet at a corner of three plane faces are rounded at once: two, between faces at the same angle, meet in
+/// a plane, as mitred; three in the triangle of a sphere.
+///
 /// New groups: NAME_FACE, the triangles of the new face (normals out of the material), and NAME_END, those of flat
-/// faces in which it stops. Throws ToolError (parameter "along": no edge, or not of that kind; "radius": too large for
+/// faces in which it stops. Throws ToolError (parameter "along": no edge, or not of that kind, convex and
+/// concave ones that meet; "radius": too large for
 /// the faces), QualityError (no sound mesh, groups that meet along a convex edge) and what crack() throws.
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options = {},
               const Prepared& prepared = {});

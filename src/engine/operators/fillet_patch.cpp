@@ -66,7 +66,8 @@ int FilletPatches::known(const Vec3& normal, double offset, double off, int node
     for (std::size_t k = 0; k < patches_.size(); ++k) {
         const FilletPatch& p = patches_[k];
         const double sign = p.normal.dot(normal) > 0 ? 1 : -1;
-        if ((p.normal - sign * normal).norm() > 1e-6 || std::abs(p.offset - sign * offset) > 10 * off || p.free) continue;
+        if ((p.normal - sign * normal).norm() > 1e-6 || std::abs(p.offset - sign * offset) > 10 * off || p.free)
+            continue;
         const std::array<int, 2> own = sign > 0 ? p.domain : std::array{p.domain[1], p.domain[0]};
         const bool fits = any ? (own[0] < 0) != (own[1] < 0) : own == domain;
         if (fits && std::ranges::any_of(p.old, [&](const Triangle& t) { return holds(t, node); }))
@@ -137,8 +138,7 @@ std::vector<int> FilletPatches::outline_of(const FilletPatch& patch) const {
     const std::set<DirectedEdge> own = directed_edges(patch.old);
     for (const DirectedEdge& e : own)
         if (!own.contains({e[1], e[0]}) && !m_.is_strip_edge(e[0], e[1]) && !m_.is_strip_edge(e[1], e[0]))
-            if (!next.emplace(e[0], e[1]).second)
-                m_.refuse("a face across it is only joined at a point", m_.at(e[0]));
+            if (!next.emplace(e[0], e[1]).second) m_.refuse("a face across it is only joined at a point", m_.at(e[0]));
     std::vector<std::vector<int>> links = patch.links;
     if (!next.empty() && !next.contains(links[0].back())) std::ranges::reverse(links[0]);
     const int start = links[0].back();

@@ -10,15 +10,16 @@
 
 namespace femscalpel {
 
-/// A part of a plane across an edge that is rounded, which is made anew: skin where the edge leaves the part, or a border
-/// inside, such as one of materials. Edges that lie near each other may share one.
+/// A part of a plane across an edge that is rounded, which is made anew: skin where the edge leaves the part, or a
+/// border inside, such as one of materials. Edges that lie near each other may share one.
 struct FilletPatch {
     Vec3 normal;
     double offset;
-    std::array<int, 2> domain;  ///< behind and before the plane, as its normal points; -1 outside
-    bool free = false;          ///< a new face, where there was none
+    std::array<int, 2> domain;                   ///< behind and before the plane, as its normal points; -1 outside
+    bool free = false;                           ///< a new face, where there was none
     std::vector<Triangle> old = {}, fresh = {};  ///< their normals are the plane's
-    /// Lines through nodes, from one end of the old faces' outline to another, that close it on the new material's side.
+    /// Lines through nodes, from one end of the old faces' outline to another, that close it on the new material's
+    /// side.
     std::vector<std::vector<int>> links = {};
 };
 
@@ -31,8 +32,8 @@ public:
     const FilletPatch& operator[](int patch) const { return patches_[patch]; }
     const std::deque<FilletPatch>& all() const { return patches_; }
 
-    /// Takes the plane skin at a node that belongs to a domain, as far as it hangs together; -1: to any one. Nodes may be
-    /// `off` the plane. The patch is -1 when there is none.
+    /// Takes the plane skin at a node that belongs to a domain, as far as it hangs together; -1: to any one. Nodes may
+    /// be `off` the plane. The patch is -1 when there is none.
     int take_skin(const Vec3& normal, double offset, double off, int node, int domain);
     /// The same with a border between domains, the first behind the plane.
     int take_border(const Vec3& normal, double offset, double off, int node, const std::array<int, 2>& domain);
