@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 #include <memory>
@@ -29,6 +30,8 @@ namespace {
 /// Longest edges over the arc's length; most are shorter by a third after bisection, so that there are four and more.
 constexpr double longest_over_arc = 1 / 3.2;
 constexpr int fillet_attempts = 8;
+/// Smallest mean ratio of what is filled from which on nothing else is tried.
+constexpr double good_enough = 0.2;
 
 /// Zero within some distance of an edge, so that everything there is in the band.
 class Surroundings final : public Tool {
@@ -158,15 +161,39 @@ private:
                         edges[one.edge].next[one.which] = edges[other.edge].path;
                     }
             }
-            FilletCavity cavity(f, mesh, edges, std::move(vertices));
-            cavity.replace(0);
-            middles.insert(cavity.middles().begin(), cavity.middles().end());
+            replace(f, mesh, edges, vertices, middles);
         }
         if (!middles.empty())
             f.mid_side = [&f, middles](int a, int b) {
                 const auto known = middles.find(edge_key(a, b));
                 return known == middles.end() ? mid_side(f.d, a, b).at : known->second;
             };
+    }
+
+    /// Where elements come out poor, or none can be made, the arc is divided in other ways.
+    static void replace(Workpiece& f, const Mesh& mesh, std::span<const FilletReach> edges,
+                        const std::vector<FilletVertex>& vertices, std::map<std::uint64_t, Vec3>& middles) {
+        const Workpiece before = f;
+        double best = -1;
+        std::exception_ptr failure;
+        std::map<std::uint64_t, Vec3> bent;
+        for (const int more : {0, 2, -2, 4}) {
+            Workpiece trial = before;
+            try {
+                FilletCavity cavity(trial, mesh, edges, vertices);
+                const double worst = cavity.replace(0, more);
+                if (worst <= best) continue;
+                best = worst;
+                bent = cavity.middles();
+            } catch (const QualityError&) {
+                if (!failure) failure = std::current_exception();
+                continue;
+            }
+            f = std::move(trial);
+            if (best >= good_enough) break;
+        }
+        if (best < 0) std::rethrow_exception(failure);
+        middles.insert(bent.begin(), bent.end());
     }
 
     /// Nodes keep contact with the new faces only.

@@ -9,7 +9,6 @@
 #include "mesh/quality.h"
 
 namespace femscalpel {
-
 FilletCavity::FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges,
                            std::vector<FilletVertex> vertices)
     : f_(workpiece), material_(workpiece, mesh, edges), vertices_(std::move(vertices)), patches_(material_) {
@@ -19,28 +18,30 @@ FilletCavity::FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<con
             runs_[vertex.members[k].edge].end_in_plane(vertex.members[k].which, vertex.across[k], vertex.centre);
 }
 
-void FilletCavity::replace(int tag) {
+double FilletCavity::replace(int tag, int more) {
     for (FilletRun& run : runs_) run.find_sections();
     keep_other_borders();
     for (FilletRun& run : runs_) run.find_rows();
     for (const FilletVertex& vertex : vertices_) check_domains(vertex);
-    make_arcs();
+    make_arcs(more);
     for (FilletRun& run : runs_) run.make_faces();
     patches_.mesh();
     for (const FilletVertex& vertex : vertices_)
         if (vertex.sphere) mesh_sphere(vertex);
-    fill();
+    const double worst = fill();
     patches_.carry_over();
     remove_elements(f_, material_.removed());
     add_new_faces(tag);
     put_on_ball();
     touch_at_vertices();
+    return worst;
 }
 
 /// Edges that meet in a plane share the nodes there.
-void FilletCavity::make_arcs() {
+void FilletCavity::make_arcs(int more) {
     int divisions = 0;
     for (const FilletRun& run : runs_) divisions = std::max(divisions, run.wanted_divisions());
+    divisions = std::max(4, divisions + more);
     if (std::ranges::any_of(runs_, [](const FilletRun& run) { return run.halved(); })) divisions += divisions % 2;
     for (std::size_t k = 0; k < runs_.size(); ++k) {
         runs_[k].make_arcs(divisions);
@@ -118,7 +119,7 @@ std::vector<Triangle> FilletCavity::surface_of(int domain) const {
 }
 
 /// Each domain by itself, so that new elements have the groups of their own.
-void FilletCavity::fill() {
+double FilletCavity::fill() {
     std::vector<Vec3> points;
     points.reserve(f_.d.band.nodes.size());
     for (const BandNode& n : f_.d.band.nodes) points.push_back(n.at);
@@ -126,10 +127,12 @@ void FilletCavity::fill() {
     const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
     FillOptions options;
     options.enough = 0.3;
+    double worst = 1;
     for (int domain = 0; domain < material_.domains(); ++domain) {
         const std::vector<Triangle> surface = surface_of(domain);
         if (surface.empty()) continue;
-        Filled filled = fill_cavity(points, surface, options);
+        const Filled filled = fill_cavity(points, surface, options);
+        worst = std::min(worst, filled.worst);
         std::vector<int> fresh;
         fresh.reserve(filled.points.size());
         for (const Vec3& x : filled.points) fresh.push_back(add_inner_node(f_, x, {}, false, material_.nodes_near(x)));
@@ -142,6 +145,7 @@ void FilletCavity::fill() {
                 {band.tetra_cells[band.tetras.origin(of)], -signed_volume(at(t[0]), at(t[1]), at(t[2]), at(t[3]))});
         }
     }
+    return worst;
 }
 
 void FilletCavity::touch(int v, const Tool& ball) {

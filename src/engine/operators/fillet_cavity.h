@@ -22,14 +22,15 @@ public:
                  std::vector<FilletVertex> vertices = {});
 
     /// Does it; the faces on the ball become BandMesh::cut_faces with this tag, new ones at open ends with the next.
+    /// The arc is divided into so many parts more than seems best. Returns the smallest mean ratio of the new elements.
     /// Throws QualityError where it cannot.
-    void replace(int tag);
+    double replace(int tag, int more);
 
     /// Mid-side nodes that are to lie exactly where they belong, by edge_key(); of second-order meshes.
     const std::map<std::uint64_t, Vec3>& middles() const { return middles_; }
 
 private:
-    void make_arcs();
+    void make_arcs(int more);
     void mesh_sphere(const FilletVertex& vertex);
     void touch(int v, const Tool& ball);
     void touch_at_vertices();
@@ -37,7 +38,7 @@ private:
     void add_new_faces(int tag);
     void keep_other_borders();
     std::vector<Triangle> surface_of(int domain) const;
-    void fill();
+    double fill();
     void put_on_ball();
 
     Workpiece& f_;

@@ -35,6 +35,68 @@ void FilletMaterial::collect(std::span<const FilletReach> edges) {
     }
     std::ranges::sort(removed_);
     removed_.erase(std::unique(removed_.begin(), removed_.end()), removed_.end());
+    for (int round = 0; round < 10 && take_wedges(edges); ++round) {
+    }
+}
+
+/// Elements that stay must not reach, like a wedge, with an edge or a node into the middle of plane faces that go: skin
+/// or borders, which are made anew. They go, too. False when there are none.
+bool FilletMaterial::take_wedges(std::span<const FilletReach> edges) {
+    const auto& tetras = f_.d.band.tetras;
+    std::map<DirectedEdge, std::vector<Triangle>> at_edge;
+    for (const Triangle& face : outer_faces())
+        for (int k = 0; k < 3; ++k) {
+            const int a = face[k], b = face[(k + 1) % 3];
+            at_edge[{std::min(a, b), std::max(a, b)}].push_back(face);
+        }
+    std::map<int, bool> inside;  // nodes, by whether all of their edges are within plane faces
+    std::set<int> taken;
+    const auto take_around = [&](int a, int b) {
+        for (const int t : tetras.around(a)) {
+            const auto& n = tetras[t];
+            if (std::ranges::find(n, b) == n.end() || std::ranges::binary_search(removed_, t)) continue;
+            const bool may_go = std::ranges::any_of(edges, [&](const FilletReach& e) {
+                return std::ranges::all_of(n, [&](int v) {
+                    return f_.value(v, e.path->wall(0)) <= 10 * f_.tolerance &&
+                           f_.value(v, e.path->wall(1)) <= 10 * f_.tolerance;
+                });
+            });
+            if (may_go) taken.insert(t);
+        }
+    };
+    for (const auto& [e, faces] : at_edge) {
+        const bool within = faces.size() == 2 && std::abs(normal(faces[0]).dot(normal(faces[1]))) > 1 - 1e-6;
+        for (const int v : e) inside.emplace(v, true).first->second &= within;
+        if (within) take_around(e[0], e[1]);
+    }
+    for (const auto& [v, within] : inside)
+        if (within) take_around(v, v);
+    removed_.insert(removed_.end(), taken.begin(), taken.end());
+    std::ranges::sort(removed_);
+    return !taken.empty();
+}
+
+/// The skin of the elements that go, and the borders between them.
+std::vector<Triangle> FilletMaterial::outer_faces() const {
+    const BandMesh& band = f_.d.band;
+    const auto family = [&](int t) {
+        const CellRef& c = band.tetra_cells[band.tetras.origin(t)];
+        return mesh_.block(c.type).families[c.cell];
+    };
+    std::vector<Triangle> out;
+    std::map<Triangle, std::pair<int, Triangle>> open;
+    for (const int t : removed_)
+        for (const auto& f : outward_faces) {
+            const auto& n = band.tetras[t];
+            const Triangle face{n[f[0]], n[f[1]], n[f[2]]};
+            const auto [it, fresh] = open.emplace(sorted(face), std::pair(t, face));
+            if (fresh) continue;
+            if (family(t) != family(it->second.first) || band.skin.find(face) >= 0) out.push_back(face);
+            open.erase(it);
+        }
+    for (const auto& [key, face] : open)
+        if (is_skin(face.second)) out.push_back(face.second);
+    return out;
 }
 
 /// Elements that are joined through faces on which nothing is kept.
@@ -134,7 +196,7 @@ bool FilletMaterial::is_strip(const Triangle& face, const FilletReach& edge, int
     const double off = 2 * path.sag() + 1e-3 * length;
     return std::ranges::all_of(face, [&](int v) {
         const Vec2 q = path.place(at(v)).p;
-        return path.wall(side).distance(at(v)) <= 10 * f_.tolerance && std::abs(q.dot(path.normal(side))) <= off &&
+        return f_.value(v, path.wall(side)) <= 10 * f_.tolerance && std::abs(q.dot(path.normal(side))) <= off &&
                q.dot(path.along_face(side)) >= -off;
     });
 }

@@ -72,6 +72,8 @@ public:
 
 private:
     void collect(std::span<const FilletReach> edges);
+    bool take_wedges(std::span<const FilletReach> edges);
+    std::vector<Triangle> outer_faces() const;
     void find_domains();
     void join_domains(const std::vector<std::vector<int>>& joined);
     void find_boundary(std::span<const FilletReach> edges);

@@ -3,6 +3,7 @@
 // Where a FilletRun finds its edge, what is across it, and its tangent lines.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "mesh/quality.h"
@@ -36,27 +37,27 @@ void FilletRun::find_sections() {
 
 /// The nodes on the edge, and the domains beside it.
 void FilletRun::find_edge() {
-    std::map<std::array<int, 2>, int> domains[2];
-    std::set<int> nodes;
+    std::array<std::map<std::array<int, 2>, int>, 2> domains;
+    std::array<std::set<int>, 2> beside;
     for (const int side : {0, 1})
         for (const Face& face : m_.strip(place_, side))
             for (int k = 0; k < 3; ++k) {
                 const int a = face.nodes[k], b = face.nodes[(k + 1) % 3];
                 if (path_.distance(at(a), 0) > on_edge()) continue;
-                nodes.insert(a);
+                beside[side].insert(a);
                 domains[side][{std::min(a, b), std::max(a, b)}] = face.domain;
             }
-    edge_.assign(nodes.begin(), nodes.end());
+    std::ranges::set_intersection(beside[0], beside[1], std::back_inserter(edge_));
     std::ranges::sort(edge_, {}, [&](int v) { return place(v).s; });
     const Vec3 somewhere = path_.at((path_.begin() + path_.end()) / 2, Vec2::Zero());
     if (edge_.size() < 2) m_.refuse("the skin beside it is not found", somewhere);
     for (std::size_t k = 0; k + (path_.closed() ? 0 : 1) < edge_.size(); ++k) {
         const int a = edge_[k], b = edge_[(k + 1) % edge_.size()];
-        std::array<int, 2>& beside = segments_.emplace_back();
+        std::array<int, 2>& domain = segments_.emplace_back();
         for (const int side : {0, 1}) {
             const auto found = domains[side].find({std::min(a, b), std::max(a, b)});
             if (found == domains[side].end()) m_.refuse("the skin beside it is not found", at(a));
-            beside[side] = found->second;
+            domain[side] = found->second;
         }
     }
 }

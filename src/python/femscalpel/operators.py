@@ -199,8 +199,8 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
     Raises
     ------
     ToolError
-        The name is bad or taken, there is no such edge, a convex and a concave one meet, or the radius is too large for the
-        faces beside it.
+        The name is bad or taken, there is no such edge, a convex and a concave one meet, or the radius is too large for
+        the faces beside it.
     UnsupportedElementError, QualityError, Error, TypeError, ValueError
         As for :func:`crack`; also where elements of different groups meet along a convex edge.
 
