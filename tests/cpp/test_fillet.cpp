@@ -10,6 +10,9 @@
 #include "operators/fillet_cavity.h"
 #include "operators/fillet_corner.h"
 #include "operators/fillet_inside.h"
+#include "operators/fillet_material.h"
+#include "operators/fillet_patch.h"
+#include "operators/fillet_run.h"
 #include "simple_meshes.h"
 #include "whole_workpiece.h"
 
@@ -130,7 +133,29 @@ TEST(Fillet, BordersOfMaterialsAcrossTheEdgeStayPlane) {
         }
 }
 
-TEST(Fillet, BorderAlongTheEdgeIsARefusal) {
+TEST(Fillet, MaterialThatGoesFallsIntoDomains) {
+    const Mesh mesh = checks::two_halves();
+    const FilletPath path(mesh, find_feature_lines(mesh, {{}, {}, {{1, 0, 0}}}, 30).at(0), 1, skin_of(mesh));
+    Workpiece f = checks::whole_workpiece(mesh, checks::away);
+    const std::array edges{FilletReach{&path, 1.5}};
+    FilletMaterial material(f, mesh, edges);
+    EXPECT_EQ(material.domains(), 2);
+    EXPECT_EQ(material.removed().size(), 2U * 6U);
+    EXPECT_EQ(material.borders.size(), 2U) << "the square between them";
+    EXPECT_EQ(material.strip(0, 0).size(), 4U);
+    FilletPatches patches(material);
+    FilletRun run(material, patches, path, 0);
+    run.find_sections();
+    ASSERT_EQ(run.sections().size(), 3U) << "both ends and the border";
+    EXPECT_TRUE(material.borders.empty());
+    ASSERT_EQ(patches.all().size(), 3U);
+    for (const FilletPatch& patch : patches.all()) EXPECT_EQ(patch.old.size(), 2U) << "a square";
+    run.find_rows();
+    EXPECT_EQ(run.row(0).size(), 3U);
+    EXPECT_NEAR(run.sections()[1].s, 1, 1e-12);
+}
+
+TEST(Fillet, BorderAlongAConvexEdgeIsARefusal) {
     EXPECT_THROW(fillet(checks::two_halves(), {{}, {}, {{0, 1, 0}}}, 1.2), Error);
 }
 

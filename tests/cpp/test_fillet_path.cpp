@@ -114,21 +114,47 @@ TEST(FilletPath, RoomIsSeenInAFineMesh) {
     EXPECT_NO_THROW(path_near(mesh, {2.4, 0, 0}, 11));
 }
 
-TEST(FilletPath, EndsAtAPlaneFaceOnly) {
+TEST(FilletPath, EndsOfLines) {
     const Mesh mesh = l_shape();
-    const auto check = [&](const Vec3& near) {
-        check_ends(mesh, find_feature_lines(mesh, {{}, {}, {near}}, 30).at(0), skin_of(mesh));
+    const auto ends = [&](const Mesh& of, const Vec3& near) {
+        return line_ends(of, find_feature_lines(of, {{}, {}, {near}}, 30).at(0), skin_of(of));
     };
-    EXPECT_NO_THROW(check({2, 2, 1}));
-    EXPECT_NO_THROW(check({0, 2, 2}));
-    EXPECT_NO_THROW(check({4, 0, 1}));
-    try {
-        check({3, 2, 2});
-        FAIL() << "it ends at a wall";
-    } catch (const ToolError& e) {
-        EXPECT_STREQ(e.parameter(), "along");
-        EXPECT_THAT(e.what(), testing::HasSubstr("the edge ends at (2 2 2) in another way"));
+    using enum LineEnd;
+    EXPECT_THAT(ends(mesh, {2, 2, 1}), testing::ElementsAre(plane, plane));
+    EXPECT_THAT(ends(mesh, {0, 2, 2}), testing::ElementsAre(plane, plane));
+    EXPECT_THAT(ends(mesh, {4, 0, 1}), testing::ElementsAre(plane, plane));
+    EXPECT_THAT(ends(mesh, {3, 2, 2}), testing::UnorderedElementsAre(plane, open)) << "at the concave edge";
+    const FilletPath path(mesh, find_feature_lines(mesh, {{}, {}, {{3, 2, 2}}}, 30).at(0), 0.8, skin_of(mesh),
+                          {ends(mesh, {3, 2, 2})});
+    EXPECT_NEAR(path.length(), 2, 1e-12) << "the faces reach up to the concave edge";
+    const int open_end = path.end_kind(0) == open ? 0 : 1;
+    EXPECT_NEAR(path.end_plane(open_end).distance({2, 1, 1}), 0, 1e-12);
+    EXPECT_TRUE(path.is_beyond_end({1.9, 2, 2}));
+    EXPECT_FALSE(path.is_beyond_end({2.1, 2, 2}));
+}
+
+/// Three walls of a room: a block without one of its octants.
+Mesh room() {
+    Mesh mesh = checks::grid(4, 4, 4);
+    CellBlock& block = mesh.block(CellType::tetra);
+    CellBlock kept = block;
+    kept.connectivity.clear(), kept.ids.clear(), kept.families.clear();
+    for (Index c = 0; c < block.size(); ++c) {
+        Vec3 centre = Vec3::Zero();
+        for (const Index n : block.nodes(c)) centre += mesh.points[n] / 4;
+        if (centre.minCoeff() > 2) continue;
+        kept.connectivity.insert(kept.connectivity.end(), block.nodes(c).begin(), block.nodes(c).end());
+        kept.ids.push_back(block.ids[c]);
+        kept.families.push_back(0);
     }
+    block = kept;
+    return mesh;
+}
+
+TEST(FilletPath, EndsInAWall) {
+    const Mesh mesh = room();
+    EXPECT_THAT(line_ends(mesh, find_feature_lines(mesh, {{}, {}, {{2, 2, 3}}}, 30).at(0), skin_of(mesh)),
+                testing::UnorderedElementsAre(LineEnd::plane, LineEnd::wall));
 }
 
 TEST(FilletPath, RadiusTooLargeNamesFaceAndParameter) {

@@ -5,7 +5,9 @@
 
 Each kind: `convex` and `concave` edges, straight and circular, of the test meshes and of blocks and L shapes turned
 anyhow (test meshes half of the time without their groups), the radius between half and six edge lengths where there
-is room; a `hole` whose radius becomes 0.6 to 1.7 times the old; a `wall` that is moved by up to three edge lengths.
+is room; `bordered` concave edges of L shapes, along which and across which groups of elements meet in many ways;
+`ended` ones that end at a wall or in another way; `corner`s of boxes: two or three edges at one, four around a face,
+all twelve; a `hole` whose radius becomes 0.6 to 1.7 times the old; a `wall` that is moved by up to three edge lengths.
 A result is checked: one part, conforming, positive volumes. Printed: how many were refused; the smallest mean
 ratio, and how many results have at least 0.15 (fillets) or 0.2 or the input's (walls); the farthest node of the new
 face or wall from its surface, in the size of the mesh; the largest error of the volume as a part of what is added
@@ -45,6 +47,7 @@ class Case:
     change_size: float  # what its error is measured in
     exact: bool  # whether that error counts
     goal: float  # least quality
+    at: object = None  # whether points are where material comes or goes
 
 
 def body(mesh):
@@ -88,7 +91,7 @@ def straight(mesh, start, end, first, second, room, sign, rng):
     change = sign * CORNER * radius**2 * length
     point = tuple(start + rng.uniform(0.2, 0.8) * (end - start))
     return Case(mesh, lambda: fs.fillet(mesh, point, radius), "FILLET_FACE", off, change, abs(change),
-                radius >= 2 * edge, 0.15)  # fmt: skip
+                radius >= 2 * edge, 0.15, lambda x: to_edge(x) < 1e-6 * np.ptp(mesh.points))  # fmt: skip
 
 
 def circular(mesh, z, rim, up, sign, room, rng):
@@ -107,7 +110,7 @@ def circular(mesh, z, rim, up, sign, room, rng):
     angle = rng.uniform(0, 2 * np.pi)
     place = (rim * np.cos(angle), rim * np.sin(angle), z)
     return Case(mesh, lambda: fs.fillet(mesh, place, radius), "FILLET_FACE", off, change, abs(change),
-                False, 0.15)  # fmt: skip
+                False, 0.15, lambda x: to_edge(x) < 1e-6 * np.ptp(mesh.points))  # fmt: skip
 
 
 def box_edge(mesh, size, turn, rng):
@@ -122,6 +125,111 @@ def box_edge(mesh, size, turn, rng):
     end = start + np.eye(3)[axis] * size[axis]
     room = min(size[k] for k in others)
     return straight(mesh, turn @ start, turn @ end, turn @ ways[0], turn @ ways[1], room, -1, rng)
+
+
+def concave_shape(rng):
+    """An L shape turned anyhow: the mesh, its elements' middles before, in edges, the corner, how many edges long."""
+    size, turn = rng.uniform(0.8, 1.25, 3), any_turn(rng)
+    counts, corner = (rng.integers(8, 13), rng.integers(8, 13), rng.integers(3, 7)), rng.integers(3, 5, 2)
+    plain = l_shape(tuple(counts), tuple(float(c) for c in counts), tuple(float(c) for c in corner))
+    mesh = fs.Mesh((plain.points * size) @ turn.T, plain.cells)
+    start, end = np.array([*corner, 0]) * size, np.array([*corner, counts[2]]) * size
+    room = min((counts[:2] - corner) * size[:2])
+    edge = (turn @ start, turn @ end, turn[:, 0], turn[:, 1], room, 1)
+    return mesh, plain.points[body(plain)].mean(axis=1).T, corner, counts[2], edge
+
+
+def bordered(rng):
+    mesh, (x, y, z), (a, b), length, edge = concave_shape(rng)
+    across = rng.integers(1, length)
+    part = np.zeros(len(x), int)
+    kind = rng.integers(6)
+    if kind == 0:  # a knee and two arms
+        part = np.where(x > a, 1, 0) + np.where(y > b, 2, 0)
+    elif kind == 1:  # a plate, and what stands on it
+        part = np.where(y > b, 1, 0)
+    elif kind == 2:
+        part = np.where(x > a, 1, 0)
+    elif kind == 3:  # and a border of the plate alone
+        part = np.where(y > b, 1, np.where(z > across, 2, 0))
+    elif kind == 4:  # for a part of the length
+        part = np.where((x > a) & (z > across), 1, 0)
+    else:  # a border across all
+        part = np.where(y > b, 1, 0) + np.where(z > across, 2, 0)
+    for k in np.unique(part):
+        mesh.add_group(f"PART_{k}", "element", mesh.cell_ids["tetra"][part == k])
+    return straight(mesh, *edge, rng)
+
+
+def ended(rng):
+    """In a wall, at the edge below one, or at the end of what stands on a plate."""
+    size, turn = rng.uniform(0.8, 1.25, 3), any_turn(rng)
+    counts = np.array([rng.integers(8, 12), rng.integers(8, 12), rng.integers(8, 12)])
+    a, b, c = corner = rng.integers(3, 5, 3)
+    box = grid_box(tuple(counts), tuple(float(n) for n in counts))
+    x, y, z = box.points[body(box)].mean(axis=1).T
+    kind = rng.integers(3)
+    room, sign = min((counts[:2] - corner[:2]) * size[:2]), 1
+    start, end, first, second = np.array(corner), np.array([a, b, counts[2]]), turn[:, 0], turn[:, 1]
+    if kind == 0:
+        kept = (x < a) | (y < b) | (z < c)
+    elif kind == 1:
+        kept = (x < a) | ((y < b) & (z > c))
+    else:
+        kept = (x < a) | (z < c)
+        start, end, first, second, sign = np.array([a, 0, c]), np.array([counts[0], 0, c]), turn[:, 1], -turn[:, 2], -1
+        room = min(c * size[2], counts[1] * size[1])
+    used, nodes = np.unique(body(box)[kept], return_inverse=True)
+    mesh = fs.Mesh((box.points[used] * size) @ turn.T, {"tetra": nodes.reshape(-1, 4)})
+    if rng.integers(2):
+        middle = box.points[body(box)][kept].mean(axis=1)
+        part = middle[:, 2] > c if kind < 2 else middle[:, 0] > a
+        for k in (0, 1):
+            mesh.add_group(f"PART_{k}", "element", mesh.cell_ids["tetra"][part == k])
+    return straight(mesh, turn @ (start * size), turn @ (end * size), first, second, room, sign, rng)
+
+
+def corner(rng):
+    """Edges of a box that meet."""
+    if rng.integers(3):
+        counts, turn = rng.integers(4, 10, 3), any_turn(rng)
+        size = counts * rng.uniform(0.8, 1.25, 3)
+        plain = grid_box(tuple(counts), tuple(size))
+        mesh = fs.Mesh(plain.points @ turn.T, plain.cells)
+    else:
+        mesh, size, turn = read("two_boxes", rng), np.array([20.0, 10.0, 10.0]), np.eye(3)
+    ends = rng.integers(0, 2, 3)  # the corner
+    every = [(axis, i, j) for axis in range(3) for i in (0, 1) for j in (0, 1)]
+    at = [(axis, *np.delete(ends, axis)) for axis in range(3)]
+    edges = [at[:2], at, [e for e in every if e[0] != 2 and e[2] == ends[2]], every][rng.integers(4)]
+    edge = edge_length_near(mesh, lambda p: np.abs(p @ turn - ends * size)[:, :2].max(axis=1))
+    radius = log_uniform(rng, 0.5 * edge, min(6 * edge, 0.42 * size.min()))
+
+    def line(e):
+        axis, *sides = e
+        start = np.insert(np.array(sides, float), axis, 0) * size
+        return start, start + np.eye(3)[axis] * size[axis]
+
+    def off(points):
+        local = points @ turn
+        core = np.clip(local, radius, size - radius)
+        if len(edges) == 3:  # that run out at their other ends
+            core = np.where(ends, np.minimum(local, size - radius), np.maximum(local, radius))
+        distances = [np.linalg.norm(local - core, axis=1) - radius]
+        if len(edges) in (2, 4):
+            distances = [np.linalg.norm(np.delete(local - core, e[0], axis=1), axis=1) - radius for e in edges]
+        return np.abs(distances).min(axis=0)
+
+    lengths = [size[e[0]] for e in edges]
+    if len(edges) in (2, 4):
+        corners = 1 if len(edges) == 2 else 4
+        change = CORNER * radius**2 * sum(lengths) - corners * (5 / 3 - np.pi / 2) * radius**3
+    else:
+        corners = 1 if len(edges) == 3 else 8
+        change = CORNER * radius**2 * (sum(lengths) - 3 * corners * radius) + corners * (1 - np.pi / 6) * radius**3
+    points = [tuple(turn @ (0.5 * sum(line(e)))) for e in edges]
+    return Case(mesh, lambda: fs.fillet(mesh, points, radius), "FILLET_FACE", off, -change, change,
+                radius >= 2 * edge, 0.15)  # fmt: skip
 
 
 def any_turn(rng):
@@ -213,7 +321,7 @@ def wall(rng):
                 by * area, abs(by * area), True, min(0.2, worst(mesh)))  # fmt: skip
 
 
-KINDS = {f.__name__: f for f in (convex, concave, hole, wall)}
+KINDS = {f.__name__: f for f in (convex, concave, bordered, ended, corner, hole, wall)}
 
 
 def points_of(mesh, name):
@@ -224,10 +332,12 @@ def points_of(mesh, name):
     return mesh.points[np.unique(np.concatenate(nodes))]
 
 
-def change_elsewhere(before, after, report):
-    """The largest relative change of the measure of a group none of whose nodes went or moved."""
+def change_elsewhere(before, after, report, at):
+    """The largest relative change of the measure of a group none of whose nodes went or moved, or is `at` the edge."""
     kept = dict(zip(after.node_ids.tolist(), after.points.tolist()))
     same = np.array([kept.get(n) == p for n, p in zip(before.node_ids.tolist(), before.points.tolist())])
+    if at:
+        same &= ~at(before.points)
     numbers, most = before.node_ids[same], 0
     for g in report.groups:
         if g.kind != "element" or not g.measure_before or g.name not in before.groups:
@@ -270,7 +380,7 @@ def one(kind, seed):
     out.good = out.quality >= case.goal
     out.off = np.abs(case.distance(points_of(after, case.new_group))).max() / size
     out.volume = abs(volume(after) - volume(case.mesh) - case.change) / case.change_size
-    out.elsewhere = change_elsewhere(case.mesh, after, result.report)
+    out.elsewhere = change_elsewhere(case.mesh, after, result.report, case.at)
     if out.off > 1e-9:
         out.problem = f"nodes are {out.off:.1e} of the size off the surface"
     elif out.elsewhere > 1e-9:

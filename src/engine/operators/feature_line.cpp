@@ -234,37 +234,54 @@ std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
     return skin;
 }
 
-void check_ends(const Mesh& mesh, const FeatureLine& line, const std::vector<std::array<Index, 3>>& skin) {
-    if (line.closed) return;
-    const std::size_t last = line.nodes.size() - 1;
-    for (const auto& [node, before] :
-         {std::pair(line.nodes[0], line.nodes[1]), std::pair(line.nodes[last], line.nodes[last - 1])}) {
-        const Vec3& end = mesh.points[node];
-        const Vec3 onwards = (end - mesh.points[before]).normalized();
-        Vec3 plane = Vec3::Zero();
-        bool runs_out = true;
-        std::vector<Face> around;
-        std::ranges::copy_if(skin, std::back_inserter(around),
-                             [&, node = node](const Face& f) { return std::ranges::find(f, node) != f.end(); });
-        for (const Face& f : around) {
-            const Vec3 n = normal(mesh, f);
-            if (n.dot(onwards) < 0.3) continue;
+namespace {
+
+/// The end of a line at `node`, before which is `before`; `beside`: the faces at its last edge.
+LineEnd line_end(const Mesh& mesh, const std::vector<Face>& around, Index node, Index before,
+                 const std::array<Face, 2>& beside) {
+    const Vec3& end = mesh.points[node];
+    const Vec3 onwards = (end - mesh.points[before]).normalized();
+    Vec3 plane = Vec3::Zero(), wall = Vec3::Zero();
+    bool runs_out = true, stands = true;
+    for (const Face& f : around) {
+        const Vec3 n = normal(mesh, f);
+        if (n.dot(onwards) >= 0.3) {
             if (plane.isZero()) plane = n;
             runs_out = runs_out && (n - plane).norm() <= 1e-6;
         }
-        for (const Face& f : around)
-            for (const Index n : f) {
-                const Vec3 to = mesh.points[n] - end;
-                runs_out = runs_out && !plane.isZero() && to.dot(plane) <= 1e-6 * to.norm();
-            }
-        if (runs_out) continue;
-        std::ostringstream message;
-        message << "along: the edge ends at (" << end.transpose()
-                << ") in another way than at one plane face of the part, through which its rounding could run out: its "
-                   "faces go on beyond it, a wall stands across it, or several faces or a curved one meet there. Such "
-                   "ends cannot be rounded yet";
-        throw ToolError(message.str(), "along");
+        if (n.dot(onwards) <= -0.3 && wall.isZero()) wall = n;
+        stands = stands && ((n - wall).norm() <= 1e-6 || std::ranges::any_of(beside, [&](const Face& b) {
+                                return (n - normal(mesh, b)).norm() <= 0.1;
+                            }));
     }
+    for (const Face& f : around)
+        for (const Index n : f) {
+            const Vec3 to = mesh.points[n] - end;
+            runs_out = runs_out && !plane.isZero() && to.dot(plane) <= 1e-6 * to.norm();
+            stands = stands && !wall.isZero() && to.dot(wall) >= -1e-6 * to.norm();
+        }
+    if (runs_out) return LineEnd::plane;
+    const Vec3 inwards = normal(mesh, beside[0]);
+    const bool concave = std::ranges::any_of(
+        beside[1], [&](Index n) { return (mesh.points[n] - end).dot(inwards) > 1e-6 * (mesh.points[n] - end).norm(); });
+    return stands && concave ? LineEnd::wall : LineEnd::open;
+}
+
+}  // namespace
+
+std::array<LineEnd, 2> line_ends(const Mesh& mesh, const FeatureLine& line,
+                                 const std::vector<std::array<Index, 3>>& skin) {
+    std::array<LineEnd, 2> out{LineEnd::plane, LineEnd::plane};
+    if (line.closed) return out;
+    for (const int which : {0, 1}) {
+        const std::size_t last = line.nodes.size() - 1;
+        const Index node = line.nodes[which == 0 ? 0 : last], before = line.nodes[which == 0 ? 1 : last - 1];
+        std::vector<Face> around;
+        std::ranges::copy_if(skin, std::back_inserter(around),
+                             [&](const Face& f) { return std::ranges::find(f, node) != f.end(); });
+        out[which] = line_end(mesh, around, node, before, which == 0 ? line.faces.front() : line.faces.back());
+    }
+    return out;
 }
 
 std::vector<FeatureLine> find_feature_lines(const Mesh& mesh, const Along& along, double feature_angle) {

@@ -29,9 +29,17 @@ struct FeatureLine {
 /// Triangles of the skin of the mesh's tetrahedra, by corners, normals outwards.
 std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh);
 
-/// Throws ToolError (parameter "along") where an end of an open line is not one at which something that is swept along
-/// it can run out of the part: in one plane face, beyond which none of the faces there goes on.
-void check_ends(const Mesh& mesh, const FeatureLine& line, const std::vector<std::array<Index, 3>>& skin);
+/// How a feature line ends, for what is swept along it.
+enum class LineEnd {
+    plane,   ///< in a plane face, through which it runs out of the part: none of the faces there goes on beyond
+    wall,    ///< a concave line in a plane face that stands across it, and in which it ends
+    open,    ///< in another way: its faces go on, several others or a curved one meet there
+    joined,  ///< at a corner where it is joined to other lines; never found by line_ends()
+};
+
+/// Those at the beginning and the end of an open line.
+std::array<LineEnd, 2> line_ends(const Mesh& mesh, const FeatureLine& line,
+                                 const std::vector<std::array<Index, 3>>& skin);
 
 /// The feature lines (edges of the skin sharper than `feature_angle`, degrees) that `along` names, each as long as it
 /// goes on smoothly. Throws ToolError (parameter "along") when there is no such group or node, or no feature line

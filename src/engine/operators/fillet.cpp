@@ -2,10 +2,13 @@
 #include "operators/fillet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 
 #include "cutting/checks.h"
@@ -14,10 +17,12 @@
 #include "cutting/retry.h"
 #include "cutting/snap.h"
 #include "deformation/curved_shape.h"
+#include "mesh/union_find.h"
 #include "operators/driver.h"
 #include "operators/fillet_cavity.h"
 #include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
+#include "operators/fillet_vertex.h"
 
 namespace femscalpel {
 namespace {
@@ -25,6 +30,8 @@ namespace {
 /// Longest edges over the arc's length; most are shorter by a third after bisection, so that there are four and more.
 constexpr double longest_over_arc = 1 / 3.2;
 constexpr int fillet_attempts = 8;
+/// Smallest mean ratio of what is filled from which on nothing else is tried.
+constexpr double good_enough = 0.2;
 
 /// Zero within some distance of an edge, so that everything there is in the band.
 class Surroundings final : public Tool {
@@ -63,15 +70,10 @@ public:
         }
         check_apart();
         for (const Rounding& r : roundings_)
-            for (const int side : {0, 1}) {
-                // With a tag: improving elements must keep these faces.
-                Blade blade{&r.path->wall(side), {}, {}, static_cast<int>(blades_.size())};
-                blade.bound = [&path = *r.path, reach = r.reach, side](const Vec3& x) {
-                    return std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
-                };
-                if (side == 1) blade.inside.push_back(&r.path->wall(0));
-                blades_.push_back(std::move(blade));
-            }
+            for (const int side : {0, 1}) add_wall(r, side);
+        for (const Rounding& r : roundings_)
+            for (const int which : {0, 1})
+                if (!plane_ && r.path->end_kind(which) == LineEnd::open) add_end(*r.path, which);
         for (const Rounding& r : roundings_) surroundings_.push_back({r.surroundings.get(), {}, {}, -1});
     }
 
@@ -97,6 +99,7 @@ public:
     Naming naming() const override {
         Naming out;
         out.groups.push_back({options_.name + "_FACE"});
+        if (has_ends_) out.groups.push_back({options_.name + "_END"});
         return out;
     }
 
@@ -119,28 +122,11 @@ public:
         auto& edges = f.d.band.cut_edges;
         for (int s = 0; s < edges.size(); ++s)
             if (edges.alive(s)) edges.remove(s);
-        std::map<std::uint64_t, Vec3> middles;
-        for (const Rounding& r : roundings_) {
-            if (plane_) {
-                FilletCorner(f, site.mesh, *r.path, r.reach).replace(0);
-                continue;
-            }
-            FilletCavity cavity(f, site.mesh, *r.path, r.reach);
-            cavity.replace(0);
-            middles.insert(cavity.middles().begin(), cavity.middles().end());
-        }
-        if (!middles.empty())
-            f.mid_side = [&f, middles](int a, int b) {
-                const auto known = middles.find(edge_key(a, b));
-                return known == middles.end() ? mid_side(f.d, a, b).at : known->second;
-            };
-        for (int v = 0; v < f.d.band.size(); ++v) {
-            Contact on;
-            for (const Rounding& r : roundings_)
-                if (f.d.contact[v].has(&r.path->ball())) on = on.with(&r.path->ball());
-            f.d.contact[v] = on;
-            if (!on) f.d.held_off[v] = 0;
-        }
+        if (plane_)
+            for (const Rounding& r : roundings_) FilletCorner(f, site.mesh, *r.path, r.reach).replace(0);
+        else
+            replace(f, site.mesh);
+        finish_contacts(f);
         check_shape(f, site.mesh);
         find_node_sets(f);
         check_contacts(f);
@@ -148,32 +134,204 @@ public:
     }
 
 private:
-    void find_edges(const Mesh& mesh, const Along& along, double radius) {
-        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
-        for (const FeatureLine& line : find_feature_lines(mesh, along, options_.feature_angle)) {
-            check_ends(mesh, line, skin);
-            roundings_.push_back({std::make_unique<FilletPath>(mesh, line, radius, skin), 0, nullptr});
-            if (line.extended)
-                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
+    /// Edges that meet, or are near each other, at once.
+    void replace(Workpiece& f, const Mesh& mesh) const {
+        UnionFind meeting(roundings_.size());
+        for (const FilletVertex& v : vertices_)
+            for (const auto& m : v.members)
+                meeting.unite(static_cast<int>(v.members[0].edge), static_cast<int>(m.edge));
+        for (std::size_t k = 0; k < roundings_.size(); ++k)
+            for (std::size_t j = 0; j < k; ++j)
+                if (are_near(roundings_[k], roundings_[j])) meeting.unite(static_cast<int>(k), static_cast<int>(j));
+        std::map<int, std::vector<std::size_t>> cavities;
+        for (std::size_t k = 0; k < roundings_.size(); ++k) cavities[meeting.find(static_cast<int>(k))].push_back(k);
+        std::map<std::uint64_t, Vec3> middles;
+        for (const auto& [first, members] : cavities) {
+            std::vector<FilletReach> edges;
+            for (const std::size_t k : members) edges.push_back({roundings_[k].path.get(), roundings_[k].reach});
+            std::vector<FilletVertex> vertices;
+            for (const FilletVertex& v : vertices_) {
+                if (meeting.find(static_cast<int>(v.members[0].edge)) != first) continue;
+                vertices.push_back(v);
+                for (auto& m : vertices.back().members)
+                    m.edge = static_cast<std::size_t>(std::ranges::find(members, m.edge) - members.begin());
+                if (v.is_mitre())
+                    for (const int k : {0, 1}) {
+                        const auto &one = vertices.back().members[k], &other = vertices.back().members[1 - k];
+                        edges[one.edge].next[one.which] = edges[other.edge].path;
+                    }
+            }
+            replace(f, mesh, edges, vertices, middles);
+        }
+        if (!middles.empty())
+            f.mid_side = [&f, middles](int a, int b) {
+                const auto known = middles.find(edge_key(a, b));
+                return known == middles.end() ? mid_side(f.d, a, b).at : known->second;
+            };
+    }
+
+    /// Where elements come out poor, or none can be made, the arc is divided in other ways.
+    static void replace(Workpiece& f, const Mesh& mesh, std::span<const FilletReach> edges,
+                        const std::vector<FilletVertex>& vertices, std::map<std::uint64_t, Vec3>& middles) {
+        const Workpiece before = f;
+        double best = -1;
+        std::exception_ptr failure;
+        std::map<std::uint64_t, Vec3> bent;
+        for (const int more : {0, 2, -2, 4}) {
+            Workpiece trial = before;
+            try {
+                FilletCavity cavity(trial, mesh, edges, vertices);
+                const double worst = cavity.replace(0, more);
+                if (worst <= best) continue;
+                best = worst;
+                bent = cavity.middles();
+            } catch (const QualityError&) {
+                if (!failure) failure = std::current_exception();
+                continue;
+            }
+            f = std::move(trial);
+            if (best >= good_enough) break;
+        }
+        if (best < 0) std::rethrow_exception(failure);
+        middles.insert(bent.begin(), bent.end());
+    }
+
+    /// Nodes keep contact with the new faces only.
+    void finish_contacts(Workpiece& f) const {
+        std::set<const Tool*> balls;
+        for (const Rounding& r : roundings_) balls.insert(&r.path->ball());
+        for (const FilletVertex& v : vertices_) balls.insert(v.sphere.get());
+        for (int v = 0; v < f.d.band.size(); ++v) {
+            Contact on;
+            for (const Tool* t : f.d.contact[v].tools())
+                if (balls.contains(t)) on = on.with(t);
+            f.d.contact[v] = on;
+            if (!on) f.d.held_off[v] = 0;
         }
     }
 
-    /// What is replaced around one edge must not reach that of another.
+    void find_edges(const Mesh& mesh, const Along& along, double radius) {
+        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
+        const std::vector<FeatureLine> lines = find_feature_lines(mesh, along, options_.feature_angle);
+        vertices_ = find_vertices(mesh, lines, skin);
+        std::vector<const FilletPath*> paths;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            FilletEnds ends{line_ends(mesh, lines[k], skin)};
+            for (const FilletVertex& v : vertices_)
+                for (const auto& m : v.members) {
+                    if (m.edge != k) continue;
+                    ends.kind[m.which] = LineEnd::joined;
+                    ends.to_centre[m.which] = v.to_centre;
+                }
+            roundings_.push_back({std::make_unique<FilletPath>(mesh, lines[k], radius, skin, ends), 0, nullptr});
+            paths.push_back(roundings_.back().path.get());
+            if (lines[k].extended)
+                warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
+        }
+        for (FilletVertex& v : vertices_) v.join(paths);
+    }
+
+    /// Whether an edge meets others at a corner that is not right-angled.
+    bool ends_at_slant(const FilletPath& path) const {
+        return std::ranges::any_of(vertices_, [&](const FilletVertex& v) {
+            return !v.right_angled && std::ranges::any_of(v.members, [&](const auto& m) {
+                return roundings_[m.edge].path.get() == &path;
+            });
+        });
+    }
+
+    /// A surface to be cut along. Those of edges that meet may be one: nodes lie on three at most.
+    void add_wall(const Rounding& r, int side) {
+        const FilletPath& path = *r.path;
+        const auto bound = [&path, reach = r.reach, side, shallow = ends_at_slant(path)](const Vec3& x) {
+            const double across = std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
+            if (!shallow) return across;
+            // Six walls would meet in the ball's centre: they part what is near the skin, and no more.
+            return std::max(across, 5 * std::abs(path.place(x).p.dot(path.normal(side))));
+        };
+        const auto same = [&](const Blade& blade) {
+            if (roundings_.size() == 1 || !path.is_straight()) return false;
+            const Vec2 &p = path.tangent_point(side), &q = path.normal(side);
+            const double off = 1e-9 * (path.length() + path.radius());
+            return std::ranges::all_of(std::array{path.at(path.begin(), p), path.at(path.end(), p),
+                                                  path.at(path.begin(), p + path.radius() * q)},
+                                       [&](const Vec3& x) {
+                                           return std::abs(blade.tool->distance(x)) <= off &&
+                                                  blade.tool->normal(x).dot(path.wall(side).normal(x)) > 0.999;
+                                       });
+        };
+        const auto found = std::ranges::find_if(blades_, same);
+        if (found != blades_.end()) {
+            found->inside.clear();
+            found->bound = [first = found->bound, bound](const Vec3& x) { return std::min(first(x), bound(x)); };
+            return;
+        }
+        // With a tag: improving elements must keep these faces.
+        Blade blade{&path.wall(side), bound, {}, static_cast<int>(blades_.size())};
+        if (side == 1) blade.inside.push_back(&path.wall(0));
+        blades_.push_back(std::move(blade));
+    }
+
+    /// The skin beside the edge is parted where its rounding stops.
+    void add_end(const FilletPath& path, int which) {
+        has_ends_ = true;
+        const Vec3 tip = path.at(which == 0 ? path.begin() : path.end(), Vec2::Zero());
+        Blade blade{&path.end_plane(which), {}, {&path.wall(0), &path.wall(1)}, static_cast<int>(blades_.size())};
+        blade.bound = [tip, reach = 1.05 * path.tangent_length()](const Vec3& x) { return (x - tip).norm() - reach; };
+        blades_.push_back(std::move(blade));
+        std::ostringstream message;
+        message << "the edge ends at a corner where its rounding cannot run out: it stops at (" << tip.transpose()
+                << ") in a face across it, in the group " << options_.name << "_END";
+        warnings_.push_back(message.str());
+    }
+
+    /// Whether a point is, but for a margin, in what one edge's rounding takes off or adds.
+    static bool is_rounded(const FilletPath& path, const Vec3& x) {
+        const auto [s, p] = path.place(x);
+        const double margin = 0.02 * path.radius(), sign = path.convex() ? -1 : 1;
+        if (!path.closed() && (s < path.begin() - margin || s > path.end() + margin)) return false;
+        for (const int side : {0, 1})
+            if (path.wall(side).distance(x) > margin || sign * p.dot(path.normal(side)) < -margin) return false;
+        return (p - path.centre()).norm() >= path.radius() - margin;
+    }
+
+    /// Throws where roundings touch, but for those of edges that meet.
     void check_apart() const {
+        const auto meet = [&](std::size_t k, std::size_t j) {
+            return std::ranges::any_of(vertices_, [&](const FilletVertex& v) {
+                const auto has = [&](std::size_t e) {
+                    return std::ranges::any_of(v.members, [&](const auto& m) { return m.edge == e; });
+                };
+                return has(j) && has(k);
+            });
+        };
         for (std::size_t k = 0; k < roundings_.size(); ++k)
             for (std::size_t j = 0; j < roundings_.size(); ++j) {
+                if (j == k || meet(k, j)) continue;
                 const FilletPath &path = *roundings_[k].path, &other = *roundings_[j].path;
-                const double reach = path.rounded_reach() + other.rounded_reach();
-                const int steps = static_cast<int>(std::ceil(path.length() / (0.5 * path.radius())));
-                for (int i = 0; i <= steps && j != k; ++i) {
-                    const Vec3 x = path.at(path.begin() + path.length() * i / std::max(steps, 1), Vec2::Zero());
-                    if (other.distance(x, 0) > reach) continue;
-                    std::ostringstream message;
-                    message << "along: edges that meet, or are so near each other that their roundings would touch, as "
-                            << "at (" << x.transpose() << "), cannot be rounded yet";
-                    throw ToolError(message.str(), "along");
-                }
+                const int steps = static_cast<int>(std::ceil(path.length() / (0.25 * path.radius())));
+                for (int i = 0; i <= steps; ++i)
+                    for (int part = 0; part <= 8; ++part) {
+                        const double s = path.begin() + path.length() * i / std::max(steps, 1);
+                        const Vec3 x = path.at(s, path.arc(path.arc_angle() * part / 8));
+                        if (!is_rounded(other, x)) continue;
+                        std::ostringstream message;
+                        message << "along: edges are so near each other that their roundings would touch, as at ("
+                                << x.transpose() << "): round them by a smaller radius, or one after the other";
+                        throw ToolError(message.str(), "along");
+                    }
             }
+    }
+
+    /// Whether what is replaced around two edges may touch.
+    static bool are_near(const Rounding& one, const Rounding& other) {
+        const FilletPath& path = *one.path;
+        const int steps = static_cast<int>(std::ceil(path.length() / (0.5 * path.radius())));
+        for (int i = 0; i <= steps; ++i) {
+            const Vec3 x = path.at(path.begin() + path.length() * i / std::max(steps, 1), Vec2::Zero());
+            if (other.path->distance(x, 0) <= 1.5 * (one.reach + other.reach)) return true;
+        }
+        return false;
     }
 
     void find_corners(const Mesh& mesh, const Along& along, double radius) {
@@ -193,7 +351,9 @@ private:
 
     const FilletOptions& options_;
     bool plane_ = false;  // a mesh of triangles, with corners
+    bool has_ends_ = false;
     std::vector<Rounding> roundings_;
+    std::vector<FilletVertex> vertices_;
     std::vector<Blade> blades_, surroundings_;
     std::vector<std::string> warnings_;
 };

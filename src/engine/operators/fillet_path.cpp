@@ -58,18 +58,42 @@ private:
     const FilletPath& path_;
 };
 
+/// Across the edge at an end.
+class EndPlane final : public Tool {
+public:
+    EndPlane(const FilletPath& path, int which) {
+        const double s = which == 0 ? path.begin() : path.end(), step = (which == 0 ? -1 : 1) * path.mean_edge() / 4;
+        origin_ = path.at(s, Vec2::Zero());
+        normal_ = (path.at(s + step, Vec2::Zero()) - path.at(s - step, Vec2::Zero())).normalized();
+    }
+    std::string kind() const override { return "plane"; }
+    double distance(const Vec3& x) const override { return normal_.dot(x - origin_); }
+    Vec3 normal(const Vec3&) const override { return normal_; }
+    double feature_size() const override { return std::numeric_limits<double>::infinity(); }
+
+private:
+    Vec3 origin_, normal_;
+};
+
 }  // namespace
 
 FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
-                       const std::vector<std::array<Index, 3>>& skin)
-    : closed_(line.closed), radius_(radius) {
+                       const std::vector<std::array<Index, 3>>& skin, const FilletEnds& ends)
+    : closed_(line.closed), radius_(radius), ends_(ends.kind) {
     std::vector<Vec3> points;
     points.reserve(line.nodes.size() + 1);
     for (const Index n : line.nodes) points.push_back(mesh.points[n]);
     if (closed_) points.push_back(points.front());
     fit(points);
     find_faces(mesh, line);
-    check_room(mesh, skin);
+    const SkinNear near = skin_near(mesh, skin);
+    for (const int which : {0, 1}) {
+        if (closed_) break;
+        if (ends_[which] == LineEnd::open) stop_at_corner(which, near);
+        if (ends_[which] == LineEnd::joined) cut_back_at(which, ends.to_centre[which]);
+        end_planes_[which] = std::make_unique<EndPlane>(*this, which);
+    }
+    check_room(near);
 }
 
 FilletPath::FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex,
@@ -189,7 +213,7 @@ Vec3 FilletPath::at(const Piece& piece, double s, const Vec2& p) const {
 
 FilletPath::Place FilletPath::place(const Vec3& x) const {
     if (pieces_.size() == 1) return place_by(pieces_[0], x);
-    Place best{};
+    Place best{0, Vec2::Zero()};
     double nearest = std::numeric_limits<double>::infinity();
     for (const Piece& piece : pieces_) {
         const Place here = place_by(piece, x);
@@ -215,6 +239,13 @@ double FilletPath::distance(const Vec3& x, double beyond) const {
     if (closed_) return p.norm();
     const double past = std::max({0.0, begin_ - beyond - s, s - end_ - beyond});
     return std::hypot(p.norm(), past);
+}
+
+bool FilletPath::is_beyond_end(const Vec3& x) const {
+    return std::ranges::any_of(std::array{0, 1}, [&](int which) {
+        return !closed_ && ends_[which] == LineEnd::open && end_planes_[which]->distance(x) > 0 &&
+               (which == 0 ? place(x).s <= begin_ + radius_ : place(x).s >= end_ - radius_);
+    });
 }
 
 void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
@@ -268,41 +299,93 @@ void FilletPath::set_faces(const Vec2& normal) {
     ball_ = std::make_unique<Ball>(*this);
 }
 
-void FilletPath::check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const {
-    // The largest tangent length that finds each face under the tangent point, at some places along the edge.
+/// The skin's triangles about the tangent lines.
+FilletPath::SkinNear FilletPath::skin_near(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const {
     Eigen::AlignedBox3d box;
     const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
-    const auto sample = [&](int k) { return begin_ + length() * (k + 0.5) / places; };
-    for (int k = 0; k < places; ++k)
-        for (const int side : {0, 1}) box.extend(at(sample(k), 1.02 * tangent_point(side)));
-    const double margin = 2 * sag_ + 1e-3 * tangent_length_;
+    for (int k = 0; k <= 2 * places; ++k)
+        for (const int side : {0, 1})
+            for (const double part : {0.0, 1.1})
+                box.extend(at(begin_ + length() * k / (2.0 * places), part * tangent_point(side)));
+    const double margin = room_margin();
     box.min().array() -= 2 * margin;
     box.max().array() += 2 * margin;
-    std::vector<std::array<Vec3, 3>> near;
+    SkinNear near;
     for (const auto& f : skin) {
         Eigen::AlignedBox3d own;
         for (const Index n : f) own.extend(mesh.points[n]);
         if (box.intersects(own)) near.push_back({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]});
     }
+    return near;
+}
+
+/// How far a face beside the edge is from a point across it, at that part of the way to the tangent line.
+double FilletPath::off_face(const SkinNear& near, int side, double s, double part) const {
+    check_cancelled();
+    const Vec3 x = at(s, part * tangent_point(side)),
+               n = (at(s, tangent_point(side) + normal_[side]) - at(s, tangent_point(side))).normalized();
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec3 weights;
+    for (const auto& t : near) {
+        if ((t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(n) < 0.8) continue;
+        nearest = std::min(nearest, (closest_on_triangle(t[0], t[1], t[2], x, weights) - x).norm());
+    }
+    return nearest;
+}
+
+/// Moves an end to the last place where both tangent lines lie on the faces, with what is between them and the edge.
+void FilletPath::stop_at_corner(int which, const SkinNear& near) {
+    const auto fits = [&](double s) {
+        return std::ranges::all_of(std::array{0, 1}, [&](int side) {
+            return std::ranges::all_of(std::array{0.4, 0.7, 1.0, 1.1},
+                                       [&](double part) { return off_face(near, side, s, part) <= room_margin(); });
+        });
+    };
+    const double end = which == 0 ? begin_ : end_, inwards = which == 0 ? 1 : -1, tiny = 0.02 * mean_edge_,
+                 step = mean_edge_ / 4;
+    if (fits(end + inwards * tiny)) return;
+    double low = tiny, high = tiny;  // from the end: where it does not fit, and where it does
+    do {
+        low = high;
+        high += step;
+        if (high > length() - step) {
+            std::ostringstream text;
+            text << radius_ << " is too large for the faces beside the edge, which ends at a corner: nowhere along it "
+                 << "do they reach as far as " << 1.1 * tangent_length_ << ", where they would be touched,";
+            refuse(text.str(), at(end, Vec2::Zero()), "radius");
+        }
+    } while (!fits(end + inwards * high));
+    for (int k = 0; k < 30; ++k) {
+        const double middle = (low + high) / 2;
+        (fits(end + inwards * middle) ? high : low) = middle;
+    }
+    (which == 0 ? begin_ : end_) = end + inwards * high;
+}
+
+void FilletPath::cut_back_at(int which, const Vec3& to_centre) {
+    const Vec3 tip = at(which == 0 ? begin_ : end_, Vec2::Zero());
+    if (!is_straight()) refuse("a curved edge that meets others at a corner is not rounded", tip, "along");
+    const Vec3 inwards = (which == 0 ? 1 : -1) * pieces_[0].tangent;
+    cut_back_[which] = (convex_ ? -radius_ : radius_) * to_centre.dot(inwards);
+}
+
+/// Each face must be found under the tangent point, at some places along the edge.
+void FilletPath::check_room(const SkinNear& near) const {
+    const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
+    const double begin = begin_ + std::max(0.0, cut_back_[0]), end = end_ - std::max(0.0, cut_back_[1]);
+    if (end - begin < 0.02 * length())
+        refuse("too large for an edge between corners, whose roundings would meet", at((begin + end) / 2, Vec2::Zero()),
+               "radius");
     for (int k = 0; k < places; ++k)
         for (const int side : {0, 1}) {
-            check_cancelled();
-            const double s = sample(k);
-            // Seen a little beyond the tangent line: a face must not end at it.
-            const Vec3 x = at(s, 1.02 * tangent_point(side)),
-                       n = (at(s, tangent_point(side) + normal_[side]) - at(s, tangent_point(side))).normalized();
+            const double s = begin + (end - begin) * (k + 0.5) / places;
             const bool past_axis = std::ranges::any_of(
                 pieces_, [&](const Piece& q) { return 1 + q.curvature * 1.02 * tangent_point(side).x() <= 0; });
             if (past_axis)
                 refuse("too large for a face beside the edge: the tangent line passes the axis", at(s, Vec2::Zero()),
                        "radius");
-            double nearest = std::numeric_limits<double>::infinity();
-            Vec3 weights;
-            for (const auto& t : near) {
-                if ((t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(n) < 0.8) continue;
-                nearest = std::min(nearest, (closest_on_triangle(t[0], t[1], t[2], x, weights) - x).norm());
-            }
-            if (nearest > margin) {
+            // Seen a little beyond the tangent line: a face must not end at it.
+            if (off_face(near, side, s, 1.02) > room_margin()) {
                 std::ostringstream text;
                 text << radius_ << " is too large for a face beside the edge, which ends, or is not what it is at the "
                      << "edge, before the distance of " << tangent_length_ << " at which it would be touched";

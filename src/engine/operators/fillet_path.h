@@ -12,6 +12,13 @@
 
 namespace femscalpel {
 
+/// How an edge that is rounded ends at its beginning and end.
+struct FilletEnds {
+    std::array<LineEnd, 2> kind{LineEnd::plane, LineEnd::plane};
+    /// Where it is joined to others: FilletVertex::to_centre.
+    std::array<Vec3, 2> to_centre{Vec3::Zero(), Vec3::Zero()};
+};
+
 /// An edge of straight pieces and arcs of circles, smoothly joined in one plane, and its two faces, straight in
 /// sections across it and the same in all: planes, and along arcs planes, cylinders and cones about the circle's axis.
 /// A ball that rolls along touches them at the tangent lines.
@@ -26,9 +33,11 @@ public:
         Vec2 p;
     };
 
-    /// Throws ToolError (parameter "along" or "radius") when the line is of another kind, or the ball too large for
-    /// its faces: `skin` is all of the mesh's.
-    FilletPath(const Mesh& mesh, const FeatureLine& line, double radius, const std::vector<std::array<Index, 3>>& skin);
+    /// At an open end the path stops where both tangent lines still lie on the faces. Throws ToolError (parameter
+    /// "along" or "radius") when the line is of another kind, or the ball too large for its faces: `skin` is all of the
+    /// mesh's.
+    FilletPath(const Mesh& mesh, const FeatureLine& line, double radius, const std::vector<std::array<Index, 3>>& skin,
+               const FilletEnds& ends = {});
 
     /// A corner of a plane mesh, like an edge of no length across it: `faces` are unit vectors from it along the
     /// outline, with the material on the left of the first as seen from where `normal` points to.
@@ -65,6 +74,14 @@ public:
     double end() const { return end_; }
     double length() const { return end_ - begin_; }
     double mean_edge() const { return mean_edge_; }
+    /// How it ends at its beginning (0) and end (1).
+    LineEnd end_kind(int which) const { return ends_[which]; }
+    /// Where it is joined to others: how far before its end the tangent lines on a face do; negative: beyond it.
+    double cut_back(int which) const { return cut_back_[which]; }
+    /// The plane across an end, negative on the edge's side.
+    const Tool& end_plane(int which) const { return *end_planes_[which]; }
+    /// Whether a point is beyond an open end.
+    bool is_beyond_end(const Vec3& x) const;
     /// How far the edge's segments may be off it.
     double sag() const { return sag_; }
 
@@ -89,7 +106,13 @@ private:
     Vec3 at(const Piece& piece, double s, const Vec2& p) const;
     void set_faces(const Vec2& normal);
     void find_faces(const Mesh& mesh, const FeatureLine& line);
-    void check_room(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
+    using SkinNear = std::vector<std::array<Vec3, 3>>;
+    SkinNear skin_near(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
+    double off_face(const SkinNear& near, int side, double s, double part) const;
+    double room_margin() const { return 2 * sag_ + 1e-3 * tangent_length_; }
+    void stop_at_corner(int which, const SkinNear& near);
+    void cut_back_at(int which, const Vec3& to_centre);
+    void check_room(const SkinNear& near) const;
 
     bool closed_ = false, convex_ = true;
     std::vector<Piece> pieces_;
@@ -100,6 +123,9 @@ private:
     Vec2 centre_ = Vec2::Zero(), to_first_ = Vec2::Zero(), across_ = Vec2::Zero();
     std::array<std::unique_ptr<Tool>, 2> walls_;
     std::unique_ptr<Tool> ball_;
+    std::array<LineEnd, 2> ends_{LineEnd::plane, LineEnd::plane};
+    std::array<double, 2> cut_back_{0, 0};
+    std::array<std::unique_ptr<Tool>, 2> end_planes_;
 };
 
 }  // namespace femscalpel

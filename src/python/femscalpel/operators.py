@@ -167,23 +167,27 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
 
     The new face is that of a ball which rolls along the edge and touches the faces on both sides: convex edges lose
     material, concave ones gain it. Its nodes lie on the cylinder (of a straight edge) or torus (of a circular one)
-    exactly. Where the edge ends at a plane face, the new face runs out through that. Elements between the edge and the
-    lines where the ball touches the faces are replaced by new ones, which are in the groups of those they replace; the
-    mesh is refined there first, to four elements over the arc at least. `mesh` itself is not changed.
+    exactly. Where the edge ends at a plane face, the new face runs out through that; a concave edge may also end in a
+    plane face that stands across it. At other corners the rounding stops where the faces still reach as far as the ball
+    touches them, in a flat face across the edge. Elements between the edge and the lines where the ball touches the
+    faces are replaced by new ones, which are in the groups of those they replace; where groups meet along a concave
+    edge, each gets half of what is added. Edges that meet at a corner of three plane faces are rounded at once: two,
+    between faces at the same angle, meet in a plane, as mitred; three in the triangle of a ball. The mesh is refined
+    there first, to four elements over the arc at least. `mesh` itself is not changed.
 
     Parameters
     ----------
     mesh : Mesh
         Tetrahedra near the edge, or a plane mesh of triangles, linear or quadratic.
     along : str, list or array of int, tuple of three numbers, or array of shape (n, 3)
-        The edge: a group of segments or nodes, numbers of nodes, or a point or points near feature lines of the skin.
+        The edges: a group of segments or nodes, numbers of nodes, or a point or points near feature lines of the skin.
         Each is rounded as far as it goes on without a corner. It must be straight or an arc of a circle, between
         planes, or cylinders and cones about the circle's axis. In a plane mesh of triangles, corners of its outline.
     radius : number
         Of the ball.
     name : str
-        Prefix of the new group ``name_FACE``: the triangles (segments, in a plane mesh) of the new face, normals out of
-        the material.
+        Prefix of the new groups: ``name_FACE``, the triangles (segments, in a plane mesh) of the new face, normals out
+        of the material; ``name_END``, those of flat faces in which it stops at corners.
     method, transition, feature_angle, strict, preserve, band_only, refine, skin
         As for :func:`crack`; `feature_angle` also says what is an edge.
 
@@ -195,9 +199,10 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
     Raises
     ------
     ToolError
-        The name is bad or taken, there is no such edge, or the radius is too large for the faces beside it.
+        The name is bad or taken, there is no such edge, a convex and a concave one meet, or the radius is too large for
+        the faces beside it.
     UnsupportedElementError, QualityError, Error, TypeError, ValueError
-        As for :func:`crack`; also where elements of different groups meet at the edge.
+        As for :func:`crack`; also where elements of different groups meet along a convex edge.
 
     Examples
     --------

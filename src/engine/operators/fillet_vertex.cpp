@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/fillet_vertex.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace femscalpel {
+namespace {
+
+[[noreturn]] void refuse(const Vec3& at, const std::string& text) {
+    std::ostringstream message;
+    message << "along: edges meet at (" << at.transpose() << "), " << text;
+    throw ToolError(message.str(), "along");
+}
+
+/// The normals of the faces at a node, those of one plane once.
+std::vector<Vec3> planes_at(const Mesh& mesh, Index node, const std::vector<std::array<Index, 3>>& around) {
+    std::vector<Vec3> normals;
+    for (const auto& f : around) {
+        const Vec3 n =
+            (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
+        if (std::ranges::none_of(normals, [&](const Vec3& m) { return (m - n).norm() < 1e-3; })) normals.push_back(n);
+        if (normals.size() > 3)
+            refuse(mesh.points[node],
+                   "where more than three faces do, or one that is not plane; only corners of "
+                   "three plane faces are rounded. Round the edges one after the other");
+    }
+    if (normals.size() < 3) refuse(mesh.points[node], "where there are less than three faces");
+    return normals;
+}
+
+}  // namespace
+
+std::vector<FilletVertex> find_vertices(const Mesh& mesh, std::span<const FeatureLine> lines,
+                                        const std::vector<std::array<Index, 3>>& skin) {
+    std::map<Index, std::vector<FilletVertex::Member>> ends;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        if (lines[k].closed) continue;
+        ends[lines[k].nodes.front()].push_back({k, 0});
+        ends[lines[k].nodes.back()].push_back({k, 1});
+    }
+    std::erase_if(ends, [](const auto& end) { return end.second.size() < 2; });
+    std::map<Index, std::vector<std::array<Index, 3>>> around;
+    for (const auto& f : skin)
+        for (const Index n : f)
+            if (ends.contains(n)) around[n].push_back(f);
+    std::vector<FilletVertex> out;
+    for (auto& [node, members] : ends) {
+        const std::vector<Vec3> normals = planes_at(mesh, node, around[node]);
+        Eigen::Matrix3d faces;
+        for (int k = 0; k < 3; ++k) faces.row(k) = normals[k];
+        if (std::abs(faces.determinant()) < 0.1)
+            refuse(mesh.points[node], "where the faces are too nearly in one plane for a ball to touch all three");
+        if (members.size() > 3) refuse(mesh.points[node], "more than three");
+        const Vec3 to_centre = faces.inverse() * Vec3::Ones();
+        const bool right_angled = (faces * faces.transpose()).isIdentity(1e-6);
+        out.push_back({mesh.points[node], to_centre, std::move(members), right_angled});
+    }
+    return out;
+}
+
+void FilletVertex::join(const std::vector<const FilletPath*>& paths) {
+    std::vector<Vec3> away;
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    Vec3 right = Vec3::Zero();
+    const FilletPath& first = *paths[members[0].edge];
+    for (const auto& [edge, which] : members) {
+        const FilletPath& path = *paths[edge];
+        if (path.convex() != first.convex())
+            refuse(at, "a convex and a concave one: these cannot be rounded at once. Round one after the other");
+        const Vec3 begin = path.at(path.begin(), path.centre()), end = path.at(path.end(), path.centre());
+        away.push_back((which == 0 ? end - begin : begin - end).normalized());
+        const Eigen::Matrix3d off = Eigen::Matrix3d::Identity() - away.back() * away.back().transpose();
+        sum += off;
+        right += off * begin;
+    }
+    centre = sum.inverse() * right;
+    if (!is_mitre()) {
+        across = away;
+        sphere = std::make_shared<Sphere>(centre, first.radius());
+        return;
+    }
+    if (std::abs(first.arc_angle() - paths[members[1].edge]->arc_angle()) > 1e-6)
+        refuse(at,
+               "between faces at different angles, and the third edge there is not rounded: the two do not meet in "
+               "a plane. Round all three, or one after the other");
+    const Vec3 normal = (away[0] - away[1]).normalized();
+    across = {normal, normal};
+}
+
+}  // namespace femscalpel
