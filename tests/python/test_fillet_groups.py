@@ -157,3 +157,14 @@ def test_a_border_beside_the_edge_is_a_refusal():
     mesh = grouped(l_shape(), {"NEAR": lambda x, y, z: x < 5, "FAR": lambda x, y, z: x > 5})
     with pytest.raises(fs.QualityError, match="a border of groups"):
         fs.fillet(mesh, [(4, 4, 2)], 2.0)
+
+
+def test_a_convex_edge_near_by():
+    """Rounded in one cavity; the borders along the concave one stay."""
+    mesh = grouped(l_shape(), KNEE)
+    result = fs.fillet(mesh, [(4, 4, 2), (8, 4, 2)], 1.0)
+    knee, foot, web = shares(mesh, result, KNEE)
+    assert knee == pytest.approx(0, abs=1e-9)
+    assert web == pytest.approx(RIGHT_ANGLE * 2, rel=0.03) and foot == pytest.approx(-RIGHT_ANGLE * 2, rel=0.03)
+    assert quality(result.mesh).min() >= 0.15
+    check_conforming(result.mesh)
