@@ -155,7 +155,7 @@ TEST(Fillet, MaterialThatGoesFallsIntoDomains) {
     EXPECT_NEAR(run.sections()[1].s, 1, 1e-12);
 }
 
-TEST(Fillet, BorderAlongAConvexEdgeIsARefusal) {
+TEST(Fillet, BorderBesideAConvexEdgeIsARefusal) {
     EXPECT_THROW(fillet(checks::two_halves(), {{}, {}, {{0, 1, 0}}}, 1.2), Error);
 }
 

@@ -5,7 +5,7 @@
 
 Each kind: `convex` and `concave` edges, straight and circular, of the test meshes and of blocks and L shapes turned
 anyhow (test meshes half of the time without their groups), the radius between half and six edge lengths where there
-is room; `bordered` concave edges of L shapes, along which and across which groups of elements meet in many ways;
+is room; `bordered` edges, along which and across which groups of elements meet in many ways;
 `ended` ones that end at a wall or in another way; `corner`s of boxes: two or three edges at one, four around a face,
 all twelve; a `hole` whose radius becomes 0.6 to 1.7 times the old; a `wall` that is moved by up to three edge lengths.
 A result is checked: one part, conforming, positive volumes. Printed: how many were refused; the smallest mean
@@ -140,6 +140,8 @@ def concave_shape(rng):
 
 
 def bordered(rng):
+    if rng.integers(4) == 0:
+        return bordered_convex(rng)
     mesh, (x, y, z), (a, b), length, edge = concave_shape(rng)
     across = rng.integers(1, length)
     part = np.zeros(len(x), int)
@@ -159,6 +161,19 @@ def bordered(rng):
     for k in np.unique(part):
         mesh.add_group(f"PART_{k}", "element", mesh.cell_ids["tetra"][part == k])
     return straight(mesh, *edge, rng)
+
+
+def bordered_convex(rng):
+    """A border through the edge, at times one across, too."""
+    counts, turn = rng.integers(5, 10, 3), any_turn(rng)
+    size = counts * rng.uniform(0.8, 1.25, 3)
+    plain = grid_box(tuple(counts), tuple(size))
+    mesh = fs.Mesh(plain.points @ turn.T, plain.cells)
+    x, y, z = (plain.points / size * counts)[body(plain)].mean(axis=1).T
+    part = np.where(y > z, 1, 0) + (np.where(x > counts[0] // 2, 2, 0) if rng.integers(2) else 0)
+    for k in np.unique(part):
+        mesh.add_group(f"PART_{k}", "element", mesh.cell_ids["tetra"][part == k])
+    return straight(mesh, np.zeros(3), turn[:, 0] * size[0], turn[:, 1], turn[:, 2], min(size[1:]), -1, rng)
 
 
 def ended(rng):

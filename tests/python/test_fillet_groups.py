@@ -157,3 +157,43 @@ def test_a_border_beside_the_edge_is_a_refusal():
     mesh = grouped(l_shape(), {"NEAR": lambda x, y, z: x < 5, "FAR": lambda x, y, z: x > 5})
     with pytest.raises(fs.QualityError, match="a border of groups"):
         fs.fillet(mesh, [(4, 4, 2)], 2.0)
+
+
+def test_a_convex_edge_near_by():
+    """Rounded in one cavity; the borders along the concave one stay."""
+    mesh = grouped(l_shape(), KNEE)
+    result = fs.fillet(mesh, [(4, 4, 2), (8, 4, 2)], 1.0)
+    knee, foot, web = shares(mesh, result, KNEE)
+    assert knee == pytest.approx(0, abs=1e-9)
+    assert web == pytest.approx(RIGHT_ANGLE * 2, rel=0.03) and foot == pytest.approx(-RIGHT_ANGLE * 2, rel=0.03)
+    assert quality(result.mesh).min() >= 0.15
+    check_conforming(result.mesh)
+
+
+@pytest.mark.parametrize("across", [False, True])
+@pytest.mark.parametrize("scale", [1.0, 1.4])
+@pytest.mark.parametrize("radius", [0.6, 1.5, 2.5])
+def test_a_border_along_a_convex_edge(radius, scale, across):
+    """It ends at the ball, in its plane; another may cross it."""
+    plain = grid_box((6, 4, 4), (6.0, 4.0, 4.0))
+    mesh = fs.Mesh(plain.points * (1, scale, 1), plain.cells)
+    groups = {
+        f"{name}_{half}": lambda x, y, z, name=name, half=half: ((y > scale * z) == (name == "LOW"))
+        & ((x > 3) == half if across else (half == 0) & (x > -1))
+        for name in ("LOW", "HIGH")
+        for half in ((0, 1) if across else (0,))
+    }
+    mesh = grouped(mesh, groups)
+    result = fs.fillet(mesh, [(2, 0, 0)], radius)
+    points = face_points(result.mesh)
+    assert np.abs(np.hypot(points[:, 1] - radius, points[:, 2] - radius) - radius).max() < 1e-8
+    gone = -shares(mesh, result, groups)
+    assert gone.sum() == pytest.approx(RIGHT_ANGLE * radius**2 * 6, rel=0.03)
+    if scale == 1:
+        assert gone == pytest.approx(gone.mean(), rel=0.02)
+    cells = dict(zip(result.mesh.cell_ids["tetra"].tolist(), result.mesh.points[result.mesh.cells["tetra"]]))
+    for name in groups:
+        x, y, z = np.concatenate([cells[n] for n in result.mesh.groups[name].ids.tolist()]).T
+        assert ((y - scale * z) * (1 if name.startswith("LOW") else -1)).min() > -1e-8
+    assert quality(result.mesh).min() >= 0.15
+    check_conforming(result.mesh)

@@ -19,16 +19,17 @@ struct FilletOptions : OperatorOptions {
 /// plane faces where the edge ends, or, concave, ends in one that stands across it. At another corner it stops at the
 /// last place where both sides still reach as far as it touches them, in a flat face across the edge. Elements between
 /// the edge and the tangent lines are replaced; new ones are in the groups of those they replace. Where groups meet
-/// along a concave edge, each gets half of what is added, up to a wall from the edge to the middle of the arc. The mesh
-/// is refined first to four elements over the arc at least.
+/// along a concave edge, each gets half of what is added, up to a wall from the edge to the middle of the arc; along a
+/// straight convex one, their plane border ends at the new face. The mesh is refined first to four elements over the
+/// arc at least.
 ///
 /// Edges that meet at a corner of three plane faces are rounded at once: two, between faces at the same angle, meet in
 /// a plane, as mitred; three in the triangle of a sphere.
 ///
 /// New groups: NAME_FACE, the triangles of the new face (normals out of the material), and NAME_END, those of flat
-/// faces in which it stops. Throws ToolError (parameter "along": no edge, or not of that kind, convex and
-/// concave ones that meet; "radius": too large for
-/// the faces), QualityError (no sound mesh, groups that meet along a convex edge) and what crack() throws.
+/// faces in which it stops. Throws ToolError (parameter "along": no edge, or not of that kind, convex and concave ones
+/// that meet; "radius": too large for the faces), QualityError (no sound mesh, groups that meet beside the edge) and
+/// what crack() throws.
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options = {},
               const Prepared& prepared = {});
 

@@ -83,11 +83,10 @@ void FilletCavity::add_new_faces(int tag) {
 
 /// Borders inside, that do not reach new material, stay where they are.
 void FilletCavity::keep_other_borders() {
-    const bool convex = std::ranges::any_of(runs_, [](const FilletRun& run) { return run.path().convex(); });
     for (const FilletMaterial::Border& b : material_.borders) {
         const Vec3& near = material_.at(b.nodes[0]);
         if (b.domain[0] == b.domain[1]) material_.refuse("a surface that is kept ends inside the material there", near);
-        if (convex)
+        if (std::ranges::any_of(b.nodes, [&](int v) { return material_.is_rounded_off(v); }))
             material_.refuse(
                 "a border of groups, or another surface that is kept, runs along the edge, or beside it, where "
                 "material is rounded off. Round the edge before the groups are made",

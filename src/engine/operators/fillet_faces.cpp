@@ -25,6 +25,7 @@ int FilletRun::wanted_divisions() const {
 
 void FilletRun::make_arcs(int divisions) {
     divisions_ = divisions;
+    middle_ = path_.convex() && halved() ? middle_level() : divisions_ / 2;
     for (Section& section : sections_) {
         if (section.arc.empty()) make_arc(section);
         if (section.ridge.empty() && halved()) make_ridge(section);
@@ -34,8 +35,9 @@ void FilletRun::make_arcs(int divisions) {
 void FilletRun::make_faces() {
     if (halved()) make_middle_row();
     for (const Section& section : sections_) link_patches(section);
+    if (halved() && path_.convex()) link_borders_along();
     mesh_arcs();
-    if (halved()) mesh_walls();
+    if (halved() && !path_.convex()) mesh_walls();
 }
 
 /// Where the line of the ball's surface through a section point meets the plane of a section.
@@ -55,13 +57,13 @@ double FilletRun::on_plane(const Vec2& p, const Section& section) const {
 void FilletRun::make_arc(Section& section) {
     section.arc.assign(static_cast<std::size_t>(divisions_) + 1, -1);
     for (int k = 0; k <= divisions_; ++k) {
-        const int side = 2 * k <= divisions_ ? 0 : 1;
-        if (!section.has(side) && !(2 * k == divisions_ && section.has(1))) continue;
+        const int side = k <= middle_ ? 0 : 1;
+        if (!section.has(side) && !(k == middle_ && section.has(1))) continue;
         if (k == 0 || k == divisions_) {
             section.arc[k] = rows_[side][section.in_row[side]];
             continue;
         }
-        const Vec2 p = path_.arc(path_.arc_angle() * k / divisions_);
+        const Vec2 p = path_.arc(angle_at(k));
         const Vec3 x = path_.at(on_plane(p, section), p);
         section.arc[k] = add_inner_node(m_.workpiece(), x, &path_.ball(), true, nodes_near(section, x));
     }
@@ -70,6 +72,10 @@ void FilletRun::make_arc(Section& section) {
 /// The nodes of a section on the wall between two shares of new material.
 void FilletRun::make_ridge(Section& section) {
     if (std::ranges::none_of(section.parts, [](const Part& p) { return p.side >= 0; })) return;
+    if (path_.convex()) {
+        make_trace(section);
+        return;
+    }
     const Sheet sheet = wall_sheet();
     section.ridge.push_back(section.corner);
     for (int k = 1; k < sheet.levels; ++k) {
@@ -77,7 +83,7 @@ void FilletRun::make_ridge(Section& section) {
         const Vec3 x = path_.at(on_plane(p, section), p);
         section.ridge.push_back(add_inner_node(m_.workpiece(), x, {}, true, nodes_near(section, x)));
     }
-    section.ridge.push_back(section.arc[divisions_ / 2]);
+    section.ridge.push_back(section.arc[middle_]);
 }
 
 /// Closes the outlines of a section's patches.
@@ -86,11 +92,11 @@ void FilletRun::link_patches(const Section& section) {
         if (patch < 0) continue;
         std::vector<int> link = section.arc;
         if (side == 0) {
-            link.resize(static_cast<std::size_t>(divisions_ / 2) + 1);
+            link.resize(static_cast<std::size_t>(middle_) + 1);
             link.insert(link.end(), section.ridge.rbegin() + 1, section.ridge.rend());
         } else if (side == 1) {
             link.assign(section.ridge.begin(), section.ridge.end() - 1);
-            link.insert(link.end(), section.arc.begin() + divisions_ / 2, section.arc.end());
+            link.insert(link.end(), section.arc.begin() + middle_, section.arc.end());
         }
         patches_[patch].links.push_back(std::move(link));
         if (!patches_[patch].free) continue;
@@ -145,7 +151,7 @@ double FilletRun::spacing_along() const {
 /// would be far off the arc.
 FilletRun::Sheet FilletRun::arc_sheet() const {
     const double step = path_.arc_length() / divisions_, spacing = spacing_along();
-    return {[this](double s, double level) { return path_.at(s, path_.arc(path_.arc_angle() * level / divisions_)); },
+    return {[this](double s, double level) { return path_.at(s, path_.arc(angle_at(level))); },
             &path_.ball(),
             divisions_,
             step,
@@ -168,7 +174,7 @@ FilletRun::Sheet FilletRun::wall_sheet() const {
 
 /// Nodes on the middle of the arc, where its halves meet.
 void FilletRun::make_middle_row() {
-    const Vec2 p = path_.arc(path_.arc_angle() / 2);
+    const Vec2 p = path_.arc(angle_at(middle_));
     const auto add = [&](double begin, double length, int from, int count) {
         for (int k = from; k < count; ++k) {
             const Vec3 x = path_.at(begin + length * k / count, p);
@@ -179,12 +185,12 @@ void FilletRun::make_middle_row() {
     if (sections_.empty()) add(0, path_.length(), 0, std::max(4, count(path_.length())));
     for (std::size_t k = 0; k < sections_.size(); ++k) {
         sections_[k].in_row[2] = rows_[2].size();
-        const int middle = sections_[k].arc[divisions_ / 2];
+        const int middle = sections_[k].arc[middle_];
         rows_[2].push_back(middle);
         if (k + 1 == sections_.size() && !path_.closed()) break;
         const Section& next = sections_[(k + 1) % sections_.size()];
         const double begin = place(middle).s;
-        double length = place(next.arc[divisions_ / 2]).s - begin;
+        double length = place(next.arc[middle_]).s - begin;
         if (length <= 0) length += path_.length();
         add(begin, length, 1, std::max(1, count(length)));
     }
@@ -214,14 +220,15 @@ void FilletRun::mesh_arcs() {
         mesh_between(0, 0, 1, 0, divisions_);
         return;
     }
-    mesh_between(0, 0, 2, 0, divisions_ / 2);
-    mesh_between(1, 2, 1, divisions_ / 2, divisions_);
+    mesh_between(0, 0, 2, 0, middle_);
+    mesh_between(1, 2, 1, middle_, divisions_);
 }
 
 /// The domain of the skin on one side just behind a section, in the edge's direction.
-int FilletRun::domain_behind(const Section& section, int side) const {
-    const auto k = static_cast<std::size_t>(std::ranges::find(edge_, section.corner) - edge_.begin());
-    return segments_[k][side];
+int FilletRun::domain_behind(const Section& section, int side) const { return segments_[place_on_edge(section)][side]; }
+
+std::size_t FilletRun::place_on_edge(const Section& section) const {
+    return static_cast<std::size_t>(std::ranges::find(edge_, section.corner) - edge_.begin());
 }
 
 /// The walls between shares of new material.
@@ -231,16 +238,13 @@ void FilletRun::mesh_walls() {
         add_wall(mesh_ring(sheet, edge_, rows_[2], 0, sheet.levels), segments_[0]);
         return;
     }
-    const auto on_edge = [&](const Section& s) {
-        return static_cast<std::size_t>(std::ranges::find(edge_, s.corner) - edge_.begin());
-    };
     for (std::size_t k = 0; k < sections_.size(); ++k) {
         if (k + 1 == sections_.size() && !path_.closed()) break;
         const Section &from = sections_[k], &to = sections_[(k + 1) % sections_.size()];
-        const std::array<int, 2>& domain = segments_[on_edge(from)];
+        const std::array<int, 2>& domain = segments_[place_on_edge(from)];
         if (domain[0] == domain[1]) continue;
-        const Patch patch{between(edge_, on_edge(from), on_edge(to)), between(rows_[2], from.in_row[2], to.in_row[2]),
-                          from.ridge, to.ridge};
+        const Patch patch{between(edge_, place_on_edge(from), place_on_edge(to)),
+                          between(rows_[2], from.in_row[2], to.in_row[2]), from.ridge, to.ridge};
         add_wall(mesh_patch(sheet, patch, 0, sheet.levels), domain);
     }
 }

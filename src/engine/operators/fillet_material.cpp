@@ -224,14 +224,11 @@ bool FilletMaterial::is_within_ends(const Vec3& x, const FilletReach& edge, int 
     return true;
 }
 
-/// Whether an element reaches into what is rounded off a convex edge.
-bool FilletMaterial::reaches_out(int tetra, std::span<const FilletReach> edges) const {
-    return std::ranges::any_of(f_.d.band.tetras[tetra], [&](int v) {
-        return std::ranges::any_of(edges, [&](const FilletReach& e) {
-            const Tool &one = e.path->wall(0), &other = e.path->wall(1);
-            return e.path->convex() && e.path->distance(at(v), 0) <= e.reach && one.distance(at(v)) < -f_.tolerance &&
-                   other.distance(at(v)) < -f_.tolerance && e.path->ball().distance(at(v)) > f_.tolerance;
-        });
+bool FilletMaterial::is_rounded_off(int v) const {
+    return std::ranges::any_of(edges_, [&](const FilletReach& e) {
+        return e.path->convex() && e.path->distance(at(v), 0) <= e.reach &&
+               e.path->wall(0).distance(at(v)) < -f_.tolerance && e.path->wall(1).distance(at(v)) < -f_.tolerance &&
+               e.path->ball().distance(at(v)) > f_.tolerance;
     });
 }
 
@@ -262,7 +259,9 @@ void FilletMaterial::leave_untouched(std::span<const FilletReach> edges) {
         for (const auto& strip : sides)
             for (const Face& face : strip) goes[face.domain] = 1;
     for (std::size_t k = 0; k < removed_.size(); ++k)
-        if (!goes[domain_[k]] && (reaches_out(removed_[k], edges) || meets_end(removed_[k], edges)))
+        if (!goes[domain_[k]] &&
+            (meets_end(removed_[k], edges) ||
+             std::ranges::any_of(f_.d.band.tetras[removed_[k]], [&](int v) { return is_rounded_off(v); })))
             goes[domain_[k]] = 1;
     std::vector<int> removed, domain;
     for (std::size_t k = 0; k < removed_.size(); ++k) {

@@ -52,6 +52,8 @@ public:
     Vec3 normal(const Triangle& t) const { return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).normalized(); }
     Vec3 middle(const Triangle& t) const { return (at(t[0]) + at(t[1]) + at(t[2])) / 3; }
 
+    /// Whether a node is in what is rounded off a convex edge.
+    bool is_rounded_off(int v) const;
     const std::vector<int>& removed() const { return removed_; }
     int domains() const { return domains_; }
     /// The element that is nearest, of a domain if not -1; of one that is about so, far from all.
@@ -80,7 +82,6 @@ private:
     bool is_skin(const Triangle& face) const;
     bool is_strip(const Triangle& face, const FilletReach& edge, int side) const;
     bool is_within_ends(const Vec3& x, const FilletReach& edge, int side) const;
-    bool reaches_out(int tetra, std::span<const FilletReach> edges) const;
     bool meets_end(int tetra, std::span<const FilletReach> edges) const;
     void leave_untouched(std::span<const FilletReach> edges);
     int nearest(const Vec3& x, const std::function<bool(int)>& counts) const;

@@ -137,7 +137,8 @@ std::vector<int> FilletPatches::outline_of(const FilletPatch& patch) const {
     std::map<int, int> next;
     const std::set<DirectedEdge> own = directed_edges(patch.old);
     for (const DirectedEdge& e : own)
-        if (!own.contains({e[1], e[0]}) && !m_.is_strip_edge(e[0], e[1]) && !m_.is_strip_edge(e[1], e[0]))
+        if (!own.contains({e[1], e[0]}) && !m_.is_strip_edge(e[0], e[1]) && !m_.is_strip_edge(e[1], e[0]) &&
+            !hidden_.contains(e))
             if (!next.emplace(e[0], e[1]).second) m_.refuse("a face across it is only joined at a point", m_.at(e[0]));
     std::vector<std::vector<int>> links = patch.links;
     if (!next.empty() && !next.contains(links[0].back())) std::ranges::reverse(links[0]);

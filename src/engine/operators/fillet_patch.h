@@ -3,6 +3,7 @@
 
 #include <array>
 #include <deque>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,8 @@ public:
     int take_skin(const Vec3& normal, double offset, double off, int node, int domain);
     /// The same with a border between domains, the first behind the plane.
     int take_border(const Vec3& normal, double offset, double off, int node, const std::array<int, 2>& domain);
+    /// Edges of old outlines that go.
+    void hide(int a, int b) { hidden_.insert({{a, b}, {b, a}}); }
     /// A new face without old ones.
     int add_free(const Vec3& normal, double offset, const std::array<int, 2>& domain);
 
@@ -57,6 +60,7 @@ private:
 
     FilletMaterial& m_;
     std::deque<FilletPatch> patches_;
+    std::set<DirectedEdge> hidden_;  // in both directions
 };
 
 }  // namespace femscalpel

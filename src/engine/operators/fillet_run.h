@@ -124,6 +124,12 @@ private:
     bool border_part(Section& section, int side, const std::array<int, 2>& domain);
     void set_normal(Section& section, const Vec3& normal) const;
     void check_strips() const;
+    void find_borders_along();
+    int middle_level() const;
+    double angle_at(double level) const;
+    void make_trace(Section& section);
+    void link_borders_along();
+    std::size_t place_on_edge(const Section& section) const;
 
     Row find_row(int side) const;
     void place_in_rows(Section& section) const;
@@ -157,8 +163,10 @@ private:
     std::vector<std::array<int, 2>> segments_;  // domains on both sides of each of its segments
     std::vector<Section> sections_;             // by s; of an open edge the first and last are its ends
     std::array<Vec3, 2> end_normals_{Vec3::Zero(), Vec3::Zero()}, end_points_ = end_normals_;
-    std::array<Row, 3> rows_;  // on the tangent lines; on the middle of the arc, where it is halved
-    int divisions_ = 4;
+    std::array<Row, 3> rows_;           // on the tangent lines; on the middle of the arc, where it is halved
+    int divisions_ = 4, middle_ = 2;    // parts of the arc; those before its halves meet
+    double middle_angle_ = 0;           // of a convex edge: where its border meets the arc
+    std::map<std::size_t, int> along_;  // patches of borders along it, by the first of their segments
     std::vector<Face> arc_;
     std::vector<Border> walls_;
 };

@@ -32,6 +32,7 @@ void FilletRun::find_sections() {
     if (!path_.closed()) sections_.push_back(end_section(0));
     find_borders();
     if (!path_.closed()) sections_.push_back(end_section(1));
+    if (path_.convex() && halved()) find_borders_along();
     check_strips();
 }
 

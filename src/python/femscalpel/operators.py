@@ -171,9 +171,10 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
     plane face that stands across it. At other corners the rounding stops where the faces still reach as far as the ball
     touches them, in a flat face across the edge. Elements between the edge and the lines where the ball touches the
     faces are replaced by new ones, which are in the groups of those they replace; where groups meet along a concave
-    edge, each gets half of what is added. Edges that meet at a corner of three plane faces are rounded at once: two,
-    between faces at the same angle, meet in a plane, as mitred; three in the triangle of a ball. The mesh is refined
-    there first, to four elements over the arc at least. `mesh` itself is not changed.
+    edge, each gets half of what is added, and along a straight convex one their plane border ends at the new face.
+    Edges that meet at a corner of three plane faces are rounded at once: two, between faces at the same angle, meet in
+    a plane, as mitred; three in the triangle of a ball. The mesh is refined there first, to four elements over the arc
+    at least. `mesh` itself is not changed.
 
     Parameters
     ----------
@@ -202,7 +203,7 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
         The name is bad or taken, there is no such edge, a convex and a concave one meet, or the radius is too large for
         the faces beside it.
     UnsupportedElementError, QualityError, Error, TypeError, ValueError
-        As for :func:`crack`; also where elements of different groups meet along a convex edge.
+        As for :func:`crack`; also where elements of different groups meet beside the edge.
 
     Examples
     --------
