@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "cutting/surface_line.h"
 #include "mesh/band_mesh.h"
 
 namespace femscalpel {
@@ -154,6 +155,10 @@ private:
                 nearest = d;
                 best = e;
             }
+            const auto& [a, b] = all_.edges[best].ends;
+            if (nearest > (mesh_.points[b] - mesh_.points[a]).norm())
+                refuse("no feature line of the skin is within an edge length of the point " + point_text(x) +
+                       ": the nearest is near " + point_text(mesh_.points[a]) + ". Name a point on the edge");
             edges.push_back(best);
         }
     }

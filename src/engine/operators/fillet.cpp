@@ -19,6 +19,7 @@
 #include "deformation/curved_shape.h"
 #include "mesh/union_find.h"
 #include "operators/driver.h"
+#include "operators/face_nodes.h"
 #include "operators/fillet_cavity.h"
 #include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
@@ -371,7 +372,9 @@ Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletO
               const Prepared& prepared) {
     check_radius(radius);
     Fillet recipe(mesh, along, radius, options);
-    return perform(recipe, mesh, options, prepared);
+    Result result = perform(recipe, mesh, options, prepared);
+    if (mesh.dimension() == 3 && !options.band_only) keep_face_nodes(mesh, skin_of(mesh), result);
+    return result;
 }
 
 }  // namespace femscalpel

@@ -39,8 +39,8 @@ void FilletRun::find_borders_along() {
     if (along_.empty()) m_.refuse("no border between the groups on both sides of it is found", somewhere);
     // Where the border meets the ball.
     const double c = inwards.dot(path_.centre()),
-                 t = c - std::sqrt(std::max(
-                             0.0, c * c - path_.centre().squaredNorm() + path_.radius() * path_.radius()));
+                 t = c -
+                     std::sqrt(std::max(0.0, c * c - path_.centre().squaredNorm() + path_.radius() * path_.radius()));
     const Vec2 to = t * inwards - path_.centre(), first = path_.arc(0) - path_.centre();
     middle_angle_ = std::acos(std::clamp(to.dot(first) / (to.norm() * first.norm()), -1.0, 1.0));
     if (middle_angle_ < 0.12 * path_.arc_angle() || middle_angle_ > 0.88 * path_.arc_angle())
@@ -95,9 +95,10 @@ void FilletRun::link_borders_along() {
         const Section &from = sections_[k], &to = sections_[k + 1];
         const std::size_t begin = place_on_edge(from), end = place_on_edge(to);
         if (!parted(begin)) continue;
-        const auto patch = std::ranges::find_if(
-            along_, [&](const auto& entry) { return entry.first >= begin && entry.first < end; });
-        if (patch == along_.end()) m_.refuse("no border between the groups on both sides of it is found", at(edge_[begin]));
+        const auto patch =
+            std::ranges::find_if(along_, [&](const auto& entry) { return entry.first >= begin && entry.first < end; });
+        if (patch == along_.end())
+            m_.refuse("no border between the groups on both sides of it is found", at(edge_[begin]));
         std::vector<int> link = from.ridge;
         const Row row = between(rows_[2], from.in_row[2], to.in_row[2]);
         link.insert(link.end(), row.begin() + 1, row.end());

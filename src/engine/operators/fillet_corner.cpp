@@ -12,6 +12,7 @@
 #include "cutting/inner_node.h"
 #include "cutting/planar_mesh.h"
 #include "cutting/removal.h"
+#include "cutting/surface_line.h"
 #include "operators/fillet_inside.h"
 
 namespace femscalpel {
@@ -72,6 +73,13 @@ public:
         return out;
     }
 
+    /// Of the longer of the outline's edges at a corner.
+    double edge_length(Index corner) const {
+        const Vec3& x = mesh_.points[corner];
+        return std::max((mesh_.points[next_.at(corner)[0]] - x).norm(),
+                        (mesh_.points[before_.at(corner)[0]] - x).norm());
+    }
+
     Vec3 normal = Vec3::Zero();
 
 private:
@@ -126,9 +134,14 @@ std::vector<OutlineCorner> find_outline_corners(const Mesh& mesh, const Along& a
         const std::set<Index> named = named_nodes(mesh, along);
         std::ranges::copy_if(all, std::inserter(wanted, wanted.end()), [&](Index n) { return named.contains(n); });
     } else if (!all.empty()) {
-        for (const Vec3& x : along.points)
-            wanted.insert(
-                *std::ranges::min_element(all, {}, [&](Index n) { return (mesh.points[n] - x).squaredNorm(); }));
+        for (const Vec3& x : along.points) {
+            const Index nearest =
+                *std::ranges::min_element(all, {}, [&](Index n) { return (mesh.points[n] - x).squaredNorm(); });
+            if ((mesh.points[nearest] - x).norm() > outline.edge_length(nearest))
+                refuse_along("no corner of the mesh's outline is within an edge length of the point " + point_text(x) +
+                             ": the nearest is " + point_text(mesh.points[nearest]) + ". Name a point at the corner");
+            wanted.insert(nearest);
+        }
     }
     if (wanted.empty())
         refuse_along("no corner of the mesh's outline (of more than feature_angle) is named: nothing to be rounded");

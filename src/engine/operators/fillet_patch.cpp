@@ -207,7 +207,11 @@ void FilletPatches::carry_over(const FilletPatch& patch) {
             if (sorted(list[s]) == sorted(face)) slots.push_back(s);
         return slots;
     };
+    std::set<Triangle> old;
+    for (const Triangle& t : patch.old) old.insert(sorted(t));
     for (const Triangle& t : patch.fresh) {
+        // What lies on a face that was there before stays.
+        if (old.contains(sorted(t))) continue;
         const Triangle& like = face_near(patch, m_.middle(t));
         const auto turned_as = [&](const Triangle& other) {
             const bool same = other == like || other == Triangle{like[1], like[2], like[0]} ||
