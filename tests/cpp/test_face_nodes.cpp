@@ -14,8 +14,8 @@ Mesh with_groups() {
     for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
         mesh.add_node(x, mesh.node_count() + 1, 0);
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 1, 0);
-    const GroupIndex face = mesh.add_group("FACE", GroupKind::element), nodes = mesh.add_group("NODES", GroupKind::node),
-                     tip = mesh.add_group("TIP", GroupKind::node);
+    const GroupIndex face = mesh.add_group("FACE", GroupKind::element),
+                     nodes = mesh.add_group("NODES", GroupKind::node), tip = mesh.add_group("TIP", GroupKind::node);
     mesh.add_cell(CellType::triangle, std::array<Index, 3>{0, 2, 1}, 2, mesh.families.with(0, face));
     for (const Index n : {0, 1, 2}) mesh.node_families[n] = mesh.families.with(0, nodes);
     mesh.node_families[3] = mesh.families.with(0, tip);
