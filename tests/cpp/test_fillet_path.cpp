@@ -37,22 +37,27 @@ TEST(FilletPath, EdgeOfABox) {
     EXPECT_NEAR(path.distance({-2, 0, 0}, 0.5), 1.5, 1e-12);
 }
 
-/// Four cubes by four by two, without those beyond a concave edge at x = y = 2.
-Mesh l_shape() {
-    Mesh mesh = checks::grid(4, 4, 2);
+/// A mesh of tetrahedra without those whose middle is where `gone` is true.
+template <class Gone>
+Mesh without(Mesh mesh, Gone gone) {
     CellBlock& block = mesh.block(CellType::tetra);
     CellBlock kept = block;
     kept.connectivity.clear(), kept.ids.clear(), kept.families.clear();
     for (Index c = 0; c < block.size(); ++c) {
         Vec3 centre = Vec3::Zero();
         for (const Index n : block.nodes(c)) centre += mesh.points[n] / 4;
-        if (centre.x() > 2 && centre.y() > 2) continue;
+        if (gone(centre)) continue;
         kept.connectivity.insert(kept.connectivity.end(), block.nodes(c).begin(), block.nodes(c).end());
         kept.ids.push_back(block.ids[c]);
         kept.families.push_back(0);
     }
     block = kept;
     return mesh;
+}
+
+/// Four cubes by four by two, without those beyond a concave edge at x = y = 2.
+Mesh l_shape() {
+    return without(checks::grid(4, 4, 2), [](const Vec3& x) { return x.x() > 2 && x.y() > 2; });
 }
 
 TEST(FilletPath, ConcaveEdge) {
@@ -135,20 +140,7 @@ TEST(FilletPath, EndsOfLines) {
 
 /// Three walls of a room: a block without one of its octants.
 Mesh room() {
-    Mesh mesh = checks::grid(4, 4, 4);
-    CellBlock& block = mesh.block(CellType::tetra);
-    CellBlock kept = block;
-    kept.connectivity.clear(), kept.ids.clear(), kept.families.clear();
-    for (Index c = 0; c < block.size(); ++c) {
-        Vec3 centre = Vec3::Zero();
-        for (const Index n : block.nodes(c)) centre += mesh.points[n] / 4;
-        if (centre.minCoeff() > 2) continue;
-        kept.connectivity.insert(kept.connectivity.end(), block.nodes(c).begin(), block.nodes(c).end());
-        kept.ids.push_back(block.ids[c]);
-        kept.families.push_back(0);
-    }
-    block = kept;
-    return mesh;
+    return without(checks::grid(4, 4, 4), [](const Vec3& x) { return x.minCoeff() > 2; });
 }
 
 TEST(FilletPath, EndsInAWall) {

@@ -127,10 +127,13 @@ def box_edge(mesh, size, turn, rng):
     return straight(mesh, turn @ start, turn @ end, turn @ ways[0], turn @ ways[1], room, -1, rng)
 
 
-def concave_shape(rng):
-    """An L shape turned anyhow: the mesh, its elements' middles before, in edges, the corner, how many edges long."""
+def concave_shape(rng, arms=(8, 13), lengths=(3, 7), corners=(3, 5)):
+    """An L shape turned anyhow: the mesh, its elements' middles before, in edges, the corner, how many edges long.
+
+    The ranges are of how many edges the arms are wide, the shape is long, and the corner is from their ends.
+    """
     size, turn = rng.uniform(0.8, 1.25, 3), any_turn(rng)
-    counts, corner = (rng.integers(8, 13), rng.integers(8, 13), rng.integers(3, 7)), rng.integers(3, 5, 2)
+    counts, corner = (rng.integers(*arms), rng.integers(*arms), rng.integers(*lengths)), rng.integers(*corners, 2)
     plain = l_shape(tuple(counts), tuple(float(c) for c in counts), tuple(float(c) for c in corner))
     mesh = fs.Mesh((plain.points * size) @ turn.T, plain.cells)
     start, end = np.array([*corner, 0]) * size, np.array([*corner, counts[2]]) * size
@@ -286,13 +289,8 @@ def concave(rng):
     if kind == 1:
         mesh = read("l_shape", rng)
         return straight(mesh, (4, 0, 4), (4, 4, 4), (1, 0, 0), (0, 0, 1), 8, 1, rng)
-    size, turn = rng.uniform(0.8, 1.25, 3), any_turn(rng)
-    counts, corner = (rng.integers(8, 15), rng.integers(8, 15), rng.integers(2, 6)), rng.integers(2, 5, 2)
-    plain = l_shape(tuple(counts), tuple(float(c) for c in counts), tuple(float(c) for c in corner))
-    mesh = fs.Mesh((plain.points * size) @ turn.T, plain.cells)
-    start, end = np.array([*corner, 0]) * size, np.array([*corner, counts[2]]) * size
-    room = min((counts[:2] - corner) * size[:2])
-    return straight(mesh, turn @ start, turn @ end, turn[:, 0], turn[:, 1], room, 1, rng)
+    mesh, _, _, _, edge = concave_shape(rng, (8, 15), (2, 6), (2, 5))
+    return straight(mesh, *edge, rng)
 
 
 def hole(rng):

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "cancel.h"
-#include "cutting/merging.h"
 #include "cutting/surface_line.h"
 #include "deformation/curved_shape.h"
 #include "mesh/stopwatch.h"
@@ -27,8 +26,6 @@ constexpr double dip = 0.15;
 constexpr double same_stop = 0.2;
 /// And if there is no other way than this, even if the end is not on the line that holds the node.
 constexpr double beside_line = 0.025;
-/// A new node of a line, not at a stop, may be this much nearer to one neighbour than to the other.
-constexpr double crowded = 0.2;
 /// How often faces are divided to make an end of a line a node.
 constexpr int most_rounds = 4;
 
@@ -323,22 +320,6 @@ private:
     int tag_;
 };
 
-/// Merges new nodes of a line, not at stops, that are much nearer to one neighbour on it than to the other, where the
-/// elements get better by that.
-void merge_crowded(Workpiece& f, const std::vector<int>& line, const std::vector<int>& stops) {
-    const auto way = [&](std::size_t a, std::size_t b) {
-        return (f.d.band.nodes[line[a]].at - f.d.band.nodes[line[b]].at).norm();
-    };
-    NodeMerger merger(f);
-    for (std::size_t k = 1; k + 1 < line.size(); ++k) {
-        const double back = way(k - 1, k), on = way(k, k + 1);
-        if (line[k] < f.d.band.original_nodes() || std::ranges::find(stops, line[k]) != stops.end() ||
-            std::min(back, on) >= crowded * std::max(back, on))
-            continue;
-        merger.merge(line[k]);
-    }
-}
-
 }  // namespace
 
 void Imprint::run(Workpiece& f) {
@@ -348,8 +329,6 @@ void Imprint::run(Workpiece& f) {
     for (std::size_t k = 0; k < lines_.size(); ++k)
         imprinters.emplace_back(f, lines_[k], static_cast<int>(k), exact_, planes_).take_known_nodes();
     for (Imprinter& i : imprinters) f.at_stop.push_back(i.run());
-    for (std::size_t k = 0; k < lines_.size(); ++k)
-        if (!lines_[k].only_stops) merge_crowded(f, line_nodes(f, lines_[k], f.at_stop[k]), f.at_stop[k]);
 }
 
 std::vector<ImprintedLine> Imprint::result(const Workpiece& f) const {

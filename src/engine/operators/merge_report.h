@@ -8,8 +8,8 @@
 
 namespace femscalpel {
 
-/// Records of the groups of `input` and of what was added to it; of groups that `known` has, what that says of the
-/// mesh alone is kept.
+/// Records of the groups of `input` and of what was added to it; of groups that `known`, of the last step alone, has,
+/// what it says of moved nodes and borders is kept.
 std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, const std::vector<GroupRecord>& known);
 
 /// Puts the quality of what was joined into a report that holds that of the mesh before: of the elements of the mesh
