@@ -113,6 +113,7 @@ void FilletRun::link_patches(const Section& section) {
 
 std::vector<int> FilletRun::nodes_near(const Section& section, const Vec3& x) const {
     std::vector<int> patches;
+    patches.reserve(section.parts.size());
     for (const Part& part : section.parts) patches.push_back(part.patch);
     return patches_.nodes_near(patches, x);
 }

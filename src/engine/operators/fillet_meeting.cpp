@@ -53,6 +53,7 @@ std::vector<int> joined(std::vector<std::vector<int>> chains) {
 /// The triangle of the ball at a corner where three edges meet.
 void FilletCavity::mesh_sphere(const FilletVertex& vertex) {
     std::vector<std::vector<int>> arcs;
+    arcs.reserve(vertex.members.size());
     for (const auto& [edge, which] : vertex.members) arcs.push_back(runs_[edge].arc_at(which));
     const int domain = runs_[vertex.members[0].edge].domains_at_end(vertex.members[0].which)[0];
     const std::vector<int> outline = joined(arcs);
@@ -64,6 +65,7 @@ void FilletCavity::mesh_sphere(const FilletVertex& vertex) {
     const Projection projection(vertex.centre, vertex.sphere->radius(), middle.normalized());
     std::vector<int> nodes = outline;
     std::vector<Vec2> points;
+    points.reserve(nodes.size());
     for (const int v : nodes) points.push_back(projection.onto_plane(material_.at(v)));
     if (polygon_area(points) < 0) {
         std::ranges::reverse(points);
