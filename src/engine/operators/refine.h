@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct RefineOptions : BisectionOptions {
 /// Throws ToolError (an option out of range, more than max_elements), UnsupportedElementError (an edge to be
 /// bisected is one of a quadrangle, prism, pyramid or hexahedron), QualityError (inverted elements near the tool).
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
+
+/// Level 0 at the corners of elements that have an edge longer than wanted, -1 elsewhere.
+std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceField& distance,
+                                               const BisectionOptions& options);
 
 /// What an operation has to know of a refinement that it goes on from.
 struct Trace {

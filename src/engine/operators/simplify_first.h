@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "cutting/workpiece.h"
+#include "operators/prepared.h"
+#include "operators/refine_first.h"
+
+namespace femscalpel {
+
+/// Makes simplices (simplify()) of what else is where an operation will work: in the band around `blades`, and where
+/// the mesh would be refined first for `zones`. Nothing, when there is nothing else. `known` is what is known of `mesh`.
+/// Throws what locate(), simplify() and carry_deck() do.
+std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> blades,
+                                      std::span<const RefineZone> zones, const OperatorOptions& options,
+                                      const Prepared& known);
+
+/// A conversion and then a refinement of what it made, as one change.
+Refined joined(const Refined& converted, Refined refined, bool strict);
+
+}  // namespace femscalpel
