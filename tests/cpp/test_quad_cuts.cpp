@@ -31,8 +31,7 @@ std::set<Index> diagonal_of(const std::vector<Vec3>& corners, std::vector<Index>
 
 TEST(QuadCuts, TakeTheBetterDiagonal) {
     const std::vector<Vec3> rhomb{{0, 0, 0}, {1, 0, 0}, {1.6, 0.9, 0}, {0.6, 0.9, 0}},
-        square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-        dented{{0, 0, 0}, {1, 0, 0}, {0.3, 0.3, 0}, {0, 1, 0}};
+        square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, dented{{0, 0, 0}, {1, 0, 0}, {0.3, 0.3, 0}, {0, 1, 0}};
     EXPECT_EQ(diagonal_of(rhomb), (std::set<Index>{1, 3}));
     EXPECT_EQ(diagonal_of(dented), (std::set<Index>{0, 2})) << "the other is outside";
     EXPECT_EQ(diagonal_of(square), (std::set<Index>{0, 2}));

@@ -132,8 +132,7 @@ TEST(Simplify, NewNodesAreInTheGroupsOfAllCorners) {
     Mesh mesh = to_second_order(bricks(1, 1, 1));
     const FamilyIndex all = checks::family_of(mesh, "ALL", GroupKind::node),
                       top = mesh.families.with(all, mesh.add_group("TOP", GroupKind::node));
-    for (std::size_t n = 0; n < mesh.points.size(); ++n)
-        mesh.node_families[n] = mesh.points[n].z() == 1 ? top : all;
+    for (std::size_t n = 0; n < mesh.points.size(); ++n) mesh.node_families[n] = mesh.points[n].z() == 1 ? top : all;
     const Simplified out = simplified(mesh, {0, 0, 0});
     EXPECT_EQ(out.nodes_added, 7);
     EXPECT_EQ(members(out.mesh, "ALL", GroupKind::node).size(), 27u);
@@ -147,10 +146,17 @@ TEST(Simplify, MiddlesOfFacesBecomeMidSideNodesOrGo) {
         for (const Vec3& x : at) out.push_back(mesh.add_node(x, mesh.node_count() + 1));
         return out;
     };
-    const std::vector<Index> quad = add({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0, 0}, {1, 0.5, 0},
-                                         {0.5, 1, 0}, {0, 0.5, 0}, {0.52, 0.5, 0}}),
-                             triangle = add({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.5, 0, 1}, {0.5, 0.5, 1}, {0, 0.5, 1},
-                                             {0.33, 0.33, 1}});
+    const std::vector<Index>
+        quad = add({{0, 0, 0},
+                    {1, 0, 0},
+                    {1, 1, 0},
+                    {0, 1, 0},
+                    {0.5, 0, 0},
+                    {1, 0.5, 0},
+                    {0.5, 1, 0},
+                    {0, 0.5, 0},
+                    {0.52, 0.5, 0}}),
+        triangle = add({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.5, 0, 1}, {0.5, 0.5, 1}, {0, 0.5, 1}, {0.33, 0.33, 1}});
     mesh.add_cell(CellType::quad9, quad, 1);
     mesh.add_cell(CellType::triangle7, triangle, 2);
     std::vector<std::int8_t> level(mesh.points.size(), 0);
@@ -169,8 +175,11 @@ TEST(Simplify, AnElementInsideOutByItsShapeIsNamed) {
     EXPECT_NO_THROW(simplified(mesh, {0, 0, 0}));
     mesh = quadrangles(1, 1);
     mesh.block(CellType::quad).connectivity = {0, 1, 1, 0};
-    EXPECT_THAT([&] { simplified(mesh, {0, 0, 0}); },
-                testing::ThrowsMessage<UnsupportedElementError>(testing::HasSubstr("element 1, a quad")));
+    EXPECT_THAT(
+        [&] {
+            simplified(mesh, {0, 0, 0});
+        },
+        testing::ThrowsMessage<UnsupportedElementError>(testing::HasSubstr("element 1, a quad")));
 }
 
 }  // namespace

@@ -118,12 +118,13 @@ std::string plate(const std::string& type) {
 class SimplifiedDeck : public DeckSemantics {};
 
 TEST_F(SimplifiedDeck, ShellsAndTheirLoadsAndSupportsFollow) {
-    const Mesh mesh = read(plate("S4R") +
-                           "*NSET, NSET=END\n1, 10, 19\n*ELSET, ELSET=MID\n4, 5, 12, 13\n*SURFACE, NAME=TOP\nEALL, SPOS\n"
-                           "*SURFACE, NAME=RIM, TYPE=ELEMENT\n1, S3\n2, S3\n3, S3\n4, S3\n"
-                           "*SHELL SECTION, ELSET=EALL, MATERIAL=M\n0.1\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0.3\n*STEP\n"
-                           "*STATIC\n*BOUNDARY\nEND, 1, 6\n*DLOAD\n4, P, 2.\n12, P, 2.\nMID, GRAV, 9.81, 0, 0, -1\n"
-                           "5, EDNOR1, 3.\n*END STEP\n");
+    const Mesh mesh =
+        read(plate("S4R") +
+             "*NSET, NSET=END\n1, 10, 19\n*ELSET, ELSET=MID\n4, 5, 12, 13\n*SURFACE, NAME=TOP\nEALL, SPOS\n"
+             "*SURFACE, NAME=RIM, TYPE=ELEMENT\n1, S3\n2, S3\n3, S3\n4, S3\n"
+             "*SHELL SECTION, ELSET=EALL, MATERIAL=M\n0.1\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0.3\n*STEP\n"
+             "*STATIC\n*BOUNDARY\nEND, 1, 6\n*DLOAD\n4, P, 2.\n12, P, 2.\nMID, GRAV, 9.81, 0, 0, -1\n"
+             "5, EDNOR1, 3.\n*END STEP\n");
     const Mesh after = crack_at(mesh, 3.6);
     EXPECT_GT(after.block(CellType::triangle).size(), 10);
     EXPECT_GT(after.block(CellType::quad).size(), 0);
@@ -132,8 +133,7 @@ TEST_F(SimplifiedDeck, ShellsAndTheirLoadsAndSupportsFollow) {
     const auto area_of = [&](const std::vector<Index>& elements) {
         const NumberIndex numbers(after);
         double sum = 0;
-        for (const Index e : elements)
-            sum += cell_measure(after, numbers.cell(e)->type, numbers.cell(e)->cell);
+        for (const Index e : elements) sum += cell_measure(after, numbers.cell(e)->type, numbers.cell(e)->cell);
         return sum;
     };
     EXPECT_NEAR(area_of(element_set(after, "EALL")), 16, 1e-9);
@@ -162,10 +162,11 @@ TEST_F(SimplifiedDeck, ShellsAndTheirLoadsAndSupportsFollow) {
 }
 
 TEST_F(SimplifiedDeck, PlaneElementsCountTheirEdgesFromOne) {
-    const Mesh mesh = read(plate("CPS4") +
-                           "*SURFACE, NAME=RIM, TYPE=ELEMENT\n1, S1\n2, S1\n3, S1\n4, S1\n5, S1\n*SOLID SECTION, "
-                           "ELSET=EALL, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0.3\n*STEP\n*STATIC\n*DLOAD\n4, P1, "
-                           "2.\n*END STEP\n");
+    const Mesh mesh =
+        read(plate("CPS4") +
+             "*SURFACE, NAME=RIM, TYPE=ELEMENT\n1, S1\n2, S1\n3, S1\n4, S1\n5, S1\n*SOLID SECTION, "
+             "ELSET=EALL, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0.3\n*STEP\n*STATIC\n*DLOAD\n4, P1, "
+             "2.\n*END STEP\n");
     const Mesh after = crack_at(mesh, 3.6);
     EXPECT_THAT(text_of(after, "ELEMENT"), testing::HasSubstr("TYPE=CPS3"));
     double rim = 0;

@@ -45,8 +45,8 @@ QuadCuts::QuadCuts(Mesh& mesh, const CellLists& cells,
                 if (n[t.edges[e][0]] != n[t.edges[e][1]])
                     set_middle(n[t.edges[e][0]], n[t.edges[e][1]], n[static_cast<std::size_t>(t.corners) + e]);
             for (const FaceMiddle& f : face_middles(b.type))
-                face_middles_.emplace(
-                    quad_key({n[f.corners[0]], n[f.corners[1]], n[f.corners[2]], n[f.corners[3]]}), n[f.node]);
+                face_middles_.emplace(quad_key({n[f.corners[0]], n[f.corners[1]], n[f.corners[2]], n[f.corners[3]]}),
+                                      n[f.node]);
         }
     }
 }

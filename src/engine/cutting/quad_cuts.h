@@ -13,9 +13,10 @@ namespace femscalpel {
 /// one for each, whichever element it is looked at from.
 class QuadCuts {
 public:
-    /// Takes the edges of the elements `cells` of `mesh`, which must outlive this. `add_node` makes the mid-side node of
-    /// a diagonal at a place of these blends, for the corners of a face.
-    QuadCuts(Mesh& mesh, const CellLists& cells, std::function<Index(const Blend&, const std::array<Index, 4>&)> add_node);
+    /// Takes the edges of the elements `cells` of `mesh`, which must outlive this. `add_node` makes the mid-side node
+    /// of a diagonal at a place of these blends, for the corners of a face.
+    QuadCuts(Mesh& mesh, const CellLists& cells,
+             std::function<Index(const Blend&, const std::array<Index, 4>&)> add_node);
 
     /// Mid-side node of an edge, or -1.
     Index middle(Index a, Index b) const;

@@ -20,9 +20,8 @@ public:
     }
 
     Simplified run() {
-        QuadCuts cuts(out_.mesh, conversion_.cells, [&](const Blend& at, const std::array<Index, 4>& corners) {
-            return add_node(at, corners);
-        });
+        QuadCuts cuts(out_.mesh, conversion_.cells,
+                      [&](const Blend& at, const std::array<Index, 4>& corners) { return add_node(at, corners); });
         cuts_ = &cuts;
         for (const CellTraits& t : all_cell_types()) {
             const std::vector<Index>& cells = conversion_.cells[static_cast<int>(t.type)];
@@ -119,19 +118,19 @@ private:
             std::ranges::replace(part.corners, Index{-1}, centre);
             const bool pyramid = part.count == 5;
             out_.pyramids += pyramid;
-            add_part(pyramid         ? (t.quadratic ? CellType::pyramid13 : CellType::pyramid)
+            add_part(pyramid       ? (t.quadratic ? CellType::pyramid13 : CellType::pyramid)
                      : t.quadratic ? CellType::tetra10
-                                     : CellType::tetra,
+                                   : CellType::tetra,
                      std::span(part.corners).first(static_cast<std::size_t>(part.count)));
         }
     }
 
     [[noreturn]] void refuse(const CellRef& cell) const {
-        throw UnsupportedElementError("the tool's band reaches element " +
-                                      std::to_string(input_.block(cell.type).ids[cell.cell]) + ", a " +
-                                      std::string(traits(cell.type).name) +
-                                      " that cannot be split into sound triangles or tetrahedra; its shape is too poor. "
-                                      "Choose a smaller transition, move the tool, or mend the element first");
+        throw UnsupportedElementError(
+            "the tool's band reaches element " + std::to_string(input_.block(cell.type).ids[cell.cell]) + ", a " +
+            std::string(traits(cell.type).name) +
+            " that cannot be split into sound triangles or tetrahedra; its shape is too poor. "
+            "Choose a smaller transition, move the tool, or mend the element first");
     }
 
     /// The place of an element among those that were converted, or none.

@@ -13,10 +13,10 @@ namespace femscalpel {
 /// A mesh some of whose elements became simplices.
 struct Simplified {
     Mesh mesh;
-    std::vector<CellRef> before;                    ///< those elements (indices in the input)
-    std::vector<CellRef> after;                     ///< what they became (indices in `mesh`)
+    std::vector<CellRef> before;                     ///< those elements (indices in the input)
+    std::vector<CellRef> after;                      ///< what they became (indices in `mesh`)
     std::array<Index, cell_type_count> converted{};  ///< how many, by their type
-    Index pyramids = 0;                             ///< that stand on faces of elements that stayed
+    Index pyramids = 0;                              ///< that stand on faces of elements that stayed
     Index nodes_added = 0;
     Index nodes_removed = 0;  ///< in the middle of elements or faces, that nothing needs any more
     Changes changes;          ///< where new nodes and elements come from, by number
@@ -32,7 +32,8 @@ struct Simplified {
 /// groups. Facets go to all parts that have a piece of the face. A new node is in the node groups that all corners of
 /// its face or element are in.
 ///
-/// Throws UnsupportedElementError that names an element when no parts of it have positive volume though it seemed sound.
+/// Throws UnsupportedElementError that names an element when no parts of it have positive volume though it seemed
+/// sound.
 Simplified simplify(const Mesh& mesh, const Conversion& conversion, const Numbering& numbering);
 
 }  // namespace femscalpel

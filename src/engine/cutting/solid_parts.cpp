@@ -18,8 +18,7 @@ constexpr double good = 0.3;
 /// The mean ratio of a pyramid by its corners: the smallest over those of its base, the regular one has 1.
 double pyramid_quality(const std::array<Vec3, 5>& x) {
     constexpr double height = 0.70710678118654752;
-    static const double regular =
-        mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, height));
+    static const double regular = mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, height));
     double worst = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 4; ++k) worst = std::min(worst, mean_ratio(x[k], x[(k + 1) % 4], x[(k + 3) % 4], x[4]));
     return worst / regular;

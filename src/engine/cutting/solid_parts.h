@@ -17,7 +17,7 @@ struct SolidPart {
 /// How a solid is cut into tetrahedra, and pyramids on quadrangular faces that are to stay.
 struct SolidParts {
     std::vector<SolidPart> parts;
-    Blend centre;        ///< place of the new node inside; empty if there is none
+    Blend centre;            ///< place of the new node inside; empty if there is none
     Index centre_node = -1;  ///< or the node that is there already
     /// Edges of the parts that need a mid-side node, and its place; an end of -1 is the new node inside.
     std::vector<std::pair<std::array<Index, 2>, Blend>> middles;

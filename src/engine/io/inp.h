@@ -17,7 +17,7 @@ namespace femscalpel {
 /// - *ELSET, ELSET=: element groups.
 /// - *SURFACE, TYPE=ELEMENT: facet groups; S1, S2, ... of plane and axisymmetric elements are edges and
 ///   become faces 3, 4, ... of Facet.
-/// - C3D8 and C3D20 whose upper nodes are one: pyramids.
+/// - C3D8 and C3D20 whose upper nodes are one: pyramids; what write_inp() added for them goes.
 /// - User elements, network elements without an end node (0), element numbers of a submodel's global
 ///   model, surface faces of beams: kept beside the mesh (OtherElement, DeckSet::unheld).
 /// - Everything else is kept verbatim, in place, in Mesh::companion, a SolverInput. Includes are resolved.
@@ -43,7 +43,8 @@ Mesh read_inp(const std::filesystem::path& path);
 ///
 /// Elements that stand under no *ELEMENT card (made by an operator; all elements of a mesh from another
 /// format) are written by what they are, because an element in the deck always adds stiffness:
-/// - solids: C3D4, C3D10, C3D6, C3D15, C3D8, C3D20; pyramids as C3D8 and C3D20 whose upper nodes are one;
+/// - solids: C3D4, C3D10, C3D6, C3D15, C3D8, C3D20; pyramids as C3D8 and C3D20 whose upper nodes are one (and an
+///   *EQUATION card with these, see pyramid_ties.h);
 /// - triangles and quadrangles that are faces of a solid: not as elements; their groups become *SURFACE,
 ///   TYPE=ELEMENT (between two solids: the face of the one with the lower number) and *NSET. Others: shells
 ///   S3, S6, S4, S8;

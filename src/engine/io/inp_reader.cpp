@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/pyramid_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -22,6 +23,7 @@ class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
         input_->cards() = read_cards(path);
+        remove_pyramid_ties(input_->cards());
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
         mesh_.name = stem.stem().string();

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/pyramid_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -105,9 +106,20 @@ private:
                 write_replaced_set(*s);
         if (c == last_node_card_) write_nodes_without_card();
         if (c == last_element_card_) write_free_elements();
-        if (c == last_mesh_card_)
+        if (c == last_mesh_card_) {
             for (const NewSet& set : plan_.new_sets) write_set(set.type, set.name, set.members, {}, set.remark);
+            put_ties();
+        }
         for (std::string_view line : tail_) put(line);
+    }
+
+    /// What is written for pyramids besides themselves.
+    void put_ties() {
+        const std::string ties = pyramid_ties(mesh_);
+        for (std::size_t at = 0, end = 0; at < ties.size(); at = end + 1) {
+            end = ties.find('\n', at);
+            put_line(std::string_view(ties).substr(at, end - at));
+        }
     }
 
     void write_head(std::size_t c, const Card& card, std::string_view set_parameter) {

@@ -21,7 +21,8 @@ constexpr int rings_to_refine = 2;
 constexpr int spare_rings = 2;
 
 bool has_simplices_alone(const Mesh& mesh) {
-    return std::ranges::all_of(mesh.blocks(), [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
+    return std::ranges::all_of(mesh.blocks(),
+                               [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
 }
 
 /// Level >= 0 at the nodes around which there have to be simplices alone.
@@ -82,8 +83,8 @@ std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> b
                                       std::span<const RefineZone> zones, const OperatorOptions& options,
                                       const Prepared& known) {
     if (has_simplices_alone(mesh)) return {};
-    const Conversion conversion = plan_conversion(
-        mesh, levels_to_work_on(mesh, blades, zones, options, known.adjacency), known.adjacency);
+    const Conversion conversion =
+        plan_conversion(mesh, levels_to_work_on(mesh, blades, zones, options, known.adjacency), known.adjacency);
     if (conversion.empty()) return {};
     DeckMarks own;
     if (!known.marks) own = mark_deck(mesh);

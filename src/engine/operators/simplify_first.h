@@ -11,8 +11,8 @@
 namespace femscalpel {
 
 /// Makes simplices (simplify()) of what else is where an operation will work: in the band around `blades`, and where
-/// the mesh would be refined first for `zones`. Nothing, when there is nothing else. `known` is what is known of `mesh`.
-/// Throws what locate(), simplify() and carry_deck() do.
+/// the mesh would be refined first for `zones`. Nothing, when there is nothing else. `known` is what is known of
+/// `mesh`. Throws what locate(), simplify() and carry_deck() do.
 std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> blades,
                                       std::span<const RefineZone> zones, const OperatorOptions& options,
                                       const Prepared& known);
