@@ -14,8 +14,8 @@ using testing::IsEmpty;
 /// A pyramid with a tetrahedron on the side at the edge from (0, 0, 0) to (1, 0, 0).
 Mesh pyramid_and_tetrahedron() {
     Mesh mesh;
-    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, 1),
-                          Vec3(0.5, -1, 0.5)})
+    for (const Vec3& x :
+         {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0.5, 0.5, 1), Vec3(0.5, -1, 0.5)})
         mesh.add_node(x, mesh.node_count() + 1);
     mesh.add_cell(CellType::pyramid, std::array<Index, 5>{0, 1, 2, 3, 4}, 1);
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 4, 5}, 2);

@@ -82,7 +82,16 @@ def largest_error(folder, mesh, size, axes):
         ties += [f"2\n{ids[n]}, {k + 1}, 1., {first}, {k + 1}, -1." for k in axes if first != ids[n]]
     assert ties
     text = (folder / "out.inp").read_text() + "\n".join(
-        ["*EQUATION", *ties, "*NSET, NSET=ALL_OF_THEM", *map(str, ids[used]), "*STEP", "*STATIC", "*BOUNDARY", *boundary]
+        [
+            "*EQUATION",
+            *ties,
+            "*NSET, NSET=ALL_OF_THEM",
+            *map(str, ids[used]),
+            "*STEP",
+            "*STATIC",
+            "*BOUNDARY",
+            *boundary,
+        ]
         + ["*NODE PRINT, NSET=ALL_OF_THEM", "U", "*END STEP", ""]
     )
     # Read and written once more: what is written for pyramids goes by the supports then.

@@ -174,9 +174,8 @@ void remove_pyramid_ties(std::vector<Card>& cards) {
             if (line.is_data()) continue;
             const DeckText& piece = cards[c].text.front();
             const std::size_t from = static_cast<std::size_t>(line.raw().data() - piece.text.data());
-            cards[c - 1].text.push_back(
-                {piece.file, piece.text.substr(from),
-                 piece.line + std::ranges::count(piece.text.substr(0, from), '\n')});
+            cards[c - 1].text.push_back({piece.file, piece.text.substr(from),
+                                         piece.line + std::ranges::count(piece.text.substr(0, from), '\n')});
             break;
         }
         cards.erase(cards.begin() + static_cast<std::ptrdiff_t>(c));

@@ -22,6 +22,7 @@
 #include "mesh/stopwatch.h"
 #include "operators/changed_quality.h"
 #include "operators/edit.h"
+#include "operators/simplify_first.h"
 
 namespace femscalpel {
 namespace {
@@ -186,11 +187,12 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
 }  // namespace
 
 std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceField& distance,
-                                               const BisectionOptions& options) {
+                                               const BisectionOptions& options, bool no_simplices) {
     const SizeField field(distance, options);
     std::vector<std::int8_t> level(mesh.points.size(), -1);
-    for_each_long(mesh, field, distances_of(mesh, field),
-                  [&](const CellBlock& block, Index cell) { mark_corners(block, cell, level); });
+    for_each_long(mesh, field, distances_of(mesh, field), [&](const CellBlock& block, Index cell) {
+        if (!no_simplices || !traits(block.type).simplex) mark_corners(block, cell, level);
+    });
     return level;
 }
 
@@ -198,8 +200,19 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     Laps seconds;
     Stopwatch watch(seconds);
     Trace trace;
-    if (std::optional<Result> result = refine_where_needed(input, distance, options, trace)) {
+    check(options);
+    check_extent(input);
+    const std::optional<Refined> converted = simplify_first(input, distance, options);
+    if (converted) watch.lap("convert");
+    if (auto result = refine_where_needed(converted ? converted->mesh : input, distance, options, trace)) {
         std::ranges::move(warnings_of(trace.deck, options.strict), std::back_inserter(result->report.warnings));
+        if (!converted) return std::move(*result);
+        Refined refined;
+        refined.report = std::move(result->report);
+        result->report = joined(*converted, std::move(refined), options.strict).report;
+        Laps all = seconds;
+        for (const auto& [step, time] : result->report.seconds) all.add(step, time);
+        result->report.seconds = all.list();
         return std::move(*result);
     }
     watch.lap("locate");

@@ -83,8 +83,21 @@ std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> b
                                       std::span<const RefineZone> zones, const OperatorOptions& options,
                                       const Prepared& known) {
     if (has_simplices_alone(mesh)) return {};
-    const Conversion conversion =
-        plan_conversion(mesh, levels_to_work_on(mesh, blades, zones, options, known.adjacency), known.adjacency);
+    return simplify_first(mesh, levels_to_work_on(mesh, blades, zones, options, known.adjacency), known);
+}
+
+std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance,
+                                      const BisectionOptions& options) {
+    if (has_simplices_alone(mesh)) return {};
+    const std::vector<std::int8_t> others = corners_of_long_edges(mesh, distance, options, true);
+    if (std::ranges::find(others, 0) == others.end()) return {};
+    std::vector<std::int8_t> level = corners_of_long_edges(mesh, distance, options);
+    spread_levels(mesh, level, rings_to_refine);
+    return simplify_first(mesh, level, {});
+}
+
+std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known) {
+    const Conversion conversion = plan_conversion(mesh, level, known.adjacency);
     if (conversion.empty()) return {};
     DeckMarks own;
     if (!known.marks) own = mark_deck(mesh);
@@ -120,6 +133,8 @@ Refined joined(const Refined& converted, Refined refined, bool strict) {
     for (std::size_t g = 0; g < report.groups.size(); ++g) {
         report.groups[g].count_before = first.groups[g].count_before;
         report.groups[g].measure_before = first.groups[g].measure_before;
+        if (report.groups[g].status == "untouched" && first.groups[g].count_before != first.groups[g].count_after)
+            report.groups[g].status = first.groups[g].status;
     }
     std::unordered_map<Index, Index> parents;
     Changes changes = converted.trace.changes;

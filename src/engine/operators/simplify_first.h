@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "cutting/workpiece.h"
 #include "operators/prepared.h"
@@ -16,6 +18,12 @@ namespace femscalpel {
 std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> blades,
                                       std::span<const RefineZone> zones, const OperatorOptions& options,
                                       const Prepared& known);
+
+/// The same for what is around nodes with level >= 0.
+std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known);
+
+/// The same for what a refinement would have to bisect. Nothing where that is simplices alone.
+std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance, const BisectionOptions& options);
 
 /// A conversion and then a refinement of what it made, as one change.
 Refined joined(const Refined& converted, Refined refined, bool strict);

@@ -464,7 +464,7 @@ def refine(
     ToolError
         A parameter is out of range, or `max_elements` would be passed.
     UnsupportedElementError
-        An edge to be bisected is one of a quadrangle, prism, pyramid or hexahedron.
+        A quadrangle, prism, pyramid or hexahedron with an edge to be bisected has too poor a shape to be split.
     QualityError
         The mesh has flat or inverted elements near the tool.
     """
