@@ -9,47 +9,13 @@ import shutil
 import numpy as np
 import pytest
 from calculix_runs import solve
+from mixed_meshes import grid, second_order
 
 import femscalpel as fs
 
 needs_ccx = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
 
-EDGES = {
-    "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
-    "hexahedron": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
-}
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]]) * 1e-3
-
-
-def grid(counts, jitter=0.0):
-    """Points and cubes (or squares) of side 1, inner nodes moved at random."""
-    random = np.random.default_rng(1)
-    points = np.stack(np.meshgrid(*[np.arange(n + 1.0) for n in counts], indexing="ij"), axis=-1)
-    inner = tuple(slice(1, -1) for _ in counts)
-    points[inner] += jitter * random.uniform(-1, 1, points[inner].shape)
-    index = np.arange(np.prod([n + 1 for n in counts])).reshape([n + 1 for n in counts])
-    corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    if len(counts) == 3:
-        corners = [(*c, z) for z in (0, 1) for c in corners]
-    cells = [index[tuple(slice(o, n + o) for o, n in zip(c, counts))].ravel() for c in corners]
-    points = points.reshape(-1, len(counts))
-    if len(counts) == 2:
-        points = np.hstack([points, np.zeros((len(points), 1))])
-    return points, np.stack(cells, axis=1)
-
-
-def second_order(points, cells, kind):
-    points, middles, out = list(points), {}, []
-    for cell in cells:
-        row = list(cell)
-        for a, b in EDGES[kind]:
-            key = tuple(sorted((cell[a], cell[b])))
-            if key not in middles:
-                middles[key] = len(points)
-                points.append((points[cell[a]] + points[cell[b]]) / 2)
-            row.append(middles[key])
-        out.append(row)
-    return np.array(points), np.array(out)
 
 
 def deck(folder, points, cells, label, section):
