@@ -55,8 +55,9 @@ def second_order(points, cells, kind):
 def second_order_of_all(points, cells):
     """The same for elements of several kinds, with common mid-side nodes."""
     points, middles, out = list(points), {}, {}
+    names = {"quad": "quad8", "hexahedron": "hexahedron20", "wedge": "wedge15", "triangle": "triangle6"}
     for kind, rows in cells.items():
-        out[{"quad": "quad8", "hexahedron": "hexahedron20", "wedge": "wedge15", "triangle": "triangle6"}[kind]] = made = []
+        out[names[kind]] = made = []
         for cell in rows:
             row = list(cell)
             for a, b in EDGES[kind]:
