@@ -91,6 +91,9 @@ py::dict to_dict(const Report& report) {
     out["refinement"] = py::none();
     if (const auto& r = report.refinement)
         out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);
+    py::dict converted;
+    for (const auto& [type, count] : report.converted) converted[py::str(type)] = count;
+    out["converted"] = converted;
     out["nodes_added"] = report.nodes_added;
     out["nodes_split"] = report.nodes_split;
     out["nodes_doubled"] = report.nodes_doubled;

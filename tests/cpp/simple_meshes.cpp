@@ -47,6 +47,35 @@ void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int
         }
 }
 
+Mesh bricks(int nx, int ny, int nz) {
+    Mesh mesh;
+    for (int k = 0; k <= nz; ++k)
+        for (int j = 0; j <= ny; ++j)
+            for (int i = 0; i <= nx; ++i) mesh.add_node(Vec3(i, j, k), mesh.node_count() + 1);
+    const auto at = [&](int i, int j, int k) -> Index { return i + (nx + 1) * (j + (ny + 1) * k); };
+    for (int k = 0; k < nz; ++k)
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
+                mesh.add_cell(CellType::hexahedron,
+                              std::array<Index, 8>{at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k),
+                                                   at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1),
+                                                   at(i, j + 1, k + 1)},
+                              mesh.cell_count() + 1);
+    return mesh;
+}
+
+Mesh quadrangles(int nx, int ny) {
+    Mesh mesh;
+    for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) mesh.add_node(Vec3(i, j, 0), mesh.node_count() + 1);
+    for (Index j = 0; j < ny; ++j)
+        for (Index i = 0; i < nx; ++i) {
+            const Index a = i + (nx + 1) * j, b = a + nx + 1;
+            mesh.add_cell(CellType::quad, std::array<Index, 4>{a, a + 1, b + 1, b}, mesh.cell_count() + 1);
+        }
+    return mesh;
+}
+
 Mesh two_halves() {
     Mesh mesh = grid(2, 2, 2);
     const FamilyIndex left = family_of(mesh, "LEFT", GroupKind::element),

@@ -16,6 +16,12 @@ Mesh two_halves();
 /// A plate of 2 nx ny triangles with corner `origin` and cube edges `x`, `y`, sharing nodes that are already there.
 void add_plate(Mesh& mesh, const Vec3& origin, const Vec3& x, const Vec3& y, int nx, int ny, FamilyIndex family = 0);
 
+/// A block of nx x ny x nz hexahedra of side 1 about the origin's octant.
+Mesh bricks(int nx, int ny, int nz);
+
+/// A plate of nx x ny quadrangles of side 1 in z = 0.
+Mesh quadrangles(int nx, int ny);
+
 /// The same mesh with second-order triangles and tetrahedra, their mid-side nodes in the middle of straight edges.
 Mesh second_order(const Mesh& mesh);
 

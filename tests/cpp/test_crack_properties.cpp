@@ -676,9 +676,13 @@ TEST(CrackErrors, BandThatReachesAHexahedron) {
     };
     add_hexahedron(mesh, 8);
     const Index number = mesh.largest_cell_id();
-    // Through the hexahedron itself, and close enough to move its nodes.
-    expect_error<UnsupportedElementError>(mesh, through({8.5, 0, 0}, {1, 0, 0}), {}, std::to_string(number));
-    expect_error<UnsupportedElementError>(mesh, through({7.6, 0, 0}, {1, 0, 0}), {}, std::to_string(number));
+    // Through the hexahedron itself, and close enough to move its nodes, it becomes tetrahedra.
+    for (const double x : {8.5, 7.6}) {
+        const Result result = crack(mesh, Plane({x, 0, 0}, {1, 0, 0}));
+        EXPECT_EQ(result.report.converted, (std::map<std::string, Index>{{"hexahedron", 1}}));
+        EXPECT_EQ(result.mesh.block(CellType::hexahedron).size(), 0);
+        EXPECT_TRUE(NumberIndex(result.mesh).cell(number));
+    }
     // Far away it is carried through.
     const Result result = crack(mesh, Plane({2.4, 0, 0}, {1, 0.1, 0}));
     EXPECT_EQ(result.mesh.block(CellType::hexahedron).ids, mesh.block(CellType::hexahedron).ids);

@@ -137,12 +137,15 @@ TEST_F(ElementLoadsRule, PlaneElementsCountTheirEdgesDifferently) {
 TEST(LoadLabels, AreTakenApart) {
     EXPECT_EQ(LoadLabel("P3").number, 3);
     EXPECT_EQ(LoadLabel("p2nu").suffix, "NU");
-    EXPECT_EQ(LoadLabel("F1FC").with_face(4, false), "F4FC");
+    EXPECT_EQ(LoadLabel("F1FC").with_face(4, CellType::tetra, false), "F4FC");
     EXPECT_EQ(LoadLabel("EDNOR2").face(CellType::triangle, false), 4);
-    EXPECT_EQ(LoadLabel("EDNOR2").with_face(5, false), "EDNOR3");
+    EXPECT_EQ(LoadLabel("EDNOR2").with_face(5, CellType::triangle, false), "EDNOR3");
     EXPECT_EQ(LoadLabel("P2").face(CellType::triangle, true), 4);
-    EXPECT_EQ(LoadLabel("P2").with_face(5, true), "P3");
+    EXPECT_EQ(LoadLabel("P2").with_face(5, CellType::triangle, true), "P3");
     EXPECT_EQ(LoadLabel("P5").face(CellType::tetra, false), 0);
+    EXPECT_EQ(LoadLabel("P3").face(CellType::pyramid, false), 2);
+    EXPECT_EQ(LoadLabel("P2").face(CellType::pyramid, false), 0);
+    EXPECT_EQ(LoadLabel("P1").with_face(2, CellType::pyramid, false), "P3");
     EXPECT_EQ(LoadLabel("P1").face(CellType::line, false), 0);
     for (const char* whole : {"GRAV", "CENTRIF", "BF", "P", "SPOS", "FNEG", "NEWTON"})
         EXPECT_EQ(LoadLabel(whole).number, 0) << whole;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "io/inp.h"
+#include "mesh/order.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -341,8 +342,8 @@ E, S3
     EXPECT_EQ(describe(read(text)), describe(changed));
     for (const auto& [plane, label, face] :
          {std::tuple(true, 1, 3), {true, 4, 6}, {true, 5, 1}, {true, 6, 2}, {false, 1, 1}, {false, 5, 5}}) {
-        EXPECT_EQ(face_from_label(label, plane), face);
-        EXPECT_EQ(label_from_face(face, plane), label);
+        EXPECT_EQ(face_from_label(label, CellType::quad, plane), face);
+        EXPECT_EQ(label_from_face(face, CellType::quad, plane), label);
     }
 }
 
@@ -749,10 +750,35 @@ TEST_F(Inp, MeshFromAnotherFormatIsWrittenByWhatItsElementsAre) {
     EXPECT_EQ(write(mesh), text);
 }
 
+TEST_F(Inp, PyramidsAreHexahedraWithOneUpperNode) {
+    Mesh mesh = box_from_med();
+    mesh.add_node({0.5, 0.5, 2}, 11);
+    mesh.add_cell(CellType::pyramid, std::array<Index, 5>{4, 5, 6, 7, 10}, 20);
+    set_group_members(mesh, mesh.add_group("SIDE", GroupKind::facet), {GroupKind::facet, {20, 20}, {1, 2}});
+    const std::string text = write(mesh);
+    EXPECT_THAT(text, HasSubstr("20, 5, 6, 7, 8, 11, 11, 11, 11\n"));
+    EXPECT_THAT(text, HasSubstr("20, S1\n20, S3\n"));
+    const Mesh back = read(text);
+    ASSERT_EQ(back.block(CellType::pyramid).size(), 1);
+    EXPECT_THAT(back.block(CellType::pyramid).nodes(0), ElementsAre(4, 5, 6, 7, 10));
+    EXPECT_THAT(faces(back, "SIDE"), ElementsAre(std::pair(20, 1), std::pair(20, 2)));
+    EXPECT_EQ(write(back), text);
+
+    Mesh second = to_second_order(mesh);
+    const Mesh again = read(write(second));
+    ASSERT_EQ(again.block(CellType::pyramid13).size(), 1);
+    EXPECT_TRUE(
+        std::ranges::equal(again.block(CellType::pyramid13).nodes(0), second.block(CellType::pyramid13).nodes(0)));
+    EXPECT_EQ(write(again), write(second));
+    // The card of the old Abaqus type has five nodes, and keeps them.
+    const Mesh five = read("*NODE\n1,0\n2,1\n3,1,1\n4,0,1\n5,0,0,1\n*ELEMENT,TYPE=C3D5\n1,1,2,3,4,5\n");
+    EXPECT_THAT(write(five), HasSubstr("1,1,2,3,4,5\n"));
+}
+
 TEST_F(Inp, WhatCalculixCannotHoldIsRefused) {
     Mesh mesh = box_from_med();
-    mesh.add_cell(CellType::pyramid, std::array<Index, 5>{0, 1, 2, 3, 9}, 20);
-    EXPECT_THAT(write_error(mesh), HasSubstr("out.inp: 1 elements of type pyramid: CalculiX has no such element"));
+    mesh.add_cell(CellType::quad9, std::array<Index, 9>{0, 1, 9, 8, 2, 3, 4, 5, 6}, 20);
+    EXPECT_THAT(write_error(mesh), HasSubstr("out.inp: 1 elements of type quad9: CalculiX has no such element"));
     mesh = box_from_med();
     mesh.add_group("top", GroupKind::node);
     EXPECT_THAT(write_error(mesh), HasSubstr("groups 'TOP' and 'top' would be one node set in CalculiX"));

@@ -46,10 +46,10 @@ TEST(DeckPlaces, FollowFromWhatAnElementIs) {
 
 TEST(DeckPlaces, RefuseElementsCalculixHasNot) {
     Mesh mesh;
-    for (int k = 0; k < 5; ++k) mesh.add_node(Vec3(k % 2, k / 2 % 2, k / 4), k + 1);
-    mesh.add_cell(CellType::pyramid, std::array<Index, 5>{0, 1, 3, 2, 4}, 1);
+    for (int k = 0; k < 7; ++k) mesh.add_node(Vec3(k % 2, k / 2 % 2, k / 4), k + 1);
+    mesh.add_cell(CellType::triangle7, std::array<Index, 7>{0, 1, 2, 3, 4, 5, 6}, 1);
     EXPECT_THAT([&] { find_deck_places(mesh, SolverInput()); },
-                testing::ThrowsMessage<WriteError>(HasSubstr("1 elements of type pyramid")));
+                testing::ThrowsMessage<WriteError>(HasSubstr("1 elements of type triangle7")));
 }
 
 class DeckSets : public RuleTest {

@@ -356,9 +356,24 @@ TEST(Refine, HexahedraStopIt) {
     EXPECT_GT(result.report.elements_added, 2);
     EXPECT_THAT(check_refinement(m.mesh, near_end, options, result), testing::IsEmpty());
     EXPECT_EQ(result.mesh.block(CellType::hexahedron).connectivity, m.mesh.block(CellType::hexahedron).connectivity);
-    EXPECT_THAT([&] { refine(m.mesh, everywhere(), half); },
-                testing::ThrowsMessage<UnsupportedElementError>(
-                    testing::AllOf(testing::HasSubstr("1 hexahedron"), testing::HasSubstr("200"))));
+}
+
+TEST(Refine, HexahedraWithLongEdgesBecomeTetrahedra) {
+    Mesh mesh = checks::bricks(6, 2, 2);
+    const FamilyIndex all = family_of(mesh, "ALL", GroupKind::element);
+    for (FamilyIndex& f : mesh.block(CellType::hexahedron).families) f = all;
+    const Plane end({0, 0, 0}, {1, 0, 0});
+    RefineOptions options;
+    options.size = 0.6;
+    options.gradation = 0.9;
+    const Result result = refine(mesh, distance_to(std::vector<const Tool*>{&end}), options);
+    result.mesh.validate();
+    EXPECT_GT(result.report.converted.at("hexahedron"), 4);
+    EXPECT_GT(result.mesh.block(CellType::hexahedron).size(), 0);
+    EXPECT_EQ(result.report.groups.at(0).count_before, 24);
+    EXPECT_NEAR(result.report.groups.at(0).measure_after, 24, 1e-12);
+    EXPECT_EQ(mesh.cell_count() + result.report.elements_added, result.mesh.cell_count());
+    EXPECT_EQ(mesh.node_count() + result.report.nodes_added, result.mesh.node_count());
 }
 
 TEST(Refine, CurvedElementsKeepTheirGeometry) {

@@ -76,9 +76,9 @@ TEST(RefineFirstTest, RefinesWhereTheMeshIsCoarser) {
     const auto refined = refine_first(mesh, fine, {});
     ASSERT_TRUE(refined);
     EXPECT_FALSE(refined->tried_in_vain);
-    EXPECT_EQ(refined->summary.size, 0.9);
-    EXPECT_EQ(refined->summary.elements_before, 6);
-    EXPECT_EQ(refined->summary.elements_after, refined->mesh.cell_count());
+    EXPECT_EQ(refined->summary->size, 0.9);
+    EXPECT_EQ(refined->summary->elements_before, 6);
+    EXPECT_EQ(refined->summary->elements_after, refined->mesh.cell_count());
     EXPECT_GT(refined->mesh.cell_count(), 6);
     EXPECT_EQ(refined->numbering.node, 18);
     EXPECT_EQ(refined->numbering.cell, 106);

@@ -136,13 +136,6 @@ def test_what_cannot_be_cracked_says_why():
     disk = fs.read(deck_path("ax6"))
     with pytest.raises(fs.ToolError, match="lie in the plane, and nothing stands on them"):  # an axisymmetric mesh
         fs.crack(disk, middle_plane(disk, Z))
-    cubes = fs.read(deck_path("cubef2f1"))
-    for normal in (X, Y):  # across both cubes
-        with pytest.raises(fs.UnsupportedElementError, match="hexahedron20.*only triangles and tetrahedra can be cut"):
-            fs.crack(cubes, middle_plane(cubes, normal))
-    bricks = fs.read(deck_path("beam20p"))
-    with pytest.raises(fs.UnsupportedElementError, match="hexahedron20"):
-        fs.crack(bricks, fs.Plane(bricks.points.mean(axis=0), Z))
 
 
 @needs_ccx

@@ -197,10 +197,13 @@ def test_taken_name():
         fs.crack(mesh, PLANE)
 
 
-def test_bricks_in_the_way():
+def test_a_brick_becomes_tetrahedra():
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
-    with pytest.raises(fs.UnsupportedElementError, match="hexahedr"):
-        fs.crack(fs.Mesh(points, {"hexahedron": [range(8)]}), fs.Plane((0.5, 0, 0), (1, 0, 0)))
+    result = fs.crack(fs.Mesh(points, {"hexahedron": [range(8)]}), fs.Plane((0.5, 0, 0), (1, 0, 0)))
+    assert result.report.converted == {"hexahedron": 1}
+    assert "hexahedron 1" in result.report.to_text()
+    assert "hexahedron" not in result.mesh.cells and fs.measure(result.mesh)["tetra"].sum() == pytest.approx(1)
+    assert any("stiffer" in w for w in result.report.warnings)
 
 
 def test_all_that_the_package_has_is_named_public():

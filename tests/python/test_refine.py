@@ -220,12 +220,8 @@ def test_elements_that_cannot_be_bisected_are_no_obstacle():
     mesh = fs.Mesh(np.concatenate([box.points, brick[4:]]), {"tetra": box.cells["tetra"], "hexahedron": [cell]})
     hole = fs.Cylinder((1.6, 2.5, 0), (0, 0, 1), 1.2)
     result = fs.drill(mesh, hole)
-    assert (
-        result.report.refinement is None
-        and "was not refined first: the refinement reaches 1 hexahedron" in result.report.warnings[0]
-    )
-    with pytest.raises(fs.UnsupportedElementError, match="the refinement reaches 1 hexahedron"):
-        fs.drill(mesh, hole, refine=0.6)
+    assert result.report.refinement is not None and result.report.converted == {"hexahedron": 1}
+    assert fs.drill(mesh, hole, refine=0.6).report.converted == {"hexahedron": 1}
 
 
 @pytest.mark.parametrize(

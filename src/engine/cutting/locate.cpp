@@ -99,6 +99,30 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
     return out;
 }
 
+int bandwidth(const Location& location, const Mesh& mesh) {
+    double largest = 0, length = 0;
+    long edges = 0;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (t.dimension < 2) continue;
+        const Index* n = b.connectivity.data();
+        for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
+            bool touched = false;
+            for (int k = 0; k < t.corners; ++k) touched = touched || location.level[n[k]] == 0;
+            if (!touched) continue;
+            for (const auto& e : t.edges) {
+                const Index a = n[e[0]], d = n[e[1]];
+                if (location.level[a] != 0 || location.level[d] != 0) continue;
+                length += (mesh.points[a] - mesh.points[d]).norm();
+                ++edges;
+                largest = std::max(largest, std::min(std::abs(location.distance[a]), std::abs(location.distance[d])));
+            }
+        }
+    }
+    if (edges == 0) return 2;
+    return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
+}
+
 void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency) {
     std::vector<Index> front, next;
     if (adjacency)

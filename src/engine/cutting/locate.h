@@ -29,6 +29,9 @@ struct Location {
 /// Throws ToolError when a tool parts no nodes of an element and none lie on it: why_missed().
 Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr);
 
+/// The paper's bandwidth: largest distance between an interface node and the tool, in mean edge lengths; at least 2.
+int bandwidth(const Location& location, const Mesh& mesh);
+
 /// Gives nodes without a level (-1) that are k <= `count` edges away from those of level 0 the level k.
 void spread_levels(const Mesh& mesh, std::vector<std::int8_t>& levels, int count, const Adjacency* adjacency = nullptr);
 

@@ -19,13 +19,13 @@ LoadLabel::LoadLabel(std::string_view label) {
 int LoadLabel::face(CellType type, bool plane) const {
     const CellTraits& t = traits(type);
     if (number == 0 || t.dimension < 2) return 0;
-    const int face = is_edge_load() ? number + 2 : face_from_label(number, plane);
+    const int face = is_edge_load() ? number + 2 : face_from_label(number, type, plane);
     const int faces = t.dimension == 3 ? static_cast<int>(t.faces.size()) : 2 + t.corners;
     return face >= 1 && face <= faces ? face : 0;
 }
 
-std::string LoadLabel::with_face(int face, bool plane) const {
-    return prefix + std::to_string(is_edge_load() ? face - 2 : label_from_face(face, plane)) + suffix;
+std::string LoadLabel::with_face(int face, CellType type, bool plane) const {
+    return prefix + std::to_string(is_edge_load() ? face - 2 : label_from_face(face, type, plane)) + suffix;
 }
 
 }  // namespace femscalpel

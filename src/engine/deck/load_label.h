@@ -18,8 +18,8 @@ struct LoadLabel {
 
     /// Facet::face the label means on an element of `type`; 0 if it names none that element has.
     int face(CellType type, bool plane) const;
-    /// The label for another face (as face() counts).
-    std::string with_face(int face, bool plane) const;
+    /// The label for another face (as face() counts) of an element of `type`.
+    std::string with_face(int face, CellType type, bool plane) const;
 
 private:
     bool is_edge_load() const { return prefix == "EDNOR"; }

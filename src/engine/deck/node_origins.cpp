@@ -42,10 +42,16 @@ NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, 
         nodes_.push_back({number, {number}, false, moved, after.points[*now]});
     }
     std::unordered_map<Index, const std::vector<Index>*> born;
+    std::vector<std::pair<std::size_t, std::vector<Share>>> known;
     for (const Changes::Born& b : changes.born) {
         born.emplace(b.node, &b.ancestors);
-        if (const auto now = after_numbers.node(b.node))
-            nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
+        const auto now = after_numbers.node(b.node);
+        if (!now) continue;
+        if (!b.shares.empty()) {
+            known.emplace_back(nodes_.size(), std::vector<Share>());
+            for (const auto& [node, weight] : b.shares) known.back().second.push_back({node, weight});
+        }
+        nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
     }
     for (const Changes::Copy& c : changes.copies) {
         copies_[c.source].push_back(c.node);
@@ -56,6 +62,7 @@ NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, 
                           after.points[*now]});
     }
     shares_.resize(nodes_.size());
+    for (auto& [k, shares] : known) shares_[k] = std::move(shares);
 }
 
 const std::vector<NodeOrigins::Share>& NodeOrigins::shares(std::size_t k) const {

@@ -27,7 +27,32 @@ std::optional<CellType> cell_of(int dimension, int nodes) {
     return {};
 }
 
+bool is_pyramid(CellType type) { return traits(type).corners == 5; }
+
 }  // namespace
+
+bool holds(const DeckElementType& said, CellType type) {
+    return said.cell == type || (type == CellType::pyramid && said.cell == CellType::hexahedron) ||
+           (type == CellType::pyramid13 && said.cell == CellType::hexahedron20);
+}
+
+std::string deck_label_for(std::string_view written, CellType type) {
+    const std::string label = deck_key(written);
+    const bool heat = label.starts_with("DC") || label.starts_with("DS");
+    std::size_t digits = 0;
+    for (const Family& f : families)
+        if (digits == 0 && std::string_view(label).substr(heat).starts_with(f.prefix)) digits = heat + f.prefix.size();
+    const std::size_t formulation = std::min(label.find_first_not_of("0123456789", digits), label.size());
+    const std::string count = std::to_string(type == CellType::pyramid     ? 8
+                                             : type == CellType::pyramid13 ? 20
+                                                                           : traits(type).nodes);
+    std::string out(label, 0, digits);
+    out += count;
+    // CalculiX's incompatible and reduced first-order elements are not exact as pyramids.
+    if (label.compare(digits, formulation - digits, count) == 0 && type != CellType::pyramid)
+        out.append(label, formulation);
+    return out;
+}
 
 std::optional<DeckElementType> deck_element_type(std::string_view written) {
     std::string label = deck_key(written);
@@ -83,8 +108,10 @@ std::string_view default_deck_label(CellType type) {
         case CellType::wedge15:
             return "C3D15";
         case CellType::hexahedron:
+        case CellType::pyramid:
             return "C3D8";
         case CellType::hexahedron20:
+        case CellType::pyramid13:
             return "C3D20";
         default:
             return "";
@@ -95,9 +122,41 @@ void swap_node_order(CellType type, std::span<Index> nodes) {
     if (type == CellType::line3) std::swap(nodes[1], nodes[2]);
 }
 
-int face_from_label(int label, bool plane) { return plane ? (label <= 4 ? label + 2 : label - 4) : label; }
+std::vector<Index> deck_nodes(CellType type, std::span<const Index> n, CellType as) {
+    if (!is_pyramid(type) || as == type) return {n.begin(), n.end()};
+    std::vector<Index> out(n.begin(), n.begin() + 4);
+    out.insert(out.end(), 4, n[4]);
+    if (type == CellType::pyramid) return out;
+    out.insert(out.end(), n.begin() + 5, n.begin() + 9);  // on the base
+    out.insert(out.end(), 4, n[4]);
+    out.insert(out.end(), n.begin() + 9, n.end());
+    return out;
+}
 
-int label_from_face(int face, bool plane) { return plane ? (face <= 2 ? face + 4 : face - 2) : face; }
+std::optional<std::pair<CellType, std::vector<Index>>> pyramid_from_deck(CellType type, std::span<const Index> n) {
+    if (type != CellType::hexahedron && type != CellType::hexahedron20) return {};
+    const auto at_tip = [&](std::size_t first) {
+        return std::ranges::all_of(n.subspan(first, 4), [&](Index v) { return v == n[4]; });
+    };
+    if (!at_tip(4) || (type == CellType::hexahedron20 && !at_tip(12))) return {};
+    for (std::size_t k = 0; k < 4; ++k)
+        if (n[k] == n[(k + 1) % 4] || n[k] == n[4]) return {};
+    std::vector<Index> out(n.begin(), n.begin() + 5);
+    if (type == CellType::hexahedron) return std::pair(CellType::pyramid, std::move(out));
+    out.insert(out.end(), n.begin() + 8, n.begin() + 12);
+    out.insert(out.end(), n.begin() + 16, n.end());
+    return std::pair(CellType::pyramid13, std::move(out));
+}
+
+int face_from_label(int label, CellType type, bool plane) {
+    if (is_pyramid(type)) return label == 2 ? 0 : std::max(1, label - 1);  // without the one in its tip
+    return plane ? (label <= 4 ? label + 2 : label - 4) : label;
+}
+
+int label_from_face(int face, CellType type, bool plane) {
+    if (is_pyramid(type)) return face == 1 ? 1 : face + 1;
+    return plane ? (face <= 2 ? face + 4 : face - 2) : face;
+}
 
 std::string_view label_name(int label, CellType type, bool plane) {
     static constexpr std::string_view names[] = {"", "S1", "S2", "S3", "S4", "S5", "S6"};

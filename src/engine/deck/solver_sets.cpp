@@ -291,9 +291,10 @@ private:
         // Plane elements: SN and SP are labels 5 and 6 whatever the number of edges.
         if (planes_.empty()) planes_ = plane_families(mesh_, input_);
         const bool plane = planes_[mesh_.block(cell->type).families[cell->cell]];
-        const int face = face_from_label(label, plane);
+        const int face = face_from_label(label, cell->type, plane);
+        if (face == 0 && t.corners == 5) return absent(s, id);  // the tip, of a hexahedron's faces
         const int faces = t.dimension == 3 ? static_cast<int>(t.faces.size()) : 2 + t.corners;
-        if (face > faces) {
+        if (face < 1 || face > faces) {
             fail(line, "element " + std::to_string(id) + ", a " + std::string(t.name) + ", has no face S" +
                            std::to_string(label));
             sets_[s].add_absent(1);

@@ -124,7 +124,7 @@ void renew_surface_sets(Mesh& mesh, std::span<const SurfaceSet> sets, const Solv
         const bool plane = planes[family] != 0;
         for (const Facet& f : std::ranges::equal_range(facets, std::pair(cell.type, cell.cell), {}, place))
             for (const GroupIndex surface : mesh.families.groups(f.family)) {
-                const auto found = sets_for.find({surface, label_from_face(f.face, plane)});
+                const auto found = sets_for.find({surface, label_from_face(f.face, f.type, plane)});
                 // Elements that the surface names by number stay so.
                 if (found == sets_for.end() ||
                     std::ranges::none_of(inherited, [&](GroupIndex g) { return surfaces_of[g].contains(surface); }))

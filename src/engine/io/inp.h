@@ -17,6 +17,7 @@ namespace femscalpel {
 /// - *ELSET, ELSET=: element groups.
 /// - *SURFACE, TYPE=ELEMENT: facet groups; S1, S2, ... of plane and axisymmetric elements are edges and
 ///   become faces 3, 4, ... of Facet.
+/// - C3D8 and C3D20 whose upper nodes are one: pyramids; what write_inp() added for them goes.
 /// - User elements, network elements without an end node (0), element numbers of a submodel's global
 ///   model, surface faces of beams: kept beside the mesh (OtherElement, DeckSet::unheld).
 /// - Everything else is kept verbatim, in place, in Mesh::companion, a SolverInput. Includes are resolved.
@@ -42,7 +43,8 @@ Mesh read_inp(const std::filesystem::path& path);
 ///
 /// Elements that stand under no *ELEMENT card (made by an operator; all elements of a mesh from another
 /// format) are written by what they are, because an element in the deck always adds stiffness:
-/// - solids: C3D4, C3D10, C3D6, C3D15, C3D8, C3D20;
+/// - solids: C3D4, C3D10, C3D6, C3D15, C3D8, C3D20; pyramids as C3D8 and C3D20 whose upper nodes are one (and an
+///   *EQUATION card with these, see pyramid_ties.h);
 /// - triangles and quadrangles that are faces of a solid: not as elements; their groups become *SURFACE,
 ///   TYPE=ELEMENT (between two solids: the face of the one with the lower number) and *NSET. Others: shells
 ///   S3, S6, S4, S8;
@@ -57,10 +59,10 @@ Mesh read_inp(const std::filesystem::path& path);
 /// 15 significant digits; 14 where the exponent has three digits, and of negative values also where it is -86 or less.
 /// What is not changed in a deck keeps its text.
 ///
-/// Throws WriteError for element types CalculiX does not have (pyramids, elements with face or volume
-/// centre nodes), names over 80 characters or with commas, two groups of a kind whose names differ only in
-/// case or blanks, a mesh without nodes, elements that take the number or lack the node of an OtherElement,
-/// and when the file cannot be written; the file is then as it was before.
+/// Throws WriteError for element types CalculiX does not have (those with face or volume centre nodes), names over 80
+/// characters or with commas, two groups of a kind whose names differ only in case or blanks, a mesh without nodes,
+/// elements that take the number or lack the node of an OtherElement, and when the file cannot be written; the file is
+/// then as it was before.
 void write_inp(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace femscalpel

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/pyramid_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -22,6 +23,7 @@ class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
         input_->cards() = read_cards(path);
+        remove_pyramid_ties(input_->cards());
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
         mesh_.name = stem.stem().string();
@@ -235,6 +237,10 @@ private:
                 continue;
             }
             swap_node_order(type.cell, record);
+            if (const auto pyramid = pyramid_from_deck(type.cell, record)) {
+                mesh_.add_cell(pyramid->first, pyramid->second, id, family);
+                continue;
+            }
             block.connectivity.insert(block.connectivity.end(), record.begin(), record.end());
             block.ids.push_back(id);
             block.families.push_back(family);
@@ -369,7 +375,8 @@ private:
             const auto type = static_cast<CellType>(key[0]);
             const bool plane =
                 planes[static_cast<std::size_t>(mesh_.block(type).families[static_cast<std::size_t>(key[1])])];
-            mesh_.facets.push_back({type, static_cast<std::int8_t>(face_from_label(static_cast<int>(key[2]), plane)),
+            mesh_.facets.push_back({type,
+                                    static_cast<std::int8_t>(face_from_label(static_cast<int>(key[2]), type, plane)),
                                     mesh_.families.intern(groups), key[1]});
         }
         std::ranges::sort(mesh_.facets, {}, [](const Facet& f) {

@@ -95,7 +95,7 @@ private:
 
     Index facet_key(CellRef element, int face) const {
         const CellBlock& b = mesh_.block(element.type);
-        return 8 * b.ids[element.cell] + label_from_face(face, out_.planes[b.families[element.cell]]);
+        return 8 * b.ids[element.cell] + label_from_face(face, element.type, out_.planes[b.families[element.cell]]);
     }
 
     /// A group of faces and edges: a surface where CalculiX can name them, and a node set.

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
+#include "deck/pyramid_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -105,9 +106,20 @@ private:
                 write_replaced_set(*s);
         if (c == last_node_card_) write_nodes_without_card();
         if (c == last_element_card_) write_free_elements();
-        if (c == last_mesh_card_)
+        if (c == last_mesh_card_) {
             for (const NewSet& set : plan_.new_sets) write_set(set.type, set.name, set.members, {}, set.remark);
+            put_ties();
+        }
         for (std::string_view line : tail_) put(line);
+    }
+
+    /// What is written for pyramids besides themselves.
+    void put_ties() {
+        const std::string ties = pyramid_ties(mesh_);
+        for (std::size_t at = 0, end = 0; at < ties.size(); at = end + 1) {
+            end = ties.find('\n', at);
+            put_line(std::string_view(ties).substr(at, end - at));
+        }
     }
 
     void write_head(std::size_t c, const Card& card, std::string_view set_parameter) {
@@ -190,8 +202,6 @@ private:
         std::unordered_set<Index> others;
         for (const OtherElement& e : input_->other_elements())
             if (e.card == c) others.insert(e.number);
-        std::vector<char>& written = element_written_[static_cast<int>(type->cell)];
-        if (written.empty()) written.assign(static_cast<std::size_t>(mesh_.block(type->cell).size()), 0);
         std::vector<Index> wanted(static_cast<std::size_t>(traits(type->cell).nodes));
         std::vector<std::string_view> record;
         CardReader line(card);
@@ -206,10 +216,9 @@ private:
             const bool here = found && places_.card_of_family[mesh_.block(found->type).families[found->cell]] == c;
             if (here) {
                 check_type(*found, *type, card);
-                const auto nodes = mesh_.block(found->type).nodes(found->cell);
-                std::ranges::transform(nodes, wanted.begin(), [this](Index n) { return mesh_.node_ids[n]; });
-                swap_node_order(type->cell, wanted);
-                written[static_cast<std::size_t>(found->cell)] = 1;
+                std::ranges::transform(nodes_as_written(*found, type->cell), wanted.begin(),
+                                       [this](Index n) { return mesh_.node_ids[n]; });
+                written(*found) = 1;
             }
             const bool keep = here || others.contains(id);
             if (keep) release_tail();
@@ -217,13 +226,19 @@ private:
             if (keep && same)
                 for (std::string_view raw : record) put(raw);
             else if (keep)
-                put_element(*found);
+                put_element(*found, type->cell);
         }
         for (Index id : plan_.members_of_card[c]) {
             const CellRef ref = *numbers_.cell(id);
             check_type(ref, *type, card);
-            if (!written[static_cast<std::size_t>(ref.cell)]) put_element(ref);
+            if (!written(ref)) put_element(ref, type->cell);
         }
+    }
+
+    char& written(const CellRef& ref) {
+        std::vector<char>& of_type = element_written_[static_cast<int>(ref.type)];
+        if (of_type.empty()) of_type.assign(static_cast<std::size_t>(mesh_.block(ref.type).size()), 0);
+        return of_type[static_cast<std::size_t>(ref.cell)];
     }
 
     /// Reads on behind an element's number to its last node; whether its nodes are `wanted`. Its lines come to
@@ -263,21 +278,25 @@ private:
     }
 
     void check_type(CellRef ref, const DeckElementType& type, const Card& card) const {
-        if (ref.type == type.cell) return;
+        if (holds(type, ref.type)) return;
         throw WriteError("element " + std::to_string(mesh_.block(ref.type).ids[ref.cell]) + ", a " +
                          std::string(traits(ref.type).name) + ", stands under " + card.where() +
                          ", whose elements are of type " + *card.parameter("TYPE"));
     }
 
-    void put_element(CellRef ref) {
+    /// Under a card for elements of the type `as`.
+    std::vector<Index> nodes_as_written(CellRef ref, CellType as) const {
+        std::vector<Index> nodes = deck_nodes(ref.type, mesh_.block(ref.type).nodes(ref.cell), as);
+        swap_node_order(as, nodes);
+        return nodes;
+    }
+
+    void put_element(CellRef ref, CellType as) {
         check_();
-        const auto nodes = mesh_.block(ref.type).nodes(ref.cell);
-        std::array<Index, 27> order;
-        std::ranges::copy(nodes, order.begin());
-        swap_node_order(ref.type, {order.data(), nodes.size()});
+        const std::vector<Index> order = nodes_as_written(ref, as);
         start_line();
         append_integer(out_, mesh_.block(ref.type).ids[ref.cell]);
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
+        for (std::size_t k = 0; k < order.size(); ++k) {
             out_ += ',';
             if (k == 15) out_ += eol_;  // CalculiX reads 16 entries per line
             out_ += ' ';
@@ -292,9 +311,10 @@ private:
             bool first = true;
             for (Index i = 0; i < b.size(); ++i) {
                 if (fates[static_cast<std::size_t>(i)] != Fate::free) continue;
-                if (first) put_line("*ELEMENT, TYPE=" + std::string(default_deck_label(b.type)));
+                const std::string_view label = default_deck_label(b.type);
+                if (first) put_line("*ELEMENT, TYPE=" + std::string(label));
                 first = false;
-                put_element({b.type, i});
+                put_element({b.type, i}, deck_element_type(label)->cell);
             }
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -15,10 +16,13 @@ struct Changes {
         Index node;
         Index source;  ///< a node of the input, or one listed in `born`
     };
-    /// A node made on an edge.
+    /// A node made on an edge, or in the middle of a face or element.
     struct Born {
         Index node;
-        std::vector<Index> ancestors;  ///< nodes of the input: the ends of the edge; of edges born themselves, theirs
+        std::vector<Index> ancestors;  ///< nodes of the input: the ends of the edge; of edges born themselves, theirs;
+                                       ///< or the corners of the face or element
+        /// Nodes of the input and their shares in what a field has at the node; empty if its place is to tell.
+        std::vector<std::pair<Index, double>> shares = {};
     };
     /// A further part of an element, or a second copy of one.
     struct Part {

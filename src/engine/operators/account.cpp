@@ -332,6 +332,7 @@ void Account::join_refinement(const Rebuilt& rebuilt) {
     const Mesh& before = edit_.mesh();
     const Refined& refined = *refined_;
     report_.refinement = refined.summary;
+    report_.converted = refined.report.converted;
     Index nodes = 0, elements = 0;
     for (Index n = 0; n < before.node_count(); ++n)
         nodes += before.node_ids[n] >= refined.numbering.node && rebuilt.kept_node(n) < 0;
@@ -342,7 +343,7 @@ void Account::join_refinement(const Rebuilt& rebuilt) {
             elements += !left.contains(id);
     report_.nodes_split += refined.report.nodes_split - nodes;
     report_.nodes_added += refined.report.nodes_added - nodes;
-    report_.nodes_removed -= nodes;
+    report_.nodes_removed += refined.report.nodes_removed - nodes;
     report_.elements_added += refined.report.elements_added - elements;
     report_.elements_removed -= elements;
     for_each_record(before, report_, [&, record = std::size_t{0}](std::size_t, GroupRecord& r) mutable {

@@ -13,6 +13,7 @@
 #include "groups/preserve.h"
 #include "mesh/stopwatch.h"
 #include "operators/account.h"
+#include "operators/simplify_first.h"
 
 namespace femscalpel {
 namespace {
@@ -20,37 +21,19 @@ namespace {
 /// Code_Aster's limit for group names.
 constexpr std::size_t longest_name = 24;
 
-/// The paper's bandwidth: largest distance between an interface node and the tool, in mean edge lengths; at least 2.
-int bandwidth(const Location& location, const Mesh& mesh) {
-    double largest = 0, length = 0;
-    long edges = 0;
-    for (const CellBlock& b : mesh.blocks()) {
-        const CellTraits& t = traits(b.type);
-        if (t.dimension < 2 || !t.simplex) continue;
-        const Index* n = b.connectivity.data();
-        for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
-            bool touched = false;
-            for (int k = 0; k < t.corners; ++k) touched = touched || location.level[n[k]] == 0;
-            if (!touched) continue;
-            for (const auto& e : t.edges) {
-                const Index a = n[e[0]], d = n[e[1]];
-                if (location.level[a] != 0 || location.level[d] != 0) continue;
-                length += (mesh.points[a] - mesh.points[d]).norm();
-                ++edges;
-                largest = std::max(largest, std::min(std::abs(location.distance[a]), std::abs(location.distance[d])));
-            }
-        }
-    }
-    if (edges == 0) return 2;
-    return std::max(2, static_cast<int>(std::lround(largest / (length / static_cast<double>(edges)))));
-}
-
 void check_options(const OperatorOptions& options) {
     if (options.transition && (*options.transition < 1 || *options.transition > 20))
         throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20",
                         "transition");
     if (!(options.feature_angle > 0 && options.feature_angle < 180))
         throw ToolError("feature_angle must lie between 0 and 180 degrees", "feature_angle");
+}
+
+/// The surfaces around which the band is.
+std::vector<Blade> around(const Recipe& recipe) {
+    std::vector<Blade> blades(recipe.blades().begin(), recipe.blades().end());
+    blades.insert(blades.end(), recipe.surroundings().begin(), recipe.surroundings().end());
+    return blades;
 }
 
 /// Band, node constraints and contacts around the blades of a recipe.
@@ -61,8 +44,7 @@ public:
 
     /// Finds the band of the recipe's blades. With the option band_only, `edit` goes on with that alone.
     void find_band(const Recipe& recipe) {
-        std::vector<Blade> blades(recipe.blades().begin(), recipe.blades().end());
-        blades.insert(blades.end(), recipe.surroundings().begin(), recipe.surroundings().end());
+        const std::vector<Blade> blades = around(recipe);
         location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency());
         if (!options_.transition && options_.method == Method::deform) {
             width_ = bandwidth(location_, edit_.mesh());
@@ -123,7 +105,8 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
                               const Refined* refined, Stopwatch::Time started,
                               const std::function<bool(std::span<const RefineZone>)>& refine) {
     Laps seconds;
-    if (refined) seconds.add("refine", refined->seconds);
+    if (refined && refined->converting > 0) seconds.add("convert", refined->converting);
+    if (refined && refined->seconds > 0) seconds.add("refine", refined->seconds);
     Stopwatch watch(seconds, started);
     watch.lap("locate");
     Edit edit(mesh, known);
@@ -188,21 +171,36 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
     check_name(input, options.name, recipe.naming());
     check_options(options);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
-    std::optional<Refined> refined;
+    std::optional<Refined> converted = simplify_first(input, around(recipe), recipe.zones(), options, known), refined;
+    if (converted) {
+        converted->converting = Stopwatch::since(started);
+        started = Stopwatch::now();
+        recipe.start(converted->mesh);
+    }
+    bool tried = false;
     const auto refine = [&](std::span<const RefineZone> zones) {
-        if (refined) return false;
-        refined = refine_first(input, zones, options);
+        if (tried) return false;
+        refined = refine_first(converted ? converted->mesh : input, zones, options);
         if (!refined) return false;
+        tried = true;
         refined->seconds = Stopwatch::since(started);
+        if (!converted) return true;
+        if (refined->tried_in_vain) {
+            std::ranges::move(refined->report.warnings, std::back_inserter(converted->report.warnings));
+            refined.reset();
+        } else {
+            refined = joined(*converted, std::move(*refined), options.strict);
+        }
         return true;
     };
     refine(recipe.zones());
     for (;;) {
-        const bool finer = refined && !refined->tried_in_vain;
-        if (refined) started = Stopwatch::now();
-        if (finer) recipe.start(refined->mesh);
-        if (auto result = attempt(recipe, finer ? refined->mesh : input, options, finer ? Prepared{} : known,
-                                  refined ? &*refined : nullptr, started, refine))
+        const Refined* first = refined ? &*refined : converted ? &*converted : nullptr;
+        const bool changed = first && !first->tried_in_vain;
+        if (tried) started = Stopwatch::now();
+        if (tried && changed) recipe.start(first->mesh);
+        if (auto result = attempt(recipe, changed ? first->mesh : input, options, changed ? Prepared{} : known, first,
+                                  started, refine))
             return std::move(*result);
     }
 }

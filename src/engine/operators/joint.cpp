@@ -172,6 +172,7 @@ Report joined(const Report& before, Report after) {
     after.nodes_split += before.nodes_split;
     after.nodes_moved = std::max(after.nodes_moved, before.nodes_moved);
     after.elements_added += before.elements_added;
+    for (const auto& [type, count] : before.converted) after.converted[type] += count;
     after.warnings.insert(after.warnings.begin(), before.warnings.begin(), before.warnings.end());
     return after;
 }

@@ -22,6 +22,7 @@
 #include "mesh/stopwatch.h"
 #include "operators/changed_quality.h"
 #include "operators/edit.h"
+#include "operators/simplify_first.h"
 
 namespace femscalpel {
 namespace {
@@ -43,14 +44,12 @@ void check(const RefineOptions& o) {
             "between 0 and 180 degrees");
 }
 
-/// Marks the corners of elements that have an edge to be bisected, level 0.
-std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& field, const std::vector<double>& distance,
-                                         const std::string& advice) {
-    std::vector<std::int8_t> level(mesh.points.size(), -1);
+/// Visits the elements of dimension 2 and more that have an edge to be bisected: block, index.
+template <class Visit>
+void for_each_long(const Mesh& mesh, const SizeField& field, const std::vector<double>& distance, Visit visit) {
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
         if (t.dimension < 2) continue;
-        std::vector<Index> unsupported;
         SparseCheck check(256);
         const Index* n = b.connectivity.data();
         for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
@@ -58,16 +57,38 @@ std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& fiel
             const bool is_long = std::ranges::any_of(t.edges, [&](const auto& e) {
                 return field.exceeded(mesh.points[n[e[0]]], mesh.points[n[e[1]]], distance[n[e[0]]], distance[n[e[1]]]);
             });
-            if (!is_long) continue;
-            if (!t.simplex) unsupported.push_back(b.ids[c]);
-            for (int k = 0; k < t.corners; ++k) level[n[k]] = 0;
+            if (is_long) visit(b, c);
         }
-        if (unsupported.empty()) continue;
+    }
+}
+
+void mark_corners(const CellBlock& block, Index cell, std::vector<std::int8_t>& level) {
+    for (const Index n : block.nodes(cell).first(static_cast<std::size_t>(traits(block.type).corners))) level[n] = 0;
+}
+
+std::vector<double> distances_of(const Mesh& mesh, const SizeField& field) {
+    std::vector<double> out(mesh.points.size());
+    SparseCheck check(256);
+    for (std::size_t n = 0; n < out.size(); ++n, check()) out[n] = field.distance(mesh.points[n]);
+    return out;
+}
+
+/// Marks the corners of elements that have an edge to be bisected, level 0.
+std::vector<std::int8_t> find_long_edges(const Mesh& mesh, const SizeField& field, const std::vector<double>& distance,
+                                         const std::string& advice) {
+    std::vector<std::int8_t> level(mesh.points.size(), -1);
+    std::array<std::vector<Index>, cell_type_count> unsupported;
+    for_each_long(mesh, field, distance, [&](const CellBlock& block, Index cell) {
+        if (!traits(block.type).simplex) unsupported[static_cast<int>(block.type)].push_back(block.ids[cell]);
+        mark_corners(block, cell, level);
+    });
+    for (const CellTraits& t : all_cell_types()) {
+        const std::vector<Index>& list = unsupported[static_cast<int>(t.type)];
+        if (list.empty()) continue;
         std::string numbers;
-        for (std::size_t k = 0; k < unsupported.size() && k < 5; ++k)
-            numbers += (k ? ", " : "") + std::to_string(unsupported[k]);
-        if (unsupported.size() > 5) numbers += ", ...";
-        throw UnsupportedElementError("the refinement reaches " + std::to_string(unsupported.size()) + " " +
+        for (std::size_t k = 0; k < list.size() && k < 5; ++k) numbers += (k ? ", " : "") + std::to_string(list[k]);
+        if (list.size() > 5) numbers += ", ...";
+        throw UnsupportedElementError("the refinement reaches " + std::to_string(list.size()) + " " +
                                       std::string(t.name) + " elements (" + numbers +
                                       "); only triangles and tetrahedra can be bisected. " + advice +
                                       ", or split these elements into tetrahedra first");
@@ -165,12 +186,33 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
 
 }  // namespace
 
+std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceField& distance,
+                                               const BisectionOptions& options, bool no_simplices) {
+    const SizeField field(distance, options);
+    std::vector<std::int8_t> level(mesh.points.size(), -1);
+    for_each_long(mesh, field, distances_of(mesh, field), [&](const CellBlock& block, Index cell) {
+        if (!no_simplices || !traits(block.type).simplex) mark_corners(block, cell, level);
+    });
+    return level;
+}
+
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
     Laps seconds;
     Stopwatch watch(seconds);
     Trace trace;
-    if (std::optional<Result> result = refine_where_needed(input, distance, options, trace)) {
+    check(options);
+    check_extent(input);
+    const std::optional<Refined> converted = simplify_first(input, distance, options);
+    if (converted) watch.lap("convert");
+    if (auto result = refine_where_needed(converted ? converted->mesh : input, distance, options, trace)) {
         std::ranges::move(warnings_of(trace.deck, options.strict), std::back_inserter(result->report.warnings));
+        if (!converted) return std::move(*result);
+        Refined refined;
+        refined.report = std::move(result->report);
+        result->report = joined(*converted, std::move(refined), options.strict).report;
+        Laps all = seconds;
+        for (const auto& [step, time] : result->report.seconds) all.add(step, time);
+        result->report.seconds = all.list();
         return std::move(*result);
     }
     watch.lap("locate");
@@ -194,9 +236,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     Laps seconds;
     Stopwatch watch(seconds);
     const SizeField field(distance, options);
-    std::vector<double> distances(input.points.size());
-    SparseCheck check(256);
-    for (std::size_t n = 0; n < distances.size(); ++n, check()) distances[n] = field.distance(input.points[n]);
+    const std::vector<double> distances = distances_of(input, field);
     const std::vector<std::int8_t> core = find_long_edges(input, field, distances, options.finer_advice);
     watch.lap("locate");
     if (std::ranges::find(core, 0) == core.end()) return {};

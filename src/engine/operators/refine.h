@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -30,9 +31,17 @@ struct RefineOptions : BisectionOptions {
 /// are in. Parts of a curved second-order element are that element's own exact geometry; a mid-side node of a
 /// bisected edge becomes the corner. Measures of groups do not change; with `skin`, those of curved ones get better.
 ///
-/// Throws ToolError (an option out of range, more than max_elements), UnsupportedElementError (an edge to be
-/// bisected is one of a quadrangle, prism, pyramid or hexahedron), QualityError (inverted elements near the tool).
+/// Where quadrangles, prisms, pyramids or hexahedra have edges to be bisected, what of them is near becomes triangles
+/// and tetrahedra first (simplify()).
+///
+/// Throws ToolError (an option out of range, more than max_elements), UnsupportedElementError (an element of so poor a
+/// shape that it cannot be converted), QualityError (inverted elements near the tool).
 Result refine(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options);
+
+/// Level 0 at the corners of elements (or of those alone that are no simplices) that have an edge longer than wanted,
+/// -1 elsewhere.
+std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceField& distance,
+                                               const BisectionOptions& options, bool no_simplices = false);
 
 /// What an operation has to know of a refinement that it goes on from.
 struct Trace {
@@ -44,8 +53,8 @@ struct Trace {
     Remarks deck;  ///< on how the solver's input followed
 };
 
-/// The same, but nothing when no edge is longer than wanted; and what is to be told of the solver's input is in
-/// `trace`, not in the report, nor an error with the option strict.
+/// The same of triangles and tetrahedra alone, but nothing when no edge is longer than wanted; and what is to be told
+/// of the solver's input is in `trace`, not in the report, nor an error with the option strict.
 std::optional<Result> refine_where_needed(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options,
                                           Trace& trace);
 

@@ -61,7 +61,35 @@ DistanceField joined(std::span<const RefineZone> zones, double size, double grad
     };
 }
 
+bool is_asked_for(const OperatorOptions& options) { return options.refine.when == RefineFirst::When::to_size; }
+
+/// Whether a mesh is to be looked at at all: the method "deform" is there not to add nodes.
+bool may_refine(std::span<const RefineZone> zones, const OperatorOptions& options) {
+    return !zones.empty() && (is_asked_for(options) || options.method != Method::deform);
+}
+
+RefineOptions options_for(std::span<const RefineZone> zones, const OperatorOptions& options) {
+    RefineOptions o;
+    o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
+    o.feature_angle = options.feature_angle;
+    o.skin = options.skin;
+    o.finer_advice = "Give `refine` a larger length, or False";
+    o.larger_advice.clear();
+    if (!is_asked_for(options)) {
+        o.max_elements = most_elements;
+        o.gradation = steepest_gradation;
+    }
+    return o;
+}
+
 }  // namespace
+
+std::vector<std::int8_t> levels_to_refine(const Mesh& mesh, std::span<const RefineZone> zones,
+                                          const OperatorOptions& options) {
+    if (!may_refine(zones, options)) return std::vector<std::int8_t>(mesh.points.size(), -1);
+    const RefineOptions o = options_for(zones, options);
+    return corners_of_long_edges(mesh, joined(zones, o.size, o.gradation), o);
+}
 
 std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(const Vec3&)> beyond,
                                       const RefineFirst& refine) {
@@ -88,19 +116,9 @@ std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, cons
 
 std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone> zones,
                                     const OperatorOptions& options) {
-    if (zones.empty()) return {};
-    const bool asked = options.refine.when == RefineFirst::When::to_size;
-    if (!asked && options.method == Method::deform) return {};  // which is there not to add nodes
-    RefineOptions o;
-    o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
-    o.feature_angle = options.feature_angle;
-    o.skin = options.skin;
-    o.finer_advice = "Give `refine` a larger length, or False";
-    o.larger_advice.clear();
-    if (!asked) {
-        o.max_elements = most_elements;
-        o.gradation = steepest_gradation;
-    }
+    if (!may_refine(zones, options)) return {};
+    const bool asked = is_asked_for(options);
+    const RefineOptions o = options_for(zones, options);
     Refined out;
     try {
         std::optional<Result> result = refine_where_needed(mesh, joined(zones, o.size, o.gradation), o, out.trace);
@@ -116,10 +134,10 @@ std::optional<Refined> refine_first(const Mesh& mesh, std::span<const RefineZone
                                       e.what());
         return out;
     }
-    out.summary = {o.size, mesh.cell_count(), out.mesh.cell_count()};
+    out.summary = Refinement{o.size, mesh.cell_count(), out.mesh.cell_count()};
     out.numbering = next_numbers(mesh);
     out.deck = solver_input(mesh);
-    if (!asked && is_much(out.summary)) out.report.warnings.push_back(describe(out.summary));
+    if (!asked && is_much(*out.summary)) out.report.warnings.push_back(describe(*out.summary));
     return out;
 }
 

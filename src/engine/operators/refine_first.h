@@ -19,15 +19,16 @@ struct RefineZone {
     double size;
 };
 
-/// A mesh refined for an operation, and what that changed.
+/// A mesh refined for an operation, or some of whose elements were converted, and what that changed.
 struct Refined {
     Mesh mesh;
-    Report report;  ///< of the refinement
-    Refinement summary;
+    Report report;                      ///< of refinement and conversion
+    std::optional<Refinement> summary;  ///< if it was refined
     Numbering numbering;                ///< nodes and elements from these numbers on are not the input's
     const SolverInput* deck = nullptr;  ///< of the mesh as it was, if it has one
     Trace trace;
-    double seconds = 0;          ///< of the call so far
+    double seconds = 0;          ///< of the call so far, but for converting
+    double converting = 0;       ///< seconds
     bool tried_in_vain = false;  ///< `report` has but a warning that says why, and `mesh` is empty
 };
 
@@ -40,6 +41,10 @@ std::optional<RefineZone> zone_around(const Tool& tool, std::function<double(con
 /// The zone for a crack within a part of a tool: by default the whole part, so that it is at least four edges across;
 /// around the front when a size is given.
 std::optional<RefineZone> zone_around(const Tool& tool, const Patch& patch, const RefineFirst& refine);
+
+/// Level 0 at the corners of elements that refine_first() would bisect, -1 elsewhere.
+std::vector<std::int8_t> levels_to_refine(const Mesh& mesh, std::span<const RefineZone> zones,
+                                          const OperatorOptions& options);
 
 /// Refines a mesh (refine()) where an operation's tools are finer than it (the paper's conclusion: "a mesh
 /// pre-refinement step is necessary"). Nothing, when they are not. By default an operation goes on with the mesh as it

@@ -80,9 +80,11 @@ struct Report {
     HeldNodes held;
     std::vector<PoorPlace> poor;           ///< empty when all is well
     std::optional<Refinement> refinement;  ///< part of what the counts below say
-    Index nodes_added = 0;                 ///< by splitting and by doubling
-    Index nodes_split = 0;                 ///< of them, born on split edges
-    Index nodes_doubled = 0;               ///< of them, copies of interface nodes
+    /// Elements that became triangles, tetrahedra and pyramids first, by the names of their types.
+    std::map<std::string, Index> converted;
+    Index nodes_added = 0;    ///< by splitting and by doubling
+    Index nodes_split = 0;    ///< of them, born on split edges
+    Index nodes_doubled = 0;  ///< of them, copies of interface nodes
     Index nodes_moved = 0;
     Index nodes_removed = 0;
     Index elements_added = 0;

@@ -76,7 +76,8 @@ def crack(mesh: Mesh, tool: Tool, within: Optional[Within] = None, *, options) -
         The name is bad or taken, `preserve` names a group the mesh does not have, or the tool cuts nothing: the message
         says where it passes instead.
     UnsupportedElementError
-        The band around the tool reaches quadrangles, prisms, pyramids or hexahedra.
+        A quadrangle, prism, pyramid or hexahedron near the tool has so poor a shape that no sound triangles or
+        tetrahedra can be made of it.
     QualityError
         No valid mesh can be made this way.
     Error
@@ -469,7 +470,7 @@ def refine(
     ToolError
         A parameter is out of range, or `max_elements` would be passed.
     UnsupportedElementError
-        An edge to be bisected is one of a quadrangle, prism, pyramid or hexahedron.
+        A quadrangle, prism, pyramid or hexahedron with an edge to be bisected has too poor a shape to be split.
     QualityError
         The mesh has flat or inverted elements near the tool.
     """

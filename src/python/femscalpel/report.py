@@ -115,6 +115,9 @@ class Report:
     held: HeldNodes
     poor: List[PoorPlace]  #: empty when all is well
     refinement: Optional[Refinement]  #: part of what the counts below say
+    #: Quadrangles, prisms, pyramids, hexahedra near the tool that became triangles and tetrahedra first, by type: part
+    #: of what the counts below say
+    converted: Dict[str, int]
     nodes_added: int  #: by splitting and by doubling
     nodes_split: int  #: of them, born on split edges
     nodes_doubled: int  #: of them, copies of interface nodes
@@ -180,6 +183,8 @@ class Report:
                     f"first, to edges of {size:.4g} near the tool: {elements_before} -> {elements_after} elements",
                 ),
             )
+        if self.converted:
+            facts.insert(0, ("converted", f"first, to triangles or tetrahedra: {_counts(self.converted)}"))
         title = f"{self.operation} {self.name}".rstrip()
         lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]

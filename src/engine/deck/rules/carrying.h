@@ -49,6 +49,8 @@ public:
     Index origin_of(Index element) const;
     /// Whether an element of the result is plane or axisymmetric.
     bool is_plane_now(Index element) const;
+    /// What type an element of the result is of.
+    CellType type_now(Index element) const { return new_numbers_.cell(element)->type; }
 
     /// The deck with all edits; that of `before` itself if there are none.
     std::shared_ptr<const Companion> result();

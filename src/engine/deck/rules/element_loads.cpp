@@ -126,7 +126,9 @@ void ElementLoads::add_left(std::size_t c, const std::vector<LoadLine>& lines, c
         for (const auto& [element, face] : faces) {
             const auto found = line_of.find({group, carrying.origin_of(element)});
             const LoadLine& l = found == line_of.end() ? *last_line.at(group) : *found->second;
-            const std::string label = face == 0 ? l.written : l.label.with_face(face, carrying.is_plane_now(element));
+            const std::string label =
+                face == 0 ? l.written
+                          : l.label.with_face(face, carrying.type_now(element), carrying.is_plane_now(element));
             carrying.edits(c).add_after(l.line, l.with(element, label));
         }
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include "mesh/adjacency.h"
+#include "mesh/mesh.h"
+
+namespace femscalpel {
+
+/// Corners of a quadrangular face, ascending: its name.
+using QuadKey = std::array<Index, 4>;
+
+QuadKey quad_key(std::array<Index, 4> corners);
+
+struct QuadKeyHash {
+    std::size_t operator()(const QuadKey& key) const {
+        std::uint64_t h = 0;
+        for (const Index n : key) h = (h ^ static_cast<std::uint64_t>(n)) * 0x9e3779b97f4a7c15u;
+        return static_cast<std::size_t>(h ^ (h >> 32));
+    }
+};
+
+/// A face of an element by its corners, in the order of CellTraits::faces, without repeated ones: three or four.
+struct ElementFace {
+    std::array<Index, 4> corners{};
+    int count = 0;
+    int number = 0;  ///< Facet::face
+};
+
+/// The faces of a solid. Degenerate elements, which have nodes twice, have triangles in place of quadrangles, or fewer
+/// faces.
+std::vector<ElementFace> faces_of(const Mesh& mesh, const CellRef& cell);
+
+/// What is to become simplices.
+struct Conversion {
+    CellLists cells;
+    /// Quadrangular faces between these and solids that stay: pyramids stand on them.
+    std::unordered_set<QuadKey, QuadKeyHash> bases;
+
+    bool empty() const;
+};
+
+/// What has to become simplices so that all elements with a corner where level >= 0 are: these elements themselves;
+/// solids across their quadrangular faces, whose pyramids are then out of reach; shells on faces of all these. Where
+/// such a face has a node in its middle, no pyramid can stand on it: then what is across follows, as far as such faces
+/// go. One pass over the elements for each step, unless their `adjacency` is given, which saves the first.
+Conversion plan_conversion(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency);
+
+}  // namespace femscalpel

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/simplify_first.h"
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
+
+#include "cutting/locate.h"
+#include "cutting/simplify.h"
+#include "deck/carry_over.h"
+#include "deck/fit_cards.h"
+#include "deck/mark_deck.h"
+#include "groups/group_report.h"
+
+namespace femscalpel {
+namespace {
+
+/// Rings around elements to be bisected that bisecting may reach.
+constexpr int rings_to_refine = 2;
+/// Rings beside the band to which it may grow when the mesh was refined, or with it its width is found anew.
+constexpr int spare_rings = 2;
+
+bool has_simplices_alone(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.blocks(),
+                               [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
+}
+
+/// Level >= 0 at the nodes around which there have to be simplices alone.
+std::vector<std::int8_t> levels_to_work_on(const Mesh& mesh, std::span<const Blade> blades,
+                                           std::span<const RefineZone> zones, const OperatorOptions& options,
+                                           const Adjacency* adjacency) {
+    int width = options.transition.value_or(2);
+    Location location = locate(mesh, blades, width, adjacency);
+    std::vector<std::int8_t> longer(mesh.points.size(), -1);
+    if (!zones.empty()) longer = levels_to_refine(mesh, zones, options);
+    const bool refines = std::ranges::find(longer, 0) != longer.end();
+    if (!options.transition && options.method == Method::deform)
+        width = bandwidth(location, mesh) + spare_rings;
+    else if (refines)
+        width += spare_rings;
+    else
+        return std::move(location.level);
+    for (std::int8_t& level : location.level) level = level > 0 ? -1 : level;
+    spread_levels(mesh, location.level, width, adjacency);
+    if (refines) spread_levels(mesh, longer, rings_to_refine, adjacency);
+    for (std::size_t n = 0; n < longer.size(); ++n)
+        if (location.level[n] < 0) location.level[n] = longer[n];
+    return std::move(location.level);
+}
+
+/// What solvers make of it.
+std::vector<std::string> warnings_about(const Simplified& simplified) {
+    Index stiff = 0;
+    for (const CellType type : {CellType::hexahedron, CellType::wedge, CellType::pyramid})
+        stiff += simplified.converted[static_cast<int>(type)];
+    if (stiff == 0) return {};
+    return {std::to_string(stiff) +
+            " first-order hexahedra, prisms or pyramids near the tool became first-order tetrahedra, which are stiffer "
+            "in bending; meshes of second order have no such weakness"};
+}
+
+Report report_of(const Mesh& before, const FamilyTotals& totals, const Simplified& simplified) {
+    FamilyTotals now = totals;
+    count_cells(now, before, simplified.before, -1);
+    count_cells(now, simplified.mesh, simplified.after, +1);
+    recount_nodes_and_facets(now, simplified.mesh);
+    Report report;
+    report.operation = "convert";
+    report.groups = compare_groups(before, totals, simplified.mesh, now);
+    report.nodes_added = report.nodes_split = simplified.nodes_added;
+    report.nodes_removed = simplified.nodes_removed;
+    report.elements_added = static_cast<Index>(simplified.after.size() - simplified.before.size());
+    for (const CellTraits& t : all_cell_types())
+        if (const Index count = simplified.converted[static_cast<int>(t.type)]; count > 0)
+            report.converted[std::string(t.name)] = count;
+    report.warnings = warnings_about(simplified);
+    return report;
+}
+
+}  // namespace
+
+std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> blades,
+                                      std::span<const RefineZone> zones, const OperatorOptions& options,
+                                      const Prepared& known) {
+    if (has_simplices_alone(mesh)) return {};
+    return simplify_first(mesh, levels_to_work_on(mesh, blades, zones, options, known.adjacency), known);
+}
+
+std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance,
+                                      const BisectionOptions& options) {
+    if (has_simplices_alone(mesh)) return {};
+    const std::vector<std::int8_t> others = corners_of_long_edges(mesh, distance, options, true);
+    if (std::ranges::find(others, 0) == others.end()) return {};
+    std::vector<std::int8_t> level = corners_of_long_edges(mesh, distance, options);
+    spread_levels(mesh, level, rings_to_refine);
+    return simplify_first(mesh, level, {});
+}
+
+std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known) {
+    const Conversion conversion = plan_conversion(mesh, level, known.adjacency);
+    if (conversion.empty()) return {};
+    DeckMarks own;
+    if (!known.marks) own = mark_deck(mesh);
+    const DeckMarks& marks = known.marks ? *known.marks : own;
+    const Mesh& marked = marks.mesh ? *marks.mesh : mesh;
+    Refined out;
+    out.numbering = next_numbers(mesh);
+    out.deck = solver_input(mesh);
+    Simplified simplified = simplify(marked, conversion, out.numbering);
+    if (!marks.surface_sets.empty())
+        renew_surface_sets(simplified.mesh, marks.surface_sets, *solver_input(mesh), simplified.after);
+    out.trace.deck = carry_deck(marked, simplified.mesh, simplified.changes);
+    out.report = report_of(marked, known.totals ? *known.totals : family_totals(marked), simplified);
+    out.mesh = std::move(simplified.mesh);
+    out.trace.changes = std::move(simplified.changes);
+    fit_cards(out.mesh, simplified.after);
+    remove_marks(out.mesh);
+    return out;
+}
+
+Refined joined(const Refined& converted, Refined refined, bool strict) {
+    Report& report = refined.report;
+    const Report& first = converted.report;
+    std::vector<std::string> warnings = first.warnings;
+    std::ranges::move(warnings_of(converted.trace.deck, strict), std::back_inserter(warnings));
+    std::ranges::move(report.warnings, std::back_inserter(warnings));
+    report.warnings = std::move(warnings);
+    report.converted = first.converted;
+    report.nodes_added += first.nodes_added;
+    report.nodes_split += first.nodes_split;
+    report.nodes_removed += first.nodes_removed;
+    report.elements_added += first.elements_added;
+    for (std::size_t g = 0; g < report.groups.size(); ++g) {
+        report.groups[g].count_before = first.groups[g].count_before;
+        report.groups[g].measure_before = first.groups[g].measure_before;
+        if (report.groups[g].status == "untouched" && first.groups[g].count_before != first.groups[g].count_after)
+            report.groups[g].status = first.groups[g].status;
+    }
+    std::unordered_map<Index, Index> parents;
+    Changes changes = converted.trace.changes;
+    for (const Changes::Part& p : changes.parts) parents.emplace(p.element, p.parent);
+    for (const Changes::Part& p : refined.trace.changes.parts) {
+        const auto parent = parents.find(p.parent);
+        changes.parts.push_back({p.element, parent == parents.end() ? p.parent : parent->second});
+    }
+    std::ranges::move(refined.trace.changes.born, std::back_inserter(changes.born));
+    refined.trace.changes = std::move(changes);
+    refined.numbering = converted.numbering;
+    refined.deck = converted.deck;
+    refined.converting = converted.converting;
+    return refined;
+}
+
+}  // namespace femscalpel

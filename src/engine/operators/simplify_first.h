@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cutting/workpiece.h"
+#include "operators/prepared.h"
+#include "operators/refine_first.h"
+
+namespace femscalpel {
+
+/// Makes simplices (simplify()) of what else is where an operation will work: in the band around `blades`, and where
+/// the mesh would be refined first for `zones`. Nothing, when there is nothing else. `known` is what is known of
+/// `mesh`. Throws what locate(), simplify() and carry_deck() do.
+std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> blades,
+                                      std::span<const RefineZone> zones, const OperatorOptions& options,
+                                      const Prepared& known);
+
+/// The same for what is around nodes with level >= 0.
+std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known);
+
+/// The same for what a refinement would have to bisect. Nothing where that is simplices alone.
+std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance, const BisectionOptions& options);
+
+/// A conversion and then a refinement of what it made, as one change.
+Refined joined(const Refined& converted, Refined refined, bool strict);
+
+}  // namespace femscalpel

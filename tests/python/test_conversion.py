@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Quadrangles and hexahedra near a tool become triangles, tetrahedra and pyramids: CalculiX itself says whether what is
+made fits together. With the lips of a crack tied and a linear displacement prescribed outside, it must be linear
+everywhere."""
+
+import itertools
+import shutil
+
+import numpy as np
+import pytest
+from calculix_runs import solve
+from mixed_meshes import grid, second_order
+
+import femscalpel as fs
+
+needs_ccx = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
+
+GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]]) * 1e-3
+
+
+def deck(folder, points, cells, label, section):
+    lines = ["*NODE, NSET=NALL"] + ["%d, %.15g, %.15g, %.15g" % (n + 1, *x) for n, x in enumerate(points)]
+    lines.append(f"*ELEMENT, TYPE={label}, ELSET=EALL")
+    for e, cell in enumerate(cells):
+        row = [str(e + 1)] + [str(n + 1) for n in cell]
+        lines.append(", ".join(row[:16]) + ("," if len(row) > 16 else ""))
+        lines += [", ".join(row[16:])] if len(row) > 16 else []
+    lines += ["*MATERIAL, NAME=M", "*ELASTIC", "1000, 0.3", section, ""]
+    (folder / "in.inp").write_text("\n".join(lines))
+    return fs.read(folder / "in.inp")
+
+
+def largest_error(folder, mesh, size, axes):
+    """Of the displacement, where it is prescribed to be linear outside and lips are tied."""
+    fs.write(mesh, folder / "out.inp")
+    used = np.zeros(mesh.node_count, bool)
+    for cells in mesh.cells.values():
+        used[np.unique(cells)] = True
+    x, ids = mesh.points, mesh.node_ids
+    outside = ((x < 1e-9) | (x > np.array(size) - 1e-9))[:, axes].any(axis=1)
+    boundary = [
+        f"{ids[n]}, {k + 1}, {k + 1}, {(GRADIENT @ x[n])[k]:.14e}"
+        for n, k in itertools.product(np.flatnonzero(outside & used), axes)
+    ]
+    at, ties = {}, []
+    for n in np.flatnonzero(used & ~outside):
+        first = at.setdefault(tuple(np.round(x[n], 7)), ids[n])
+        ties += [f"2\n{ids[n]}, {k + 1}, 1., {first}, {k + 1}, -1." for k in axes if first != ids[n]]
+    assert ties
+    text = (folder / "out.inp").read_text() + "\n".join(
+        [
+            "*EQUATION",
+            *ties,
+            "*NSET, NSET=ALL_OF_THEM",
+            *map(str, ids[used]),
+            "*STEP",
+            "*STATIC",
+            "*BOUNDARY",
+            *boundary,
+        ]
+        + ["*NODE PRINT, NSET=ALL_OF_THEM", "U", "*END STEP", ""]
+    )
+    # Read and written once more: what is written for pyramids goes by the supports then.
+    (folder / "all.inp").write_text(text)
+    fs.write(fs.read(folder / "all.inp"), folder / "all.inp")
+    displacements, _ = solve(folder, (folder / "all.inp").read_text())
+    assert len(displacements) == used.sum()
+    return max(abs(displacements[i] - GRADIENT @ p)[list(axes)].max() for i, p in zip(ids, x) if i in displacements)
+
+
+@needs_ccx
+@pytest.mark.parametrize(
+    "label, jitter",
+    # CalculiX's C3D8I and C3D8R are exact only where they are parallelepipeds.
+    [("C3D8", 0.2), ("C3D8I", 0), ("C3D8R", 0), ("C3D20", 0.2), ("C3D20R", 0.2)],
+)
+def test_patch_of_hexahedra(tmp_path, label, jitter):
+    points, cells = grid((15, 6, 5), jitter)
+    if "20" in label:
+        points, cells = second_order(points, cells, "hexahedron")
+    mesh = deck(tmp_path, points, cells, label, "*SOLID SECTION, ELSET=EALL, MATERIAL=M")
+    result = fs.crack(mesh, fs.Plane((4.7, 3, 2.5), (1, 0.2, 0.1)))
+    kinds = {k for k, c in result.mesh.cells.items() if len(c)}
+    assert kinds >= ({"tetra10", "pyramid13", "hexahedron20"} if "20" in label else {"tetra", "pyramid", "hexahedron"})
+    assert largest_error(tmp_path, result.mesh, (15, 6, 5), (0, 1, 2)) < 1e-7
+    back = fs.read(tmp_path / "out.inp")
+    assert {k: len(back.cells[k]) for k in back.cells} == {
+        k: len(c) for k, c in result.mesh.cells.items() if k[:3] in ("tet", "pyr", "hex")
+    }
+
+
+@needs_ccx
+@pytest.mark.parametrize("label", ["CPS4", "CPE4R", "CPS8R", "CPE8"])
+def test_patch_of_quadrangles(tmp_path, label):
+    points, cells = grid((14, 6), 0 if label.endswith("4R") else 0.2)
+    if "8" in label:
+        points, cells = second_order(points, cells, "quad")
+    mesh = deck(tmp_path, points, cells, label, "*SOLID SECTION, ELSET=EALL, MATERIAL=M\n0.1")
+    result = fs.crack(mesh, fs.Plane((4.7, 3, 0), (1, 0.2, 0)))
+    assert result.report.converted and result.report.quality.after.minimum > 0.4
+    assert largest_error(tmp_path, result.mesh, (14, 6, 1), (0, 1)) < 1e-7
+    assert ("TYPE=%s6" if "8" in label else "TYPE=%s3") % label[:3] in (tmp_path / "out.inp").read_text()
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_what_is_beyond_the_pyramids_stays_to_the_last_bit(order):
+    points, cells = grid((16, 5, 4), 0.2)
+    kind = "hexahedron"
+    if order == 2:
+        points, cells = second_order(points, cells, kind)
+        kind = "hexahedron20"
+    mesh = fs.Mesh(points, {kind: cells})
+    result = fs.crack(mesh, fs.Plane((5.3, 2, 2), (1, 0.2, 0.1)))
+    place = dict(zip(result.mesh.node_ids, result.mesh.points))
+    ids, left = result.mesh.node_ids, dict(zip(result.mesh.cell_ids[kind], result.mesh.cells[kind]))
+    was = dict(zip(mesh.cell_ids[kind], mesh.cells[kind]))
+    assert 60 < len(left) == len(was) - result.report.converted[kind]
+    for number, nodes in left.items():
+        assert (ids[nodes] == mesh.node_ids[was[number]]).all()
+        assert all((place[i] == x).all() for i, x in zip(mesh.node_ids[was[number]], points[was[number]]))
+    volume = sum(v.sum() for k, v in fs.measure(result.mesh).items() if k[:3] in ("tet", "pyr", "hex"))
+    assert volume == pytest.approx(320, rel=1e-9)
