@@ -74,13 +74,12 @@ if [ ! -f $build/compile_commands.json ]; then
     echo "tidy: build first: cmake --preset release && cmake --build --preset release" >&2
     exit 1
 fi
-# clang cannot read GCC's precompiled headers: the same headers, as text.
-database=$build/tidy
-mkdir -p $database
-cp $build/src/engine/CMakeFiles/femscalpel_engine.dir/cmake_pch.hxx $database/engine.hxx
-sed -E 's#-Winvalid-pch##g; s#-include [^ ]*femscalpel_engine.dir/cmake_pch.hxx#-include '"$PWD/$database"'/engine.hxx#g
-        s#-include [^ ]*cmake_pch.hxx##g; s#-fno-fat-lto-objects##g' $build/compile_commands.json \
-    > $database/compile_commands.json
+# The commands of every file for itself. clang cannot read GCC's precompiled headers: the same headers, as text.
+database=build/tidy
+cmake --preset release -B $database -DFEMSCALPEL_UNITY=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null
+cp $database/src/engine/CMakeFiles/femscalpel_engine.dir/cmake_pch.hxx $database/engine.hxx
+sed -E -i 's#-Winvalid-pch##g; s#-include [^ ]*femscalpel_engine.dir/cmake_pch.hxx#-include '"$PWD/$database"'/engine.hxx#g
+        s#-include [^ ]*cmake_pch.hxx##g; s#-fno-fat-lto-objects##g' $database/compile_commands.json
 
 export tidy database
 export -f look

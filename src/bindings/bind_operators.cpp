@@ -75,6 +75,10 @@ py::dict to_dict(const Report& report) {
     held["groups"] = report.held.groups;
     held["features"] = report.held.features;
     out["held"] = held;
+    py::dict straightened;
+    straightened["count"] = report.straightened.count;
+    straightened["largest"] = report.straightened.largest;
+    out["straightened"] = straightened;
     py::list poor;
     for (const PoorPlace& p : report.poor) {
         py::dict place;

@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "error.h"
+#include "tools/occ_point.h"
 
 namespace femscalpel {
 namespace {

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+import itertools
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,30 @@ ANGLES = {
     "triangle": 60,
     "quad": 90,
 }
+
+
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid"])
+def test_volume_of_elements_with_warped_faces(kind):
+    """Their shape functions integrated by 4 points each way, a pyramid as the hexahedron whose upper nodes coincide."""
+    rng = np.random.default_rng(3)
+    cube = np.array([(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
+    as_hexahedron = {
+        "hexahedron": range(8),
+        "wedge": (0, 1, 2, 2, 3, 4, 5, 5),
+        "pyramid": (0, 1, 2, 3, 4, 4, 4, 4),
+    }[kind]
+    points, weights = np.polynomial.legendre.leggauss(4)
+    for _ in range(20):
+        corners = cube[[list(as_hexahedron).index(k) for k in range(max(as_hexahedron) + 1)]]
+        nodes = 100 + corners + rng.uniform(-0.2, 0.2, corners.shape)
+        expected = 0
+        for x, y, z in itertools.product(range(4), repeat=3):
+            at = (1 + (2 * cube - 1) * np.array([points[x], points[y], points[z]])) / 2
+            gradient = np.stack([(2 * cube[:, i] - 1) / 2 * np.delete(at, i, 1).prod(1) for i in range(3)], axis=1)
+            jacobian = np.linalg.det(nodes[list(as_hexahedron)].T @ gradient)
+            expected += weights[x] * weights[y] * weights[z] * jacobian
+        mesh = fs.Mesh(nodes, {kind: np.arange(len(nodes))[None]})
+        assert fs.measure(mesh)[kind][0] == pytest.approx(expected, rel=1e-11)
 
 
 @pytest.mark.parametrize("shape", UNIT)

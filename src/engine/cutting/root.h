@@ -6,8 +6,9 @@
 namespace femscalpel {
 
 /// Where between 0 and 1 `value(t)` is 0, to within `enough` of it, given that it is `at_0` and `at_1` there, of
-/// different signs. `value` is called last at the t returned. Regula falsi, Illinois variant (Dowell and Jarratt, BIT
-/// 11, 1971): exact in one step where the value is linear.
+/// different signs. `value` is called last at the t returned. Regula falsi where the value at the end that stays
+/// counts half from the next step on, so that both ends close in (after the Illinois variant, Dowell and Jarratt, BIT
+/// 11, 1971, which halves it when an end stays twice): exact in one step where the value is linear.
 double root_between(double at_0, double at_1, double enough, auto value) {
     double t = 0, low = 0, high = 1;
     for (int i = 0; i < 100; ++i) {

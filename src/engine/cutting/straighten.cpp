@@ -120,6 +120,8 @@ private:
 
     bool say() {
         if (count_ == 0) return true;
+        f_.straightened = std::max(f_.straightened, count_);
+        f_.straightened_off = std::max(f_.straightened_off, farthest_);
         std::ostringstream text;
         text.precision(3);
         text << "curved elements find no room where the " << f_.tool->kind()
@@ -135,7 +137,7 @@ private:
     Deformable& d_;
     BandMesh& band_;
     std::map<std::pair<bool, int>, double> around_;  // what elements at straightened edges are to be at least
-    int count_ = 0;
+    Index count_ = 0;
     double farthest_ = 0;
     Vec3 place_ = Vec3::Zero();
 };

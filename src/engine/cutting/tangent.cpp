@@ -20,9 +20,9 @@ constexpr double along_motion = 0.02;
 /// A strip beside a wall is narrower than this part of the wall.
 constexpr double narrow = 0.5;
 
-class Finder {
+class TangentFinder {
 public:
-    Finder(const Workpiece& f, const Covered& covered, double feature_angle)
+    TangentFinder(const Workpiece& f, const Covered& covered, double feature_angle)
         : f_(f),
           band_(f.d.band),
           g_(f.d.constraints.geometry()),
@@ -238,7 +238,7 @@ private:
 
 Beside parts_beside(const Workpiece& f, const Covered& covered, const std::vector<std::array<Index, 3>>& following,
                     double feature_angle) {
-    return Finder(f, covered, feature_angle).run(following);
+    return TangentFinder(f, covered, feature_angle).run(following);
 }
 
 }  // namespace femscalpel

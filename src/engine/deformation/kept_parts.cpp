@@ -75,9 +75,9 @@ std::array<int, 2> ends_of(std::uint64_t key) {
     return {static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)};
 }
 
-class Finder {
+class PartFinder {
 public:
-    Finder(const BandMesh& band, const BandBoundaries& boundaries, const ConstraintOptions& options)
+    PartFinder(const BandMesh& band, const BandBoundaries& boundaries, const ConstraintOptions& options)
         : band_(band), boundaries_(boundaries), shape_(options.shape), smooth_(smooth_cosine(options)) {}
 
     KeptParts run() {
@@ -217,7 +217,7 @@ double smooth_cosine(const ConstraintOptions& options) {
 }
 
 KeptParts find_kept_parts(const BandMesh& band, const BandBoundaries& boundaries, const ConstraintOptions& options) {
-    return Finder(band, boundaries, options).run();
+    return PartFinder(band, boundaries, options).run();
 }
 
 }  // namespace femscalpel

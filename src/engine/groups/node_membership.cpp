@@ -15,7 +15,7 @@ Groups common(std::span<const GroupIndex> a, std::span<const GroupIndex> b) {
     return out;
 }
 
-bool holds(const auto& nodes, int v) { return std::ranges::find(nodes, v) != nodes.end(); }
+bool has_node(const auto& nodes, int v) { return std::ranges::find(nodes, v) != nodes.end(); }
 
 }  // namespace
 
@@ -54,7 +54,7 @@ bool NodeMembership::merge_links(const BandMesh& band, int p, int t) const {
     const auto joined = [&](std::initializer_list<int> nodes) {
         const auto in = [&](const auto& list) {
             return std::ranges::any_of(list.around(t), [&](int s) {
-                return std::ranges::all_of(nodes, [&](int v) { return holds(list[s], v); });
+                return std::ranges::all_of(nodes, [&](int v) { return has_node(list[s], v); });
             });
         };
         return in(band.tetras) || in(band.triangles);
@@ -64,7 +64,7 @@ bool NodeMembership::merge_links(const BandMesh& band, int p, int t) const {
     std::ranges::set_difference(families_.groups(in_[t]), families_.groups(in_[p]), std::back_inserter(fresh));
     const auto links = [&](const auto& list) {
         for (const int s : list.around(p)) {
-            if (holds(list[s], t)) continue;
+            if (has_node(list[s], t)) continue;
             for (const int x : list[s]) {
                 if (x == p) continue;
                 const Groups edge = common(fresh, families_.groups(in_[x]));

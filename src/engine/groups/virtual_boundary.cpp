@@ -18,7 +18,7 @@ using Face = std::array<Index, 4>;
 
 /// Things in rows: those of row r are items[start[r]] to items[start[r + 1]].
 template <class T>
-struct Rows {
+struct RowTable {
     std::vector<Index> start;
     std::vector<T> items;
     std::span<const T> operator[](Index row) const {
@@ -28,8 +28,8 @@ struct Rows {
 
 /// Rows from a function that calls its argument with every (row, item); it is run twice.
 template <class T, class Generate>
-Rows<T> make_rows(Index rows, Generate generate) {
-    Rows<T> out;
+RowTable<T> make_rows(Index rows, Generate generate) {
+    RowTable<T> out;
     out.start.assign(static_cast<std::size_t>(rows) + 1, 0);
     SparseCheck check(1 << 16);
     generate([&](Index row, const T&) {
@@ -73,9 +73,9 @@ constexpr Centre face_centres[] = {
 struct VirtualBoundaryFinder::Tables {
     const Mesh& mesh;
     int dimension;
-    Rows<Index> around;                // packed elements of dimension 1 to 3 at each corner node, in mesh order
-    Rows<FamilyIndex> families;        // of each group
-    Rows<Index> nodes, cells, facets;  // of each family: node, packed element, index in Mesh::facets
+    RowTable<Index> around;                // packed elements of dimension 1 to 3 at each corner node, in mesh order
+    RowTable<FamilyIndex> families;        // of each group
+    RowTable<Index> nodes, cells, facets;  // of each family: node, packed element, index in Mesh::facets
 
     explicit Tables(const Mesh& m) : mesh(m), dimension(m.dimension()) {
         around = make_rows<Index>(mesh.node_count(), [&](auto put) {

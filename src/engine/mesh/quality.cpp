@@ -212,11 +212,22 @@ const Integrator& integrator(CellType type) {
     return all[static_cast<int>(type)];
 }
 
-/// Volume of a pyramid: its base split by a diagonal, averaged over both diagonals.
-double pyramid_volume(const std::array<Vec3, 5>& p) {
-    return (signed_volume(p[0], p[1], p[2], p[4]) + signed_volume(p[0], p[2], p[3], p[4]) +
-            signed_volume(p[0], p[1], p[3], p[4]) + signed_volume(p[1], p[2], p[3], p[4])) /
-           2;
+/// Volume of an element with straight edges, exact for its shape functions: by the divergence theorem, as quadrangles,
+/// on which they are bilinear, cut off as much as their two pairs of triangles do on average.
+double straight_volume(const CellTraits& t, auto at) {
+    const Vec3 origin = at(0);
+    double sum = 0;
+    for (const auto& face : t.faces) {
+        const Vec3 a = at(face[0]) - origin, b = at(face[1]) - origin, c = at(face[2]) - origin;
+        if (face[3] < 0) {
+            sum += 2 * a.dot(b.cross(c));
+            continue;
+        }
+        const Vec3 d = at(face[3]) - origin;
+        const Vec3 cd = c.cross(d), ab = a.cross(b);
+        sum += ab.dot(c) + ab.dot(d) + cd.dot(a) + cd.dot(b);
+    }
+    return -sum / 12;  // the faces' normals point into the element
 }
 
 }  // namespace
@@ -312,7 +323,9 @@ double measure_of(CellType type, auto at) {
             return signed_volume(at(0), at(1), at(2), at(3));
         case CellType::pyramid:
         case CellType::pyramid13:
-            return pyramid_volume({at(0), at(1), at(2), at(3), at(4)});
+        case CellType::wedge:
+        case CellType::hexahedron:
+            return straight_volume(t, at);
         default:
             break;
     }

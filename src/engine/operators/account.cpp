@@ -272,6 +272,7 @@ void Account::judge(Workpiece& f, std::span<const Blade> blades, const Opening& 
     for (const Blade& b : blades) warn_of_grazing(f, *b.tool, mesh);
     warn_of_parted_lips(f);
     report_.held = find_held_nodes(f, mesh);
+    report_.straightened = {.count = f.straightened, .largest = f.straightened_off};
     BandQuality quality = band_quality(f, mesh);
     report_.quality_before = summarise(std::move(quality.before));
     report_.quality_after = summarise(std::move(quality.after));

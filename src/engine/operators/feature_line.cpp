@@ -19,12 +19,12 @@
 namespace femscalpel {
 namespace {
 
-using Face = std::array<Index, 3>;
+using SkinTriangle = std::array<Index, 3>;
 
 /// Two edges of a line that turns by more are not one line: a circle of eight segments still is.
 const double largest_turn = std::cos(50 * std::numbers::pi / 180);
 
-Vec3 normal(const Mesh& mesh, const Face& f) {
+Vec3 normal(const Mesh& mesh, const SkinTriangle& f) {
     return (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
 }
 
@@ -33,13 +33,13 @@ class FeatureEdges {
 public:
     struct Edge {
         std::array<Index, 2> ends;
-        std::array<Face, 2> faces;  // the first runs from ends[0] to ends[1]
+        std::array<SkinTriangle, 2> faces;  // the first runs from ends[0] to ends[1]
     };
 
     FeatureEdges(const Mesh& mesh, double feature_angle) : mesh_(mesh) {
-        const std::vector<Face> skin = skin_of(mesh);
-        std::map<std::array<Index, 2>, Face> side;
-        for (const Face& f : skin)
+        const std::vector<SkinTriangle> skin = skin_of(mesh);
+        std::map<std::array<Index, 2>, SkinTriangle> side;
+        for (const SkinTriangle& f : skin)
             for (int k = 0; k < 3; ++k) side[{f[k], f[(k + 1) % 3]}] = f;
         const double limit = std::cos(feature_angle * std::numbers::pi / 180);
         SparseCheck check;
@@ -211,7 +211,7 @@ FeatureLine line_through(const FeatureEdges& all, int seed, std::set<int>& used)
 
 std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
     struct Entry {
-        Face key, face;
+        SkinTriangle key, face;
     };
     std::vector<Entry> entries;
     for (const CellType type : {CellType::tetra, CellType::tetra10}) {
@@ -230,7 +230,7 @@ std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
     }
     check_cancelled();
     std::ranges::sort(entries, {}, &Entry::key);
-    std::vector<Face> skin;
+    std::vector<SkinTriangle> skin;
     for (std::size_t k = 0; k < entries.size(); ++k) {
         const bool twice = (k > 0 && entries[k].key == entries[k - 1].key) ||
                            (k + 1 < entries.size() && entries[k].key == entries[k + 1].key);
@@ -242,24 +242,24 @@ std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
 namespace {
 
 /// The end of a line at `node`, before which is `before`; `beside`: the faces at its last edge.
-LineEnd line_end(const Mesh& mesh, const std::vector<Face>& around, Index node, Index before,
-                 const std::array<Face, 2>& beside) {
+LineEnd line_end(const Mesh& mesh, const std::vector<SkinTriangle>& around, Index node, Index before,
+                 const std::array<SkinTriangle, 2>& beside) {
     const Vec3& end = mesh.points[node];
     const Vec3 onwards = (end - mesh.points[before]).normalized();
     Vec3 plane = Vec3::Zero(), wall = Vec3::Zero();
     bool runs_out = true, stands = true;
-    for (const Face& f : around) {
+    for (const SkinTriangle& f : around) {
         const Vec3 n = normal(mesh, f);
         if (n.dot(onwards) >= 0.3) {
             if (plane.isZero()) plane = n;
             runs_out = runs_out && (n - plane).norm() <= 1e-6;
         }
         if (n.dot(onwards) <= -0.3 && wall.isZero()) wall = n;
-        stands = stands && ((n - wall).norm() <= 1e-6 || std::ranges::any_of(beside, [&](const Face& b) {
+        stands = stands && ((n - wall).norm() <= 1e-6 || std::ranges::any_of(beside, [&](const SkinTriangle& b) {
                                 return (n - normal(mesh, b)).norm() <= 0.1;
                             }));
     }
-    for (const Face& f : around)
+    for (const SkinTriangle& f : around)
         for (const Index n : f) {
             const Vec3 to = mesh.points[n] - end;
             runs_out = runs_out && !plane.isZero() && to.dot(plane) <= 1e-6 * to.norm();
@@ -281,9 +281,9 @@ std::array<LineEnd, 2> line_ends(const Mesh& mesh, const FeatureLine& line,
     for (const int which : {0, 1}) {
         const std::size_t last = line.nodes.size() - 1;
         const Index node = line.nodes[which == 0 ? 0 : last], before = line.nodes[which == 0 ? 1 : last - 1];
-        std::vector<Face> around;
+        std::vector<SkinTriangle> around;
         std::ranges::copy_if(skin, std::back_inserter(around),
-                             [&](const Face& f) { return std::ranges::find(f, node) != f.end(); });
+                             [&](const SkinTriangle& f) { return std::ranges::find(f, node) != f.end(); });
         out[which] = line_end(mesh, around, node, before, which == 0 ? line.faces.front() : line.faces.back());
     }
     return out;

@@ -21,9 +21,9 @@ namespace {
 }
 
 /// A surface that is a straight line in sections across the edge.
-class Wall final : public Tool {
+class RollingWall final : public Tool {
 public:
-    Wall(const FilletPath& path, int face) : path_(path), face_(face) {}
+    RollingWall(const FilletPath& path, int face) : path_(path), face_(face) {}
     std::string kind() const override { return "wall"; }
     double distance(const Vec3& x) const override {
         return path_.place(x).p.dot(path_.along_face(face_)) - path_.tangent_length();
@@ -295,7 +295,7 @@ void FilletPath::set_faces(const Vec2& normal) {
     across_ = Vec2(-to_first_.y(), to_first_.x());
     if (across_.dot(tangent_point(1) - centre_) < 0) across_ = -across_;
     arc_angle_ = std::numbers::pi - angle;
-    for (const int face : {0, 1}) walls_[face] = std::make_unique<Wall>(*this, face);
+    for (const int face : {0, 1}) walls_[face] = std::make_unique<RollingWall>(*this, face);
     ball_ = std::make_unique<Ball>(*this);
 }
 

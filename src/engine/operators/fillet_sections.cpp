@@ -12,7 +12,7 @@
 namespace femscalpel {
 namespace {
 
-bool holds(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end(); }
+bool has_corner(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end(); }
 
 }  // namespace
 
@@ -95,11 +95,11 @@ FilletRun::Section FilletRun::border_at(std::size_t node) {
         // The border's face at the line where it meets the skin beside the edge.
         std::map<int, std::set<int>> beside;
         for (const Face& face : m_.strip(place_, side))
-            if (holds(face.nodes, section.corner))
+            if (has_corner(face.nodes, section.corner))
                 for (const int v : face.nodes) beside[v].insert(face.domain);
         const Border* border = nullptr;
         for (const Border& b : m_.borders)
-            if (holds(b.nodes, section.corner) && std::ranges::any_of(b.nodes, [&](int v) {
+            if (has_corner(b.nodes, section.corner) && std::ranges::any_of(b.nodes, [&](int v) {
                     return v != section.corner && beside[v].contains(before[side]) && beside[v].contains(after[side]);
                 }))
                 border = &b;

@@ -49,6 +49,13 @@ struct HeldNodes {
     std::vector<std::string> features;  ///< what else does: "the skin", "a corner", ...
 };
 
+/// Mid-side nodes left in the middle of straight edges beside the surface or curve they belong to, as no sound curved
+/// element found room there.
+struct StraightenedEdges {
+    Index count = 0;     ///< of nodes
+    double largest = 0;  ///< how far they are off it, in the mesh's unit
+};
+
 /// A place where elements came out poor (find_poor_places()), as what is kept there and the tool leave no room for
 /// better ones.
 struct PoorPlace {
@@ -78,6 +85,7 @@ struct Report {
     QualitySummary quality_after;   ///< of the same elements and their children after
     std::vector<GroupRecord> groups;
     HeldNodes held;
+    StraightenedEdges straightened;
     std::vector<PoorPlace> poor;           ///< empty when all is well
     std::optional<Refinement> refinement;  ///< part of what the counts below say
     /// Elements that became triangles, tetrahedra and pyramids first, by the names of their types.

@@ -22,7 +22,7 @@ namespace {
 /// CalculiX is given so much more than the distance there is.
 constexpr double margin = 1.01;
 
-[[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
+[[noreturn]] void fail_untouched(const Mesh& mesh, const Mesh& addition) {
     throw ToolError(
         "the addition does not touch the mesh: no face of the one is near one of the other, and no edge of a shell "
         "stands on one. " +
@@ -83,7 +83,7 @@ Result tie(const Mesh& mesh, const Mesh& other, const MergeOptions& options) {
     const Stopwatch::Time started = Stopwatch::now();
     Mesh addition = other;
     const TouchingFaces touching = touching_faces(mesh, addition, options.tolerance);
-    if (touching.facets[0].empty()) fail_apart(mesh, addition);
+    if (touching.facets[0].empty()) fail_untouched(mesh, addition);
     const std::string added = options.name + "_ADDED",
                       names[2] = {options.name + "_TIE_MESH", options.name + "_TIE_ADDED"};
     const std::vector<std::string> reduced = reduce_to_sections(mesh, addition);

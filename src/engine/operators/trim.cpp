@@ -10,15 +10,15 @@
 namespace femscalpel {
 namespace {
 
-using Edge = std::pair<Index, Index>;
+using SeamEdge = std::pair<Index, Index>;
 
-Edge edge_of(Index a, Index b) { return std::minmax(a, b); }
+SeamEdge edge_of(Index a, Index b) { return std::minmax(a, b); }
 
 /// The shell's triangles, and what they are joined by.
 struct Pieces {
     std::vector<CellRef> cells;
     std::vector<std::array<Index, 3>> corners;
-    std::map<Edge, std::vector<int>> at_edge;
+    std::map<SeamEdge, std::vector<int>> at_edge;
 };
 
 Pieces pieces_of(const Mesh& mesh) {
@@ -40,7 +40,7 @@ Pieces pieces_of(const Mesh& mesh) {
 
 Crop trimmed(const Mesh& addition, std::span<const JointLine> lines, const Vec3& point) {
     const Pieces all = pieces_of(addition);
-    std::map<Edge, const JointLine*> seam;
+    std::map<SeamEdge, const JointLine*> seam;
     for (const JointLine& line : lines)
         for (std::size_t k = 0; k + (line.closed ? 0 : 1) < line.stops.size(); ++k)
             seam[edge_of(line.stops[k].node[1], line.stops[(k + 1) % line.stops.size()].node[1])] = &line;

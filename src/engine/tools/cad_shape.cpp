@@ -18,14 +18,13 @@
 #include "error.h"
 #include "tools/cad_file.h"
 #include "tools/face.h"
+#include "tools/occ_point.h"
 
 namespace femscalpel {
 namespace {
 
 using Point = Eigen::Vector3d;
 using Box = Eigen::AlignedBox3d;
-
-Point point(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 Box box_of(const TopoDS_Shape& shape) {
     Bnd_Box bounds;
@@ -46,7 +45,7 @@ struct CadEdge {
 
     explicit CadEdge(const TopoDS_Edge& edge) : curve(edge), box(box_of(edge)) {
         const int count = curve.GetType() == GeomAbs_Line ? 1 : edge_pieces;
-        for (int k = 0; k <= count; ++k) samples.push_back(point(curve.Value(parameter(k, count)).XYZ()));
+        for (int k = 0; k <= count; ++k) samples.push_back(to_vector(curve.Value(parameter(k, count)).XYZ()));
     }
 
     double parameter(double k, int count) const {
@@ -78,7 +77,7 @@ struct CadEdge {
             t = next;
         }
         curve.D1(t, p, d);
-        return {point(p.XYZ()), point(d.XYZ()).normalized()};
+        return {to_vector(p.XYZ()), to_vector(d.XYZ()).normalized()};
     }
 };
 

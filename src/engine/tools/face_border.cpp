@@ -18,13 +18,12 @@
 #include <utility>
 
 #include "error.h"
+#include "tools/occ_point.h"
 
 namespace femscalpel {
 namespace {
 
 using Point = Eigen::Vector3d;
-
-Point point(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 /// Faces that meet at more than this, in degrees, fold the surface.
 constexpr double smooth_angle = 20;
@@ -71,8 +70,8 @@ void check_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopoDS
             gp_Pnt p;
             gp_Vec su, sv;
             BRep_Tool::Surface(f)->D1(uv.X(), uv.Y(), p, su, sv);
-            at = point(p.XYZ());
-            normal[k++] = point(su.Crossed(sv).XYZ()).normalized() * (f.Orientation() == TopAbs_REVERSED ? -1 : 1);
+            at = to_vector(p.XYZ());
+            normal[k++] = to_vector(su.Crossed(sv).XYZ()).normalized() * (f.Orientation() == TopAbs_REVERSED ? -1 : 1);
         }
         const double angle = std::acos(std::clamp(normal[0].dot(normal[1]), -1.0, 1.0)) * 180 / std::numbers::pi;
         if (!(angle > smooth_angle)) continue;
@@ -127,7 +126,7 @@ void FaceBorder::add_edge(const TopoDS_Edge& edge) {
     for (int k = 0; k < count; ++k) {
         const double from = curve.FirstParameter() + k * (curve.LastParameter() - curve.FirstParameter()) / count;
         const double to = curve.FirstParameter() + (k + 1) * (curve.LastParameter() - curve.FirstParameter()) / count;
-        pieces_.push_back({index, from, to, point(curve.Value(from).XYZ()), point(curve.Value(to).XYZ())});
+        pieces_.push_back({index, from, to, to_vector(curve.Value(from).XYZ()), to_vector(curve.Value(to).XYZ())});
     }
 }
 
@@ -139,7 +138,7 @@ std::vector<FaceBorder::Ends> FaceBorder::ends() const {
             gp_Pnt p;
             gp_Vec d;
             edges_[e].D1(k == 0 ? edges_[e].FirstParameter() : edges_[e].LastParameter(), p, d);
-            of[k] = {point(p.XYZ()), point(d.XYZ()).normalized() * (reversed_[e] ? -1 : 1)};
+            of[k] = {to_vector(p.XYZ()), to_vector(d.XYZ()).normalized() * (reversed_[e] ? -1 : 1)};
         }
         if (reversed_[e]) std::swap(of[0], of[1]);
         out.push_back(of);
@@ -226,7 +225,8 @@ FaceBorder::Foot FaceBorder::foot(const FacePlace& place, const ChainSet& counte
         if ((piece.start + s * along - place.at).norm() > best.distance + std::sqrt(length)) continue;
         const OnCurve on = closest_on(edges_[piece.edge], piece.from, piece.to,
                                       piece.from + s * (piece.to - piece.from), place.at, 1e-14 * size_);
-        consider(point(on.at.XYZ()), point(on.tangent.XYZ()) * (reversed_[piece.edge] ? -1 : 1), chain_of_[piece.edge]);
+        consider(to_vector(on.at.XYZ()), to_vector(on.tangent.XYZ()) * (reversed_[piece.edge] ? -1 : 1),
+                 chain_of_[piece.edge]);
     }
     for (std::size_t c = 0; c < chains_.size(); ++c) {
         if (!counted.has(static_cast<int>(c))) continue;

@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include "error.h"
+#include "tools/occ_point.h"
 
 namespace femscalpel {
 namespace {
@@ -24,8 +25,6 @@ namespace {
 using Point = Eigen::Vector3d;
 using Box = Eigen::AlignedBox3d;
 using Triangle = FaceSurface::Triangle;
-
-Point point(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 /// The coarse picture of a face is off it by less than this, in sizes of the face.
 constexpr double picture_sag = 1e-3;
@@ -81,7 +80,7 @@ struct NearestTriangle {
 
 double size_of(const Poly_Triangulation& picture) {
     Box b;
-    for (int k = 1; k <= picture.NbNodes(); ++k) b.extend(point(picture.Node(k).XYZ()));
+    for (int k = 1; k <= picture.NbNodes(); ++k) b.extend(to_vector(picture.Node(k).XYZ()));
     return b.diagonal().norm();
 }
 
@@ -162,7 +161,7 @@ FacePlace FaceSurface::foot(const Point& x) const {
     gp_Pnt p;
     gp_Vec su, sv;
     s.surface->D1(uv[0], uv[1], p, su, sv);
-    Point normal = point(su.Crossed(sv).XYZ());
+    Point normal = to_vector(su.Crossed(sv).XYZ());
     const double length = normal.norm();
     if (length > 1e-14 * su.Magnitude() * sv.Magnitude())
         normal *= (s.reversed ? -1 : 1) / length;
@@ -170,7 +169,7 @@ FacePlace FaceSurface::foot(const Point& x) const {
         normal = (t.corner[1] - t.corner[0])
                      .cross(t.corner[2] - t.corner[0])
                      .normalized();  // a pole; the picture's normal will do
-    return {point(p.XYZ()), normal};
+    return {to_vector(p.XYZ()), normal};
 }
 
 FacePlace FaceSurface::level_foot(const Point& x) const {
@@ -215,7 +214,7 @@ void FaceSurface::add_triangles(const Poly_Triangulation& picture, const gp_Trsf
         if (reversed) std::swap(n[1], n[2]);
         Triangle t{static_cast<int>(sheets_.size()), {}, {}};
         for (int c = 0; c < 3; ++c) {
-            t.corner[c] = point(picture.Node(n[c]).Transformed(transform).XYZ());
+            t.corner[c] = to_vector(picture.Node(n[c]).Transformed(transform).XYZ());
             const gp_Pnt2d uv = picture.UVNode(n[c]);
             t.uv[c] = {uv.X(), uv.Y()};
         }

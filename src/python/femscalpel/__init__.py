@@ -22,7 +22,17 @@ from .mesh import ElementaryGroup, Group, Groups, Mesh
 from .meshfile import Format, formats, read, write
 from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine, reshape
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
-from .report import ElementQuality, GroupRecord, HeldNodes, PoorPlace, Quality, QualitySummary, Refinement, Report
+from .report import (
+    ElementQuality,
+    GroupRecord,
+    HeldNodes,
+    PoorPlace,
+    Quality,
+    QualitySummary,
+    Refinement,
+    Report,
+    StraightenedEdges,
+)
 from .skin import Shape
 from .tools import *  # Tool, and a class for each tool
 from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within

@@ -83,6 +83,15 @@ class HeldNodes:
 
 
 @dataclass(frozen=True)
+class StraightenedEdges:
+    """Mid-side nodes left in the middle of straight edges beside the surface or curve they belong to, as no sound
+    curved element found room there."""
+
+    count: int  #: of nodes
+    largest: float  #: how far they are off it, in the mesh's unit
+
+
+@dataclass(frozen=True)
 class PoorPlace:
     """A place where elements came out with a mean ratio below 0.02 (and below a tenth of the worst there was), as what
     is kept there and the tool leave no room for better ones."""
@@ -113,6 +122,7 @@ class Report:
     quality: Quality  #: near the tool, before and after
     groups: List[GroupRecord]
     held: HeldNodes
+    straightened: StraightenedEdges  #: count 0 when all curved edges are where they belong
     poor: List[PoorPlace]  #: empty when all is well
     refinement: Optional[Refinement]  #: part of what the counts below say
     #: Quadrangles, prisms, pyramids, hexahedra near the tool that became triangles and tetrahedra first, by type: part
@@ -135,6 +145,7 @@ class Report:
         before, after = (QualitySummary._from_engine(fields.pop(key)) for key in ("quality_before", "quality_after"))
         groups = [GroupRecord(**g) for g in fields.pop("groups")]
         fields["held"] = HeldNodes(**fields["held"])
+        fields["straightened"] = StraightenedEdges(**fields["straightened"])
         fields["poor"] = [PoorPlace(**p) for p in fields["poor"]]
         if fields["refinement"] is not None:
             fields["refinement"] = Refinement(*fields["refinement"])
