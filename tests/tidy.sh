@@ -78,7 +78,8 @@ fi
 database=build/tidy
 cmake --preset release -B $database -DFEMSCALPEL_UNITY=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null
 cp $database/src/engine/CMakeFiles/femscalpel_engine.dir/cmake_pch.hxx $database/engine.hxx
-sed -E -i 's#-Winvalid-pch##g; s#-include [^ ]*femscalpel_engine.dir/cmake_pch.hxx#-include '"$PWD/$database"'/engine.hxx#g
+sed -E -i 's#-Winvalid-pch##g
+        s#-include [^ ]*femscalpel_engine.dir/cmake_pch.hxx#-include '"$PWD/$database"'/engine.hxx#g
         s#-include [^ ]*cmake_pch.hxx##g; s#-fno-fat-lto-objects##g' $database/compile_commands.json
 
 export tidy database

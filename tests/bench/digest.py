@@ -120,7 +120,7 @@ class Outcome:
 
     def add_report(self, report):
         fields = {f.name: getattr(report, f.name) for f in dataclasses.fields(report) if f.name != "seconds"}
-        if not fields["straightened"]["count"]:
+        if not fields["straightened"].count:
             del fields["straightened"]
         if not fields["converted"]:
             del fields["converted"]  # says nothing of meshes of simplices
