@@ -7,6 +7,8 @@ What the two do not share:
   dimension, all of the same name; read back, they are one group again. An empty element group gets the type "All".
 - FemMesh has no facet groups, no means to add point (0D) elements and none to add the element types in `NOT_ADDABLE`:
   facet groups and point elements are left out with a warning, the other types raise femscalpel.WriteError.
+- FreeCAD's export to CalculiX drops pyramids without a word. In a FemMesh they are hexahedra with a face in one point,
+  which that export writes and CalculiX takes as the pyramids they are; read back, such hexahedra are pyramids again.
 - FemMesh allows several groups of one name and type; all but the first get a suffix "_2", "_3", ... and a warning.
 - FreeCAD itself drops the empty groups of a FemMesh whenever it copies it, for example into a document object, and
   renumbers nodes and elements from 1 when it saves a document.
@@ -34,6 +36,22 @@ _ORDER = {
     "hexahedron": (0, 3, 2, 1, 4, 7, 6, 5),
     "hexahedron20": (0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17),
 }
+
+# A pyramid's nodes as those of a hexahedron whose lower face is its tip: FreeCAD writes the upper face first.
+_AS_HEXAHEDRON = {
+    "pyramid": ("hexahedron", (4, 4, 4, 4, 3, 2, 1, 0)),
+    "pyramid13": ("hexahedron20", (4, 4, 4, 4, 3, 2, 1, 0, 4, 4, 4, 4, 7, 6, 5, 8, 12, 11, 10, 9)),
+}
+# A face of a hexahedron, and the opposite one so that it turns about the way from there to the first.
+_OPPOSITE_FACES = (
+    ((4, 5, 6, 7), (0, 1, 2, 3)),
+    ((0, 1, 2, 3), (7, 6, 5, 4)),
+    ((0, 3, 7, 4), (5, 6, 2, 1)),
+    ((1, 2, 6, 5), (0, 3, 7, 4)),
+    ((0, 1, 5, 4), (3, 2, 6, 7)),
+    ((3, 2, 6, 7), (4, 5, 1, 0)),
+)
+_HEXAHEDRON_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 
 #: Element types of femscalpel that FemMesh's Python interface cannot add.
 NOT_ADDABLE = ("triangle7", "quad9", "wedge18", "hexahedron27")
@@ -63,8 +81,12 @@ def from_femmesh(femmesh):
     cells, cell_ids = {}, {}
     for dimension, element_ids in ((1, femmesh.Edges), (2, femmesh.Faces), (3, femmesh.Volumes)):
         for name, connectivity, ids in _elements(femmesh, dimension, element_ids):
-            cells[name] = _reordered(name, index_of(connectivity))
-            cell_ids[name] = ids
+            connectivity = _reordered(name, index_of(connectivity))
+            for kind, nodes, numbers in _pyramids_apart(name, connectivity, ids):
+                if kind in cells:
+                    nodes = np.concatenate([cells[kind], nodes])
+                    numbers = np.concatenate([cell_ids[kind], numbers])
+                cells[kind], cell_ids[kind] = nodes, numbers
     known = {int(i) for ids in cell_ids.values() for i in ids} if _has_point_elements(femmesh) else None
     if known is not None:
         _warn("point (0D) elements of the mesh are left out")
@@ -100,6 +122,9 @@ def to_femmesh(mesh, as_node_groups=(), points=None):
             kept = ~np.isin(ids, left_out)
             connectivity, ids = connectivity[kept], ids[kept]
         dimension_of.add(ids, dimension)
+        if name in _AS_HEXAHEDRON:
+            name, order = _AS_HEXAHEDRON[name]
+            connectivity = connectivity[:, order]
         connectivity = _reordered(name, connectivity)
         for begin in range(0, len(ids), _CHUNK):
             part = slice(begin, begin + _CHUNK)
@@ -160,6 +185,28 @@ def _elements(femmesh, dimension, element_ids):
 def _reordered(name, connectivity):
     order = _ORDER.get(name)
     return connectivity if order is None else connectivity[:, order]
+
+
+def _pyramids_apart(name, connectivity, ids):
+    """(type name, nodes, element numbers) of hexahedra with a face in one point, which are pyramids, and the rest."""
+    if name not in ("hexahedron", "hexahedron20"):
+        return [(name, connectivity, ids)]
+    parts, left = [], np.ones(len(ids), bool)
+    for face, base in _OPPOSITE_FACES:
+        tip = connectivity[:, face]
+        chosen = left & (tip == tip[:, :1]).all(axis=1)
+        if not chosen.any():
+            continue
+        left &= ~chosen
+        order = [*base, face[0]]
+        if name == "hexahedron20":
+            side = [next(f for f in face if (f, b) in _HEXAHEDRON_EDGES or (b, f) in _HEXAHEDRON_EDGES) for b in base]
+            for a, b in [*zip(base, base[1:] + base[:1]), *zip(base, side)]:
+                edge = (a, b) if (a, b) in _HEXAHEDRON_EDGES else (b, a)
+                order.append(8 + _HEXAHEDRON_EDGES.index(edge))
+        kind = "pyramid" if name == "hexahedron" else "pyramid13"
+        parts.append((kind, connectivity[chosen][:, order], ids[chosen]))
+    return [(name, connectivity[left], ids[left]), *parts] if left.any() else parts
 
 
 def _has_point_elements(femmesh):

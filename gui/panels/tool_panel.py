@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The task panel of an operator: geometry, options, live preview. One subclass per operator says what is special."""
 
+from collections import Counter
+
 import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
@@ -10,7 +12,7 @@ from femscalpelobjects import operator_options
 
 from .. import preferences
 from ..macro import record_import
-from ..translate import form, icon, translate
+from ..translate import QT_TRANSLATE_NOOP, form, icon, translate
 from ..view import preview_scene
 from ..view.preview_data import group_in_preview, make_preview
 from . import fields, group_table
@@ -468,6 +470,16 @@ def _sentence(text):
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
+# What Report.converted counts.
+_KINDS = {
+    "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
+    "quad": QT_TRANSLATE_NOOP("FemScalpel", "quadrangles"),
+    "pyramid": QT_TRANSLATE_NOOP("FemScalpel", "pyramids"),
+    "wedge": QT_TRANSLATE_NOOP("FemScalpel", "prisms"),
+    "hexahedron": QT_TRANSLATE_NOOP("FemScalpel", "hexahedra"),
+}
+
+
 def _summary(report):
     after = report.quality.after
     text = translate(
@@ -483,6 +495,12 @@ def _summary(report):
     )
     for k, number in enumerate(numbers, 1):
         text = text.replace(f"%{k}", str(number))
+    if report.converted:
+        counts = Counter()
+        for kind, count in report.converted.items():
+            counts[kind.rstrip("0123456789")] += count
+        kinds = ", ".join(f"{count} {translate('FemScalpel', _KINDS[kind])}" for kind, count in counts.items())
+        text += " " + translate("FemScalpel", "First became triangles or tetrahedra: %1.").replace("%1", kinds)
     if after.minimum < preferences.quality_threshold():
         text += (
             " <b style='color:#b3261e'>"

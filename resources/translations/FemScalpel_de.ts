@@ -412,6 +412,10 @@
       <translation>Rundung</translation>
     </message>
     <message>
+      <source>First became triangles or tetrahedra: %1.</source>
+      <translation>Zuerst wurden zu Dreiecken oder Tetraedern: %1.</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Gruppe</translation>
     </message>
@@ -724,6 +728,10 @@
       <translation>Facetten</translation>
     </message>
     <message>
+      <source>hexahedra</source>
+      <translation>Hexaeder</translation>
+    </message>
+    <message>
       <source>kept</source>
       <translation>erhalten</translation>
     </message>
@@ -764,6 +772,18 @@
       <translation>Punkte</translation>
     </message>
     <message>
+      <source>prisms</source>
+      <translation>Prismen</translation>
+    </message>
+    <message>
+      <source>pyramids</source>
+      <translation>Pyramiden</translation>
+    </message>
+    <message>
+      <source>quadrangles</source>
+      <translation>Vierecke</translation>
+    </message>
+    <message>
       <source>reduced</source>
       <translation>verkleinert</translation>
     </message>
@@ -778,6 +798,10 @@
     <message>
       <source>to an edge length</source>
       <translation>bis zu einer Kantenlänge</translation>
+    </message>
+    <message>
+      <source>triangles of seven nodes</source>
+      <translation>Dreiecke mit sieben Knoten</translation>
     </message>
     <message>
       <source>untouched</source>

@@ -412,6 +412,10 @@
       <translation>Congé</translation>
     </message>
     <message>
+      <source>First became triangles or tetrahedra: %1.</source>
+      <translation>D'abord devenus triangles ou tétraèdres : %1.</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Groupe</translation>
     </message>
@@ -724,6 +728,10 @@
       <translation>facettes</translation>
     </message>
     <message>
+      <source>hexahedra</source>
+      <translation>hexaèdres</translation>
+    </message>
+    <message>
       <source>kept</source>
       <translation>gardé</translation>
     </message>
@@ -764,6 +772,18 @@
       <translation>points</translation>
     </message>
     <message>
+      <source>prisms</source>
+      <translation>prismes</translation>
+    </message>
+    <message>
+      <source>pyramids</source>
+      <translation>pyramides</translation>
+    </message>
+    <message>
+      <source>quadrangles</source>
+      <translation>quadrangles</translation>
+    </message>
+    <message>
       <source>reduced</source>
       <translation>réduit</translation>
     </message>
@@ -778,6 +798,10 @@
     <message>
       <source>to an edge length</source>
       <translation>jusqu'à une longueur d'arête</translation>
+    </message>
+    <message>
+      <source>triangles of seven nodes</source>
+      <translation>triangles à sept nœuds</translation>
     </message>
     <message>
       <source>untouched</source>

@@ -130,8 +130,17 @@ def test_on_a_node_of_hexahedra_nothing_changes():
     mesh = fs.merge(base, beam((1, 1, 4), (1, 1, 6))).mesh
     assert mesh.node_count == base.node_count + 4
     assert (mesh.points[: base.node_count] == base.points).all()
-    with pytest.raises(fs.UnsupportedElementError):
-        fs.merge(base, beam((1.3, 1.2, 4), (1, 1, 6)))
+
+
+def test_off_the_nodes_of_hexahedra_those_there_become_tetrahedra():
+    base = hexahedra((0, 0, 0), (8, 8, 8), (8, 8, 8), "LOW")
+    result = fs.merge(base, beam((1.3, 1.2, 8), (1, 1, 10)))
+    kinds = {k: len(c) for k, c in result.mesh.cells.items()}
+    assert kinds["tetra"] > 0 and kinds["pyramid"] > 0 and kinds["hexahedron"] > 0
+    assert result.report.converted == {"hexahedron": 512 - kinds["hexahedron"]}
+    assert min(v.min() for k, v in fs.measure(result.mesh).items() if len(v)) > 0
+    foot = np.nonzero((result.mesh.points == (1.3, 1.2, 8)).all(axis=1))[0]
+    assert len(foot) == 1 and foot in result.mesh.cells["tetra"] and foot in result.mesh.cells["line"]
 
 
 @pytest.mark.parametrize(

@@ -157,6 +157,6 @@ def test_plane_that_nearly_touches_a_coarse_curved_skin():
     mesh = fs.read(cases.MESHES / "quadratic_elbow.inp")
     result = fs.crack(mesh, fs.Plane((7.5018980660435, 0, -3.4643750475600625), (0, 0, 1)))
     assert any("left in the middle of straight edges" in w for w in result.report.warnings)
-    assert result.report.straightened.count > 0 and 0 < result.report.straightened.largest < 0.2
+    assert result.report.straightened.count > 0 and 0 < result.report.straightened.largest < 0.4
     assert result.report.quality.after.minimum > 0.1
     assert fs.scaled_jacobian(result.mesh)["tetra10"].min() > 0

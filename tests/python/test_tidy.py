@@ -47,7 +47,12 @@ class Tree:
                 (self.programs / name).symlink_to(path)
         self.write("tests/tidy.sh", (ROOT / "tests" / "tidy.sh").read_text())
         self.write("build/release/compile_commands.json", "[]")
-        self.write("build/release/src/engine/CMakeFiles/femscalpel_engine.dir/cmake_pch.hxx", "")
+        cmake = self.programs / "cmake"  # called with "--preset release -B FOLDER ..."
+        cmake.write_text(
+            '#!/bin/bash\nengine="$4/src/engine/CMakeFiles/femscalpel_engine.dir"\nmkdir -p "$engine"\n'
+            'echo "[]" > "$4/compile_commands.json"\necho > "$engine/cmake_pch.hxx"\n'
+        )
+        cmake.chmod(0o755)
         self.write(".gitignore", "/build/\n")
         for name in ("src/engine/a.cpp", "src/engine/a.h", "src/bindings/b.cpp", "tests/cpp/c.cpp"):
             self.write(name, "")

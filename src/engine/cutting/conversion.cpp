@@ -14,7 +14,7 @@ bool has_middles(CellType type) { return type == CellType::hexahedron27 || type 
 
 class Planner {
 public:
-    Planner(const Mesh& mesh) : mesh_(mesh) {
+    Planner(const Mesh& mesh, std::span<const CellRef> unfit) : mesh_(mesh), unfit_(unfit) {
         for (const CellBlock& b : mesh.blocks())
             if (!traits(b.type).simplex)
                 chosen_[static_cast<int>(b.type)].assign(static_cast<std::size_t>(b.size()), 0);
@@ -34,7 +34,7 @@ public:
             const QuadSet faces = quads_of(whole);
             std::vector<CellRef> next;
             for_each_at(faces, 3, [&](const CellRef& cell) {
-                choose(cell, has_middles(cell.type) ? next : beside);
+                choose(cell, has_no_room(cell) ? next : beside);
                 reached.push_back(cell);
             });
             whole = std::move(next);
@@ -54,6 +54,11 @@ public:
     }
 
 private:
+    /// For pyramids.
+    bool has_no_room(const CellRef& cell) const {
+        return has_middles(cell.type) || std::ranges::find(unfit_, cell) != unfit_.end();
+    }
+
     char& chosen(const CellRef& cell) {
         return chosen_[static_cast<int>(cell.type)][static_cast<std::size_t>(cell.cell)];
     }
@@ -101,6 +106,7 @@ private:
     }
 
     const Mesh& mesh_;
+    std::span<const CellRef> unfit_;
     std::array<std::vector<char>, cell_type_count> chosen_;
 };
 
@@ -132,8 +138,9 @@ bool Conversion::empty() const {
     return std::ranges::all_of(cells, [](const std::vector<Index>& list) { return list.empty(); });
 }
 
-Conversion plan_conversion(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency) {
-    return Planner(mesh).run(level, adjacency);
+Conversion plan_conversion(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency,
+                           std::span<const CellRef> unfit) {
+    return Planner(mesh, unfit).run(level, adjacency);
 }
 
 }  // namespace femscalpel

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -47,7 +48,9 @@ struct Conversion {
 /// What has to become simplices so that all elements with a corner where level >= 0 are: these elements themselves;
 /// solids across their quadrangular faces, whose pyramids are then out of reach; shells on faces of all these. Where
 /// such a face has a node in its middle, no pyramid can stand on it: then what is across follows, as far as such faces
-/// go. One pass over the elements for each step, unless their `adjacency` is given, which saves the first.
-Conversion plan_conversion(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency);
+/// go; and where pyramids in an element would be poor, as `unfit` says. One pass over the elements for each step,
+/// unless their `adjacency` is given, which saves the first.
+Conversion plan_conversion(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency,
+                           std::span<const CellRef> unfit = {});
 
 }  // namespace femscalpel

@@ -12,10 +12,19 @@
 namespace femscalpel {
 namespace {
 
+/// Pyramids poorer than this are avoided where what they stand on can be converted, too.
+constexpr double poor_pyramid = 0.1;
+/// Parts poorer than this, and than a tenth of the whole, are an error.
+constexpr double too_poor = 0.02;
+
 class Simplifier {
 public:
-    Simplifier(const Mesh& input, const Conversion& conversion, const Numbering& numbering)
-        : input_(input), conversion_(conversion), next_node_(numbering.node), next_cell_(numbering.cell) {
+    Simplifier(const Mesh& input, const Conversion& conversion, const Numbering& numbering, bool tell_unfit)
+        : input_(input),
+          conversion_(conversion),
+          tell_unfit_(tell_unfit),
+          next_node_(numbering.node),
+          next_cell_(numbering.cell) {
         out_.mesh = input;
     }
 
@@ -108,7 +117,9 @@ private:
     void cut_up_solid(const CellRef& cell) {
         const CellTraits& t = traits(cell.type);
         SolidParts parts = cut_solid(out_.mesh, cell, conversion_, *cuts_);
-        if (parts.quality <= 0 && (parts.parts.empty() || mean_ratio(input_, cell.type, cell.cell) > 0)) refuse(cell);
+        const bool unfit = parts.quality < poor_pyramid && has_base(cell);
+        if (unfit) out_.unfit.push_back(cell);
+        if (!(unfit && tell_unfit_) && is_too_poor(parts, cell)) refuse(cell);
         const auto all = input_.block(cell.type).nodes(cell.cell).first(static_cast<std::size_t>(t.corners));
         Index centre = parts.centre_node;
         if (centre < 0 && !parts.centre.empty()) centre = add_node(parts.centre, all);
@@ -123,6 +134,18 @@ private:
                                    : CellType::tetra,
                      std::span(part.corners).first(static_cast<std::size_t>(part.count)));
         }
+    }
+
+    bool has_base(const CellRef& cell) const {
+        return std::ranges::any_of(faces_of(input_, cell), [&](const ElementFace& f) {
+            return f.count == 4 && conversion_.bases.contains(quad_key(f.corners));
+        });
+    }
+
+    bool is_too_poor(const SolidParts& parts, const CellRef& cell) const {
+        if (parts.parts.empty()) return true;
+        const double whole = mean_ratio(input_, cell.type, cell.cell);
+        return whole > 0 && parts.quality < std::min(too_poor, whole / 10);
     }
 
     [[noreturn]] void refuse(const CellRef& cell) const {
@@ -249,6 +272,7 @@ private:
 
     const Mesh& input_;
     const Conversion& conversion_;
+    const bool tell_unfit_;
     Index next_node_, next_cell_;
     Simplified out_;
     QuadCuts* cuts_ = nullptr;
@@ -261,8 +285,8 @@ private:
 
 }  // namespace
 
-Simplified simplify(const Mesh& mesh, const Conversion& conversion, const Numbering& numbering) {
-    return Simplifier(mesh, conversion, numbering).run();
+Simplified simplify(const Mesh& mesh, const Conversion& conversion, const Numbering& numbering, bool tell_unfit) {
+    return Simplifier(mesh, conversion, numbering, tell_unfit).run();
 }
 
 }  // namespace femscalpel

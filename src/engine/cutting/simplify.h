@@ -18,8 +18,9 @@ struct Simplified {
     std::array<Index, cell_type_count> converted{};  ///< how many, by their type
     Index pyramids = 0;                              ///< that stand on faces of elements that stayed
     Index nodes_added = 0;
-    Index nodes_removed = 0;  ///< in the middle of elements or faces, that nothing needs any more
-    Changes changes;          ///< where new nodes and elements come from, by number
+    Index nodes_removed = 0;     ///< in the middle of elements or faces, that nothing needs any more
+    std::vector<CellRef> unfit;  ///< elements in which pyramids came out poor (indices in the input)
+    Changes changes;             ///< where new nodes and elements come from, by number
 };
 
 /// Makes simplices of elements, of the order they have: triangles of quadrangles, cut along the diagonal that is better
@@ -32,8 +33,9 @@ struct Simplified {
 /// groups. Facets go to all parts that have a piece of the face. A new node is in the node groups that all corners of
 /// its face or element are in.
 ///
-/// Throws UnsupportedElementError that names an element when no parts of it have positive volume though it seemed
-/// sound.
-Simplified simplify(const Mesh& mesh, const Conversion& conversion, const Numbering& numbering);
+/// Throws UnsupportedElementError that names an element when its parts are poor (a mean ratio below 0.02, and below a
+/// tenth of its own), unless pyramids are among them and `unfit` is to tell.
+Simplified simplify(const Mesh& mesh, const Conversion& conversion, const Numbering& numbering,
+                    bool tell_unfit = false);
 
 }  // namespace femscalpel

@@ -110,9 +110,11 @@ private:
         SolidParts best = from_inside(at);
         for (double step = 0.3; best.quality < good && step > 0.05;) {
             bool better = false;
-            for (int k = 0; k < 6; ++k) {
-                const Vec3 there = at + (k % 2 ? step : -step) * Vec3::Unit(k / 2);
-                if (!ShapeBlend::inside(type_, there, 0.1)) continue;
+            // The poorest part decides, of which there may be two at once: also ways between the axes.
+            for (int k = 0; k < 27; ++k) {
+                const Vec3 way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+                const Vec3 there = at + step / std::max(1.0, way.norm()) * way;
+                if (k == 13 || !ShapeBlend::inside(type_, there, 0.1)) continue;
                 SolidParts other = from_inside(there);
                 if (!(other.quality > best.quality)) continue;
                 best = std::move(other);

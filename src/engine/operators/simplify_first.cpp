@@ -20,6 +20,9 @@ constexpr int rings_to_refine = 2;
 /// Rings beside the band to which it may grow when the mesh was refined, or with it its width is found anew.
 constexpr int spare_rings = 2;
 
+/// So often what is to be converted grows where pyramids come out poor.
+constexpr int rounds_for_pyramids = 4;
+
 bool has_simplices_alone(const Mesh& mesh) {
     return std::ranges::all_of(mesh.blocks(),
                                [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
@@ -97,7 +100,8 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& dis
 }
 
 std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known) {
-    const Conversion conversion = plan_conversion(mesh, level, known.adjacency);
+    std::vector<CellRef> unfit;
+    Conversion conversion = plan_conversion(mesh, level, known.adjacency);
     if (conversion.empty()) return {};
     DeckMarks own;
     if (!known.marks) own = mark_deck(mesh);
@@ -106,7 +110,12 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::i
     Refined out;
     out.numbering = next_numbers(mesh);
     out.deck = solver_input(mesh);
-    Simplified simplified = simplify(marked, conversion, out.numbering);
+    Simplified simplified = simplify(marked, conversion, out.numbering, true);
+    for (int round = 1; round <= rounds_for_pyramids && !simplified.unfit.empty(); ++round) {
+        std::ranges::copy(simplified.unfit, std::back_inserter(unfit));
+        conversion = plan_conversion(mesh, level, known.adjacency, unfit);
+        simplified = simplify(marked, conversion, out.numbering, round < rounds_for_pyramids);
+    }
     if (!marks.surface_sets.empty())
         renew_surface_sets(simplified.mesh, marks.surface_sets, *solver_input(mesh), simplified.after);
     out.trace.deck = carry_deck(marked, simplified.mesh, simplified.changes);

@@ -67,6 +67,7 @@ __all__ = [
     "Result",
     "Scalpel",
     "Shape",
+    "StraightenedEdges",
     "ToolError",
     "UnsupportedElementError",
     "VirtualBoundary",

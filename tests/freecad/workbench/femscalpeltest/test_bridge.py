@@ -72,7 +72,7 @@ class Bridge(unittest.TestCase):
         femmesh = femmesh_bridge.to_femmesh(mesh)
         self.assertEqual((femmesh.EdgeCount, femmesh.FaceCount, femmesh.VolumeCount), (2, 4, 8))
         self.assertEqual(
-            (femmesh.TetraCount, femmesh.PyramidCount, femmesh.PrismCount, femmesh.HexaCount), (2, 2, 2, 2)
+            (femmesh.TetraCount, femmesh.PyramidCount, femmesh.PrismCount, femmesh.HexaCount), (2, 0, 2, 4)
         )
         self.assertEqual(content(femmesh_bridge.from_femmesh(femmesh)), content(mesh))
 
@@ -103,14 +103,53 @@ class Bridge(unittest.TestCase):
                         for k, (i, j) in enumerate(EDGES[shape]):
                             np.testing.assert_allclose(points[corners + k], (points[i] + points[j]) / 2)
 
-    def test_pyramid_in_smesh_order(self):
+    def test_pyramids_of_freecad(self):
         # SMESH: base turned the other way round, then the top; mid-side nodes along base edges, then from the base up.
-        femmesh = femmesh_bridge.to_femmesh(one_element("pyramid", 2))
-        nodes = femmesh.getElementNodes(1)
-        points = np.array([tuple(femmesh.Nodes[n]) for n in nodes])
-        self.assertLess(np.linalg.det([points[1] - points[0], points[3] - points[0], points[4] - points[0]]), 0)
-        for k, (i, j) in enumerate(EDGES["pyramid"]):
-            np.testing.assert_allclose(points[5 + k], (points[i] + points[j]) / 2)
+        for order in (1, 2):
+            mesh = one_element("pyramid", order)
+            femmesh = Fem.FemMesh()
+            for number, point in enumerate(mesh.points, 1):
+                femmesh.addNode(*point, number)
+            nodes = [1, 4, 3, 2, 5] + [9, 8, 7, 6, 10, 13, 12, 11] * (order - 1)
+            femmesh.addVolume(nodes, 1)
+            self.assertEqual(femmesh.PyramidCount, 1)
+            self.assertEqual(content(femmesh_bridge.from_femmesh(femmesh)), content(mesh))
+
+    def test_pyramids_are_in_freecads_deck(self):
+        # As hexahedra: pyramids would be missing, without a word.
+        for order in (1, 2):
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "one.inp")
+                mesh = one_element("pyramid", order)
+                femmesh_bridge.to_femmesh(mesh).writeABAQUS(path, 1, False)
+                read = fs.read(path)
+                ((name, nodes),) = mesh.cells.items()
+                self.assertEqual(read.cells[name].tolist(), nodes.tolist())
+                np.testing.assert_allclose(read.points, mesh.points)
+
+    def test_hexahedra_with_any_face_in_one_point_are_pyramids(self):
+        corners = np.array(CORNERS["hexahedron"])
+        edges = EDGES["hexahedron"]
+        for axis, end in ((a, e) for a in range(3) for e in (0, 1)):
+            face = np.nonzero(corners[:, axis] == end)[0]
+            nodes = np.arange(8)
+            nodes[face] = face[0]
+            middles = [nodes[i] if nodes[i] == nodes[j] else 8 + k for k, (i, j) in enumerate(edges)]
+            points = np.concatenate([corners, [(corners[nodes[i]] + corners[nodes[j]]) / 2 for i, j in edges]])
+            for name, all_nodes in (("hexahedron", nodes), ("hexahedron20", np.concatenate([nodes, middles]))):
+                order = femmesh_bridge._ORDER[name]
+                femmesh = Fem.FemMesh()
+                for n in sorted(set(all_nodes.tolist())):
+                    femmesh.addNode(*points[n], n + 1)
+                femmesh.addVolume((all_nodes[list(order)] + 1).tolist(), 1)
+                mesh = femmesh_bridge.from_femmesh(femmesh)
+                ((kind, (row,)),) = mesh.cells.items()
+                tip = row[4]
+                self.assertEqual(kind, "pyramid" if name == "hexahedron" else "pyramid13")
+                np.testing.assert_array_equal(mesh.points[tip], corners[face[0]])
+                self.assertAlmostEqual(fs.measure(mesh)[kind][0], 1 / 3)
+                for k, (i, j) in enumerate(EDGES["pyramid"] if name == "hexahedron20" else ()):
+                    np.testing.assert_allclose(mesh.points[row[5 + k]], mesh.points[row[[i, j]]].mean(axis=0))
 
     def test_meshes_of_freecads_examples_have_positive_volumes(self):
         from femexamples.meshes import mesh_canticcx_tetra10
