@@ -95,6 +95,7 @@ py::dict to_dict(const Report& report) {
     out["refinement"] = py::none();
     if (const auto& r = report.refinement)
         out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);
+    out["welded_pairs"] = report.welded_pairs;
     py::dict converted;
     for (const auto& [type, count] : report.converted) converted[py::str(type)] = count;
     out["converted"] = converted;

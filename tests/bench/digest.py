@@ -122,6 +122,8 @@ class Outcome:
         fields = {f.name: getattr(report, f.name) for f in dataclasses.fields(report) if f.name != "seconds"}
         if not fields["straightened"].count:
             del fields["straightened"]
+        if not fields["welded_pairs"]:
+            del fields["welded_pairs"]
         if not fields["converted"]:
             del fields["converted"]  # says nothing of meshes of simplices
         self.add("warnings", self.text(repr(fields.pop("warnings"))))

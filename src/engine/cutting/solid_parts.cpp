@@ -14,6 +14,8 @@ namespace {
 constexpr double worth_fewer = 0.7;
 /// A node in the middle is moved where parts are poorer than this.
 constexpr double good = 0.3;
+/// Parts around a corner that are as good as this are good enough not to look for better.
+constexpr double good_corner = 0.7;
 
 /// The mean ratio of a pyramid by its corners: the smallest over those of its base, the regular one has 1.
 double pyramid_quality(const std::array<Vec3, 5>& x) {
@@ -52,7 +54,7 @@ public:
             SolidParts parts = from_corner(nodes_[k]);
             if (parts.quality > best.quality * (1 + 1e-9)) best = std::move(parts);
         }
-        if (traits(type_).corners == 5 || best.quality >= best_corner_) return best;
+        if (traits(type_).corners == 5 || best.quality >= good_corner) return best;
         SolidParts inside = from_middle();
         return inside.quality > 0 && best.quality < worth_fewer * inside.quality ? inside : best;
     }
@@ -112,7 +114,8 @@ private:
             bool better = false;
             // The poorest part decides, of which there may be two at once: also ways between the axes.
             for (int k = 0; k < 27; ++k) {
-                const Vec3 way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+                const int row = k / 3, layer = k / 9;
+                const Vec3 way(k % 3 - 1, row % 3 - 1, layer - 1);
                 const Vec3 there = at + step / std::max(1.0, way.norm()) * way;
                 if (k == 13 || !ShapeBlend::inside(type_, there, 0.1)) continue;
                 SolidParts other = from_inside(there);
@@ -223,7 +226,6 @@ private:
     ShapeBlend shape_;
     bool second_order_;
     std::vector<Side> sides_;
-    static constexpr double best_corner_ = 0.7;  // good enough not to look for better
 };
 
 }  // namespace

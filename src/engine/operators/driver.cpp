@@ -14,6 +14,7 @@
 #include "mesh/stopwatch.h"
 #include "operators/account.h"
 #include "operators/simplify_first.h"
+#include "operators/weld_first.h"
 
 namespace femscalpel {
 namespace {
@@ -133,7 +134,12 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
     Result result{{}, account.close(f, blades, opening, naming, edited)};
     recipe.finished(edited.rebuilt);
     result.mesh = std::move(edited.rebuilt.mesh);
-    remove_marks(result.mesh);
+    if (known.stages) {
+        if (refined) known.stages->push_back(refined->trace.changes);
+        known.stages->push_back(std::move(edited.rebuilt.changes));
+    } else {
+        remove_marks(result.mesh);
+    }
     watch.lap("report");
     result.report.seconds = seconds.list();
     return result;
@@ -164,13 +170,11 @@ void check_name(const Mesh& mesh, const std::string& name, const Naming& naming)
     }
 }
 
-Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
+namespace {
+
+/// On a mesh whose double nodes near the tool, if any, are single.
+Result perform_on(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();
-    check_extent(input);
-    recipe.start(input);
-    check_name(input, options.name, recipe.naming());
-    check_options(options);
-    (void)drifting_groups(input, options.preserve);  // whose names may be unknown
     std::optional<Refined> converted = simplify_first(input, around(recipe), recipe.zones(), options, known), refined;
     if (converted) {
         converted->converting = Stopwatch::since(started);
@@ -194,15 +198,33 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
         return true;
     };
     refine(recipe.zones());
+    const auto renewed = [&](const Mesh& mesh) { return known.renewed ? known.renewed(mesh) : Prepared{}; };
     for (;;) {
         const Refined* first = refined ? &*refined : converted ? &*converted : nullptr;
         const bool changed = first && !first->tried_in_vain;
         if (tried) started = Stopwatch::now();
         if (tried && changed) recipe.start(first->mesh);
-        if (auto result = attempt(recipe, changed ? first->mesh : input, options, changed ? Prepared{} : known, first,
-                                  started, refine))
+        if (auto result = attempt(recipe, changed ? first->mesh : input, options,
+                                  changed ? renewed(first->mesh) : known, first, started, refine))
             return std::move(*result);
     }
+}
+
+}  // namespace
+
+Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
+    check_extent(input);
+    recipe.start(input);
+    check_name(input, options.name, recipe.naming());
+    check_options(options);
+    (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    WeldFirst weld(input, known);
+    if (!weld || !(weld.is_near(around(recipe)) || !recipe.zones().empty()))
+        return perform_on(recipe, input, options, known);
+    recipe.start(weld.mesh());
+    Result result = perform_on(recipe, weld.mesh(), options, weld.known());
+    weld.finish(result, options);
+    return result;
 }
 
 }  // namespace femscalpel

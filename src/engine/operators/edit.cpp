@@ -82,7 +82,7 @@ Edited Edit::finish(Workpiece& f, const Opening& opening, const Naming& naming, 
     Edited out{rebuild(mesh(), std::move(*output), f, opening, naming.groups, numbering_, naming.front), {}, {}, {}};
     Rebuilt& rebuilt = out.rebuilt;
     if (opening.front_chains.empty()) add_front(opening, naming.front, rebuilt);
-    if (!marks_->surface_sets.empty())
+    if (!marks_->surface_sets.empty() && solver_input(input_))
         renew_surface_sets(rebuilt.mesh, marks_->surface_sets, *solver_input(input_), rebuilt.after);
     watch.lap("rebuild");
     if (input_.companion && !part_) {

@@ -88,6 +88,7 @@ struct Report {
     StraightenedEdges straightened;
     std::vector<PoorPlace> poor;           ///< empty when all is well
     std::optional<Refinement> refinement;  ///< part of what the counts below say
+    Index welded_pairs = 0;                ///< of double nodes that stayed pairs: each side did as the other
     /// Elements that became triangles, tetrahedra and pyramids first, by the names of their types.
     std::map<std::string, Index> converted;
     Index nodes_added = 0;    ///< by splitting and by doubling

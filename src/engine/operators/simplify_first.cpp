@@ -116,7 +116,7 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::i
         conversion = plan_conversion(mesh, level, known.adjacency, unfit);
         simplified = simplify(marked, conversion, out.numbering, round < rounds_for_pyramids);
     }
-    if (!marks.surface_sets.empty())
+    if (!marks.surface_sets.empty() && solver_input(mesh))
         renew_surface_sets(simplified.mesh, marks.surface_sets, *solver_input(mesh), simplified.after);
     out.trace.deck = carry_deck(marked, simplified.mesh, simplified.changes);
     out.report = report_of(marked, known.totals ? *known.totals : family_totals(marked), simplified);

@@ -125,6 +125,7 @@ class Report:
     straightened: StraightenedEdges  #: count 0 when all curved edges are where they belong
     poor: List[PoorPlace]  #: empty when all is well
     refinement: Optional[Refinement]  #: part of what the counts below say
+    welded_pairs: int  #: of double nodes near the tool that stayed pairs: each side did as the other
     #: Quadrangles, prisms, pyramids, hexahedra near the tool that became triangles and tetrahedra first, by type: part
     #: of what the counts below say
     converted: Dict[str, int]
@@ -194,6 +195,8 @@ class Report:
                     f"first, to edges of {size:.4g} near the tool: {elements_before} -> {elements_after} elements",
                 ),
             )
+        if self.welded_pairs:
+            facts.insert(0, ("double nodes", f"{self.welded_pairs} pairs stayed pairs"))
         if self.converted:
             facts.insert(0, ("converted", f"first, to triangles or tetrahedra: {_counts(self.converted)}"))
         title = f"{self.operation} {self.name}".rstrip()

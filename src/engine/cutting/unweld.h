@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <map>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "cutting/rebuild.h"
+#include "cutting/weld.h"
+#include "mesh/changes.h"
+
+namespace femscalpel {
+
+/// Changes that came one after the other as one: what is new descends from what was there before the first.
+Changes in_one(std::span<const Changes> stages);
+
+/// What taking welded nodes apart did to a mesh.
+struct Unwelded {
+    /// Of nodes that were single (by number): those at the same place now, their partners.
+    std::unordered_map<Index, std::vector<Index>> partners;
+    Index moved = 0;  ///< partners that are the input's, and lie elsewhere now
+    Index born = 0;   ///< new ones of nodes born meanwhile
+    Index doubled = 0;  ///< new ones of nodes doubled meanwhile
+};
+
+/// Makes double what weld() made single in what an operation made of Welded::mesh: each element goes to the side that
+/// the element of `input` it descends from was on. The input's nodes have their numbers and groups again, at the places
+/// they moved to; a node born meanwhile gets a partner, in the node groups that all its ancestors of that side are in,
+/// as does a node doubled by a crack, in its groups. Partners that no element has any more go. New nodes are numbered
+/// from `number` on and added to `changes`, which are those between `input` and `mesh` (in_one()).
+Unwelded unweld(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Index number);
+
+}  // namespace femscalpel

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/weld_first.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "cutting/unweld.h"
+#include "deck/carry_over.h"
+#include "deck/fit_cards.h"
+#include "mesh/companion.h"
+#include "mesh/rounding.h"
+
+namespace femscalpel {
+namespace {
+
+/// Welded nodes farther from all tools than so many lengths of their edges are out of reach.
+constexpr double reach = 12;
+/// The hidden groups of the deck are called so meanwhile: steps on the way remove those that mark_deck() made.
+constexpr std::string_view other_prefix = "*KEPT#";
+
+/// Keeps new elements from numbers that only the deck has.
+class OtherElements : public Companion {
+public:
+    explicit OtherElements(Index largest) : largest_(largest) {}
+    Index largest_other_element() const override { return largest_; }
+
+private:
+    Index largest_;
+};
+
+void rename_marks(Mesh& mesh, std::string_view from, std::string_view to) {
+    for (Group& g : mesh.groups)
+        if (g.hidden && g.name.starts_with(from)) g.name.replace(0, from.size(), to);
+}
+
+std::vector<Index> numbers_of(const Mesh& mesh, const std::vector<Index>& nodes) {
+    std::vector<Index> out;
+    for (const Index n : nodes) out.push_back(mesh.node_ids[n]);
+    return out;
+}
+
+std::vector<Index> nodes_of(const NumberIndex& numbers, const std::vector<Index>& ids) {
+    std::vector<Index> out;
+    for (const Index id : ids)
+        if (const auto n = numbers.node(id)) out.push_back(*n);
+    std::ranges::sort(out);
+    return out;
+}
+
+}  // namespace
+
+WeldFirst::WeldFirst(const Mesh& input, const Prepared& known) : input_(input), marks_(known.marks) {
+    std::optional<Welded> welded = weld(input, coordinate_rounding(input.points));
+    if (!welded) return;
+    if (!marks_) {
+        own_marks_ = mark_deck(input);
+        marks_ = &own_marks_;
+    }
+    welded_ = marks_->mesh ? weld(*marks_->mesh, coordinate_rounding(input.points)) : std::move(welded);
+    find_marks();
+}
+
+void WeldFirst::find_marks() {
+    Mesh& mesh = welded_->mesh;
+    if (mesh.companion) mesh.companion = std::make_shared<OtherElements>(mesh.companion->largest_other_element());
+    rename_marks(mesh, mark_prefix, other_prefix);
+    std::vector<Index> now(mesh.points.size());
+    for (std::size_t n = 0; n < now.size(); ++n) now[n] = static_cast<Index>(n);
+    for (const std::vector<Index>& set : welded_->sets)
+        for (const Index n : set) now[n] = set.front();
+    const auto single = [&](const std::vector<Index>& nodes) {
+        std::vector<Index> out;
+        for (const Index n : nodes) out.push_back(now[n]);
+        std::ranges::sort(out);
+        out.erase(std::unique(out.begin(), out.end()), out.end());
+        return out;
+    };
+    on_welded_.kept = marks_->kept;
+    on_welded_.kept.resize(mesh.groups.size(), false);
+    on_welded_.kept[welded_->faces] = true;
+    on_welded_.surface_sets = marks_->surface_sets;
+    on_welded_.related = single(marks_->related);
+    on_welded_.pinned = single(marks_->pinned);
+}
+
+bool WeldFirst::is_near(std::span<const Blade> blades) const {
+    const Mesh& mesh = welded_->mesh;
+    std::vector<double> length(mesh.points.size(), -1);
+    for (const std::vector<Index>& set : welded_->sets) length[set.front()] = 0;
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (const auto& e : traits(b.type).edges) {
+                const Index p = n[e[0]], q = n[e[1]];
+                if (length[p] < 0 && length[q] < 0) continue;
+                const double size = (mesh.points[p] - mesh.points[q]).norm();
+                for (const Index v : {p, q})
+                    if (length[v] >= 0) length[v] = std::max(length[v], size);
+            }
+        }
+    for (std::size_t n = 0; n < length.size(); ++n) {
+        if (length[n] < 0) continue;
+        for (const Blade& b : blades)
+            if (std::abs(b.tool->distance(mesh.points[n])) <= reach * length[n]) return true;
+    }
+    return false;
+}
+
+Prepared WeldFirst::known() {
+    Prepared out;
+    out.marks = &on_welded_;
+    out.stages = &stages_;
+    out.renewed = [this](const Mesh& changed) {
+        const NumberIndex numbers(changed);
+        on_changed_ = {};
+        on_changed_.kept = on_welded_.kept;
+        on_changed_.surface_sets = on_welded_.surface_sets;
+        on_changed_.related = nodes_of(numbers, numbers_of(mesh(), on_welded_.related));
+        on_changed_.pinned = nodes_of(numbers, numbers_of(mesh(), on_welded_.pinned));
+        Prepared renewed;
+        renewed.marks = &on_changed_;
+        renewed.stages = &stages_;
+        return renewed;
+    };
+    return out;
+}
+
+void WeldFirst::carry(Mesh& mesh, const Changes& changes, const OperatorOptions& options, Report& report) const {
+    mesh.companion = input_.companion;
+    if (!mesh.companion || options.band_only) return;
+    const NumberIndex numbers(marked());
+    std::unordered_map<Index, Index> parents;
+    for (const Changes::Part& p : changes.parts) parents.emplace(p.element, p.parent);
+    std::vector<CellRef> all, converted;
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c) {
+            all.push_back({b.type, c});
+            const auto parent = parents.find(b.ids[c]);
+            const auto root = numbers.cell(parent == parents.end() ? b.ids[c] : parent->second);
+            if (root && root->type != b.type) converted.push_back({b.type, c});
+        }
+    if (!marks_->surface_sets.empty()) renew_surface_sets(mesh, marks_->surface_sets, *solver_input(input_), all);
+    std::ranges::move(warnings_of(carry_deck(marked(), mesh, changes), options.strict),
+                      std::back_inserter(report.warnings));
+    if (!converted.empty()) fit_cards(mesh, converted);
+}
+
+void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Report& report) const {
+    report.welded_pairs = welded_->pairs();
+    report.nodes_added += unwelded.born + unwelded.doubled;
+    report.nodes_split += unwelded.born;
+    report.nodes_doubled += unwelded.doubled;
+    report.nodes_moved += unwelded.moved;
+    for (auto& [name, numbers] : report.node_sets) {
+        const std::vector<Index> single = numbers;
+        for (const Index n : single)
+            if (const auto partners = unwelded.partners.find(n); partners != unwelded.partners.end())
+                numbers.insert(numbers.end(), partners->second.begin(), partners->second.end());
+        std::ranges::sort(numbers);
+    }
+    // Node groups were those of all that was single.
+    std::vector<Index> before(mesh.groups.size(), 0), after(mesh.groups.size(), 0);
+    const auto count = [](const Mesh& of, std::vector<Index>& counts) {
+        for (const FamilyIndex f : of.node_families)
+            for (const GroupIndex g : of.families.groups(f)) ++counts[g];
+    };
+    count(input_, before);
+    count(mesh, after);
+    for (GroupRecord& r : report.groups) {
+        if (r.kind != GroupKind::node) continue;
+        const auto g = mesh.find_group(r.name, GroupKind::node);
+        if (!g) continue;
+        r.count_before = before[*g];
+        r.count_after = after[*g];
+    }
+}
+
+void WeldFirst::finish(Result& result, const OperatorOptions& options) {
+    Mesh& mesh = result.mesh;
+    Changes changes = in_one(stages_);
+    const Index number = std::max(next_numbers(marked()).node, mesh.largest_node_id() + 1);
+    const Unwelded unwelded = unweld(marked(), *welded_, mesh, changes, number);
+    remove_group(mesh, welded_->faces);
+    rename_marks(mesh, other_prefix, mark_prefix);
+    carry(mesh, changes, options, result.report);
+    remove_marks(mesh);
+    report_pairs(mesh, unwelded, result.report);
+}
+
+}  // namespace femscalpel

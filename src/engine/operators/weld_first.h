@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cutting/weld.h"
+#include "cutting/workpiece.h"
+#include "deck/mark_deck.h"
+#include "mesh/changes.h"
+#include "operators/options.h"
+#include "operators/prepared.h"
+#include "operators/report.h"
+
+namespace femscalpel {
+
+/// Double nodes made single for the time of an operation, so that both sides of a contact, an earlier crack or coincident
+/// shells do the same (weld(), unweld()).
+class WeldFirst {
+public:
+    /// Welds a copy of `input`, which must outlive this, as must what is `known` of it.
+    WeldFirst(const Mesh& input, const Prepared& known);
+
+    /// Whether there is anything to weld.
+    explicit operator bool() const { return welded_.has_value(); }
+
+    /// Whether any of it is so near these surfaces that an operation along them could reach it.
+    bool is_near(std::span<const Blade> blades) const;
+
+    const Mesh& mesh() const { return welded_->mesh; }
+
+    /// What an operation on mesh() is to know; see Prepared.
+    Prepared known();
+
+    /// Takes the nodes of what an operation made of mesh() apart again, carries the solver's input over, and brings the
+    /// report up to date.
+    void finish(Result& result, const OperatorOptions& options);
+
+private:
+    const Mesh& marked() const { return marks_->mesh ? *marks_->mesh : input_; }
+    void find_marks();
+    void carry(Mesh& mesh, const Changes& changes, const OperatorOptions& options, Report& report) const;
+    void report_pairs(const Mesh& mesh, const struct Unwelded& unwelded, Report& report) const;
+
+    const Mesh& input_;
+    DeckMarks own_marks_;
+    const DeckMarks* marks_;
+    std::optional<Welded> welded_;
+    DeckMarks on_welded_;   // what the deck asks of the welded mesh
+    DeckMarks on_changed_;  // of that refined or converted
+    std::vector<Changes> stages_;
+};
+
+}  // namespace femscalpel
