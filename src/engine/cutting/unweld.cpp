@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cancel.h"
+#include "mesh/union_find.h"
 
 namespace femscalpel {
 namespace {
@@ -39,6 +40,7 @@ public:
         : input_(input), welded_(welded), mesh_(mesh), changes_(changes), next_(number), numbers_(input) {
         for (const auto& set : welded.sets)
             for (const Index n : set) set_of_[n] = &set;
+        find_bodies();
         for (const Changes::Part& p : changes.parts) parents_.emplace(p.element, p.parent);
         for (const Changes::Copy& c : changes.copies) sources_.emplace(c.node, c.source);
         for (std::size_t k = 0; k < changes.born.size(); ++k) births_.emplace(changes.born[k].node, k);
@@ -54,6 +56,39 @@ public:
     }
 
 private:
+    /// Welded nodes that elements of the input join are on one side.
+    void find_bodies() {
+        body_.assign(input_.points.size(), -1);
+        UnionFind bodies(input_.points.size());
+        for (const CellBlock& b : input_.blocks()) {
+            if (traits(b.type).dimension < 2) continue;
+            SparseCheck check;
+            for (Index c = 0; c < b.size(); ++c) {
+                check();
+                Index first = -1;
+                for (const Index n : b.nodes(c)) {
+                    if (!set_of_.contains(n)) continue;
+                    if (first < 0) first = n;
+                    bodies.unite(static_cast<int>(first), static_cast<int>(n));
+                }
+            }
+        }
+        for (const auto& [n, set] : set_of_) body_[n] = bodies.find(static_cast<int>(n));
+        for (const auto& set : welded_.sets)  // such as lips around the crack's front: no two sides
+            for (const Index n : set)
+                for (const Index m : set)
+                    if (n != m && body_[n] == body_[m]) mixed_.insert(body_[n]);
+    }
+
+    /// The body of an element by any welded node it had; -1 if it had none, or that tells no side.
+    Index body_of(const CellRef& cell) const {
+        const auto old = root(cell);
+        if (!old) return -1;
+        for (const Index n : input_.block(old->type).nodes(old->cell))
+            if (set_of_.contains(n)) return mixed_.contains(body_[n]) ? -1 : body_[n];
+        return -1;
+    }
+
     /// Nodes of the input (indices) that a node of the result comes from.
     std::vector<Index> ancestors(Index number) const {
         if (const auto source = sources_.find(number); source != sources_.end()) number = source->second;
@@ -162,8 +197,26 @@ private:
         return mesh_.block(c.type).nodes(c.cell).first(static_cast<std::size_t>(traits(c.type).corners));
     }
 
-    /// What an element of which nothing was at the weld goes with: the one with which it has most corners in common, not
-    /// across a welded face.
+    /// Puts an element that had none of these nodes with those of its body.
+    bool put_by_body(const CellRef& cell, const std::vector<Index>& from, std::vector<Part>& parts) const {
+        const Index body = body_of(cell);
+        if (body < 0) return false;
+        Label label(from.size(), -1);
+        for (std::size_t k = 0; k < from.size(); ++k)
+            if (const auto set = set_of_.find(from[k]); set != set_of_.end())
+                for (const Index n : *set->second)
+                    if (body_[n] == body) label[k] = n;
+        if (!is_known(label)) return false;
+        const auto part = std::ranges::find_if(parts, [&](const Part& p) { return go_together(p.label, label); });
+        if (part == parts.end())
+            parts.push_back({std::move(label), {cell}});
+        else
+            part->cells.push_back(cell);
+        return true;
+    }
+
+    /// What an element of which nothing was at the weld goes with: the one with which it has most corners in common,
+    /// not across a welded face.
     Part* beside(const CellRef& cell, std::vector<Part>& parts) const {
         Part* best = nullptr;
         std::size_t most = 1;
@@ -196,6 +249,7 @@ private:
                 part->cells.push_back(cell);
             }
         }
+        std::erase_if(rest, [&](const CellRef& cell) { return put_by_body(cell, from, parts); });
         // Some may be known only by others of them.
         while (!rest.empty()) {
             const std::size_t before = rest.size();
@@ -234,8 +288,8 @@ private:
     /// Gives the elements of a side of node w their own node.
     void give(Index w, bool first, FamilyIndex family, const std::vector<Index>& from, const Part& part) {
         const Index number = mesh_.node_ids[w];
-        const bool born = births_.contains(number) ||
-                          (sources_.contains(number) && births_.contains(sources_.at(number)));
+        const bool born =
+            births_.contains(number) || (sources_.contains(number) && births_.contains(sources_.at(number)));
         Index node = w;
         if (!born) {
             const Index original = part.label.front();
@@ -306,8 +360,8 @@ private:
         changes_.born.push_back(std::move(made));
         const Vec3 at = mesh_.points[w];
         const Index node = mesh_.add_node(at, next_++);
-        partner_at_[{sources_.contains(mesh_.node_ids[w]) ? sources_.at(mesh_.node_ids[w]) : mesh_.node_ids[w], label}] =
-            mesh_.node_ids[node];
+        partner_at_[{sources_.contains(mesh_.node_ids[w]) ? sources_.at(mesh_.node_ids[w]) : mesh_.node_ids[w],
+                     label}] = mesh_.node_ids[node];
         return node;
     }
 
@@ -364,15 +418,17 @@ private:
     NumberIndex numbers_;
     Unwelded out_;
     std::unordered_map<Index, const std::vector<Index>*> set_of_;  // by node of the input
-    std::unordered_map<Index, Index> parents_, sources_;           // numbers
-    std::unordered_map<Index, std::size_t> births_;                // in changes_.born, by number
+    std::vector<Index> body_;  // of welded nodes of the input: the first of those on their side
+    std::set<Index> mixed_;    // bodies that are on both sides of a weld
+    std::unordered_map<Index, Index> parents_, sources_;  // numbers
+    std::unordered_map<Index, std::size_t> births_;       // in changes_.born, by number
     std::vector<char> is_single_;
-    std::vector<Index> nodes_;                         // of the result, that may have to be taken apart
-    std::unordered_map<Index, Index> place_;           // in the result, of welded nodes of the input
+    std::vector<Index> nodes_;                // of the result, that may have to be taken apart
+    std::unordered_map<Index, Index> place_;  // in the result, of welded nodes of the input
     std::unordered_map<Index, std::vector<CellRef>> cells_;
     std::set<std::vector<Index>> faces_;
-    std::set<Index> claimed_;                          // nodes of the input that a side has
-    std::set<Index> used_;                             // nodes of the result that elements have
+    std::set<Index> claimed_;                              // nodes of the input that a side has
+    std::set<Index> used_;                                 // nodes of the result that elements have
     std::map<std::pair<Index, Label>, Index> partner_at_;  // number of a partner, by number and side
 };
 

@@ -19,8 +19,8 @@ Changes in_one(std::span<const Changes> stages);
 struct Unwelded {
     /// Of nodes that were single (by number): those at the same place now, their partners.
     std::unordered_map<Index, std::vector<Index>> partners;
-    Index moved = 0;  ///< partners that are the input's, and lie elsewhere now
-    Index born = 0;   ///< new ones of nodes born meanwhile
+    Index moved = 0;    ///< partners that are the input's, and lie elsewhere now
+    Index born = 0;     ///< new ones of nodes born meanwhile
     Index doubled = 0;  ///< new ones of nodes doubled meanwhile
 };
 

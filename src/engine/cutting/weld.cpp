@@ -24,7 +24,8 @@ public:
 
     using Key = std::array<std::int64_t, 3>;
     Key key(const Vec3& x) const {
-        return {static_cast<std::int64_t>(std::floor(x[0] / size_)), static_cast<std::int64_t>(std::floor(x[1] / size_)),
+        return {static_cast<std::int64_t>(std::floor(x[0] / size_)),
+                static_cast<std::int64_t>(std::floor(x[1] / size_)),
                 static_cast<std::int64_t>(std::floor(x[2] / size_))};
     }
 
@@ -131,8 +132,7 @@ private:
                     Side self{{n.begin(), n.end()}, {b.type, 0, 0, c}};
                     put(std::move(self));
                     if (dimension == 2)
-                        for (std::size_t e = 0; e < t.edges.size(); ++e)
-                            add(edge_of(b, c, e), static_cast<int>(e) + 3);
+                        for (std::size_t e = 0; e < t.edges.size(); ++e) add(edge_of(b, c, e), static_cast<int>(e) + 3);
                 }
             }
         }
@@ -147,7 +147,8 @@ private:
         if (t.quadratic)
             for (std::size_t e = 0; e < t.edges.size(); ++e)
                 if (std::ranges::find(out.nodes, n[t.edges[e][0]]) != out.nodes.end() &&
-                    std::ranges::find(out.nodes, n[t.edges[e][1]]) != out.nodes.end() && is_edge_of(t.faces[f], t.edges[e]))
+                    std::ranges::find(out.nodes, n[t.edges[e][1]]) != out.nodes.end() &&
+                    is_edge_of(t.faces[f], t.edges[e]))
                     out.nodes.push_back(n[t.corners + static_cast<int>(e)]);
         return out;
     }

@@ -223,7 +223,7 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
         return perform_on(recipe, input, options, known);
     recipe.start(weld.mesh());
     Result result = perform_on(recipe, weld.mesh(), options, weld.known());
-    weld.finish(result, options);
+    weld.finish(result, options.strict, options.band_only);
     return result;
 }
 

@@ -23,6 +23,7 @@
 #include "operators/changed_quality.h"
 #include "operators/edit.h"
 #include "operators/simplify_first.h"
+#include "operators/weld_first.h"
 
 namespace femscalpel {
 namespace {
@@ -196,15 +197,19 @@ std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceF
     return level;
 }
 
-Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
+namespace {
+
+/// On a mesh whose double nodes, if any, are single. What changed is added to `stages`.
+Result refine_on(const Mesh& input, const DistanceField& distance, const RefineOptions& options,
+                 std::vector<Changes>& stages) {
     Laps seconds;
     Stopwatch watch(seconds);
     Trace trace;
-    check(options);
-    check_extent(input);
     const std::optional<Refined> converted = simplify_first(input, distance, options);
     if (converted) watch.lap("convert");
     if (auto result = refine_where_needed(converted ? converted->mesh : input, distance, options, trace)) {
+        if (converted) stages.push_back(converted->trace.changes);
+        stages.push_back(std::move(trace.changes));
         std::ranges::move(warnings_of(trace.deck, options.strict), std::back_inserter(result->report.warnings));
         if (!converted) return std::move(*result);
         Refined refined;
@@ -227,6 +232,24 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     watch.lap("report");
     untouched.report.seconds = seconds.list();
     return untouched;
+}
+
+}  // namespace
+
+Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
+    check(options);
+    check_extent(input);
+    WeldFirst weld(input, {});
+    std::vector<Changes> stages;
+    if (!weld) return refine_on(input, distance, options, stages);
+    Result result = refine_on(weld.mesh(), distance, options, stages);
+    if (stages.empty()) {
+        result.mesh = input;
+        return result;
+    }
+    std::ranges::move(stages, std::back_inserter(weld.stages()));
+    weld.finish(result, options.strict);
+    return result;
 }
 
 std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,

@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 
-#include "cutting/unweld.h"
 #include "deck/carry_over.h"
 #include "deck/fit_cards.h"
 #include "mesh/companion.h"
@@ -128,9 +127,7 @@ Prepared WeldFirst::known() {
     return out;
 }
 
-void WeldFirst::carry(Mesh& mesh, const Changes& changes, const OperatorOptions& options, Report& report) const {
-    mesh.companion = input_.companion;
-    if (!mesh.companion || options.band_only) return;
+void WeldFirst::carry(Mesh& mesh, const Changes& changes, bool strict, Report& report) const {
     const NumberIndex numbers(marked());
     std::unordered_map<Index, Index> parents;
     for (const Changes::Part& p : changes.parts) parents.emplace(p.element, p.parent);
@@ -143,8 +140,7 @@ void WeldFirst::carry(Mesh& mesh, const Changes& changes, const OperatorOptions&
             if (root && root->type != b.type) converted.push_back({b.type, c});
         }
     if (!marks_->surface_sets.empty()) renew_surface_sets(mesh, marks_->surface_sets, *solver_input(input_), all);
-    std::ranges::move(warnings_of(carry_deck(marked(), mesh, changes), options.strict),
-                      std::back_inserter(report.warnings));
+    std::ranges::move(warnings_of(carry_deck(marked(), mesh, changes), strict), std::back_inserter(report.warnings));
     if (!converted.empty()) fit_cards(mesh, converted);
 }
 
@@ -178,14 +174,15 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Report&
     }
 }
 
-void WeldFirst::finish(Result& result, const OperatorOptions& options) {
+void WeldFirst::finish(Result& result, bool strict, bool part) {
     Mesh& mesh = result.mesh;
     Changes changes = in_one(stages_);
     const Index number = std::max(next_numbers(marked()).node, mesh.largest_node_id() + 1);
     const Unwelded unwelded = unweld(marked(), *welded_, mesh, changes, number);
     remove_group(mesh, welded_->faces);
     rename_marks(mesh, other_prefix, mark_prefix);
-    carry(mesh, changes, options, result.report);
+    mesh.companion = input_.companion;
+    if (mesh.companion && !part) carry(mesh, changes, strict, result.report);
     remove_marks(mesh);
     report_pairs(mesh, unwelded, result.report);
 }

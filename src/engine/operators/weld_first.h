@@ -5,18 +5,18 @@
 #include <span>
 #include <vector>
 
+#include "cutting/unweld.h"
 #include "cutting/weld.h"
 #include "cutting/workpiece.h"
 #include "deck/mark_deck.h"
 #include "mesh/changes.h"
-#include "operators/options.h"
 #include "operators/prepared.h"
 #include "operators/report.h"
 
 namespace femscalpel {
 
-/// Double nodes made single for the time of an operation, so that both sides of a contact, an earlier crack or coincident
-/// shells do the same (weld(), unweld()).
+/// Double nodes made single for the time of an operation, so that both sides of a contact, an earlier crack or
+/// coincident shells do the same (weld(), unweld()).
 class WeldFirst {
 public:
     /// Welds a copy of `input`, which must outlive this, as must what is `known` of it.
@@ -33,15 +33,18 @@ public:
     /// What an operation on mesh() is to know; see Prepared.
     Prepared known();
 
+    /// What an operation did to mesh(), step by step.
+    std::vector<Changes>& stages() { return stages_; }
+
     /// Takes the nodes of what an operation made of mesh() apart again, carries the solver's input over, and brings the
-    /// report up to date.
-    void finish(Result& result, const OperatorOptions& options);
+    /// report up to date. `part`: that is the band alone. `strict`: see warnings_of().
+    void finish(Result& result, bool strict, bool part = false);
 
 private:
     const Mesh& marked() const { return marks_->mesh ? *marks_->mesh : input_; }
     void find_marks();
-    void carry(Mesh& mesh, const Changes& changes, const OperatorOptions& options, Report& report) const;
-    void report_pairs(const Mesh& mesh, const struct Unwelded& unwelded, Report& report) const;
+    void carry(Mesh& mesh, const Changes& changes, bool strict, Report& report) const;
+    void report_pairs(const Mesh& mesh, const Unwelded& unwelded, Report& report) const;
 
     const Mesh& input_;
     DeckMarks own_marks_;

@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Random tools over two bodies that touch with double nodes, and how the pairs come out.
+
+    PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 tests/python/contact_cases.py --cases 300
+
+Each kind: planes and spheres that crack, cylinders that drill, slots, refinement; on tetrahedra with a flat or a curved
+contact in first or second order, partly glued, hexahedra, the lips of an earlier crack, two shells on each other, plates
+side by side. A result is checked: nodes and faces on the contact are on both sides at the same places, volumes are
+positive, each body has its measure where nothing is removed, elements of one body name nothing of the other, the groups
+of both sides have as many members. Printed: how many were refused, the smallest quality and how many are below 0.1
+and below the mesh before, seconds, and what failed.
+"""
+
+import collections
+import time
+
+import numpy as np
+
+import femscalpel as fs
+from campaign import case_arguments
+from meshes import quadratic
+from mixed_meshes import FACES, grid
+
+TETRA_OF_CUBE = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
+HEIGHT = 4
+
+
+def curved(points):
+    """The plane z = HEIGHT becomes a surface of two curvatures."""
+    out = points.copy()
+    bump = 0.5 * np.sin(points[:, 0] / 2.5) * np.cos(points[:, 1] / 3)
+    out[:, 2] += bump * np.minimum(points[:, 2], 2 * HEIGHT - points[:, 2]).clip(0) / HEIGHT
+    return out
+
+
+def apart(points, cells, upper, shared):
+    """Gives the cells `upper` nodes of their own where they touch the others, except the nodes `shared`."""
+    own = np.unique(cells[~upper])
+    double = np.setdiff1d(np.intersect1d(own, cells[upper]), shared)
+    now = np.arange(len(points))
+    now[double] = len(points) + np.arange(len(double))
+    cells = cells.copy()
+    cells[upper] = now[cells[upper]]
+    return np.vstack([points, points[double]]), cells
+
+
+def bodies(kind, rng):
+    """Mesh with the groups LOW, UP (elements), CON_A, CON_B (nodes), SURF_A, SURF_B (element faces)."""
+    points, cubes = grid((6, 5, 2 * HEIGHT), 0)
+    inner = np.all((points > 0) & (points < (6, 5, 2 * HEIGHT)), axis=1)
+    points[inner & (points[:, 2] != HEIGHT)] += rng.uniform(-0.2, 0.2, (np.sum(inner & (points[:, 2] != HEIGHT)), 3))
+    flat = inner & (points[:, 2] == HEIGHT)
+    points[flat, :2] += rng.uniform(-0.2, 0.2, (flat.sum(), 2))
+    upper = points[cubes].mean(axis=1)[:, 2] > HEIGHT
+    cells, name = cubes, "hexahedron"
+    if kind != "hexahedra":
+        cells, name = cubes[:, TETRA_OF_CUBE].reshape(-1, 4), "tetra"
+        upper = np.repeat(upper, 6)
+    shared = np.nonzero(points[:, 0] < 3)[0] if kind == "glued" else []
+    if kind.startswith("curved"):
+        points = curved(points)
+    points, cells = apart(points, cells, upper, shared)
+    mesh = fs.Mesh(points, {name: cells})
+    if kind.endswith("second"):
+        mesh = quadratic(mesh)
+    ((name, _),) = mesh.cells.items()
+    for group, chosen in (("LOW", ~upper), ("UP", upper)):
+        mesh.add_group(group, "element", mesh.cell_ids[name][chosen])
+    return mesh
+
+
+def shells(kind, rng):
+    points, squares = grid((10, 8), 0.2)
+    cells = np.concatenate([squares[:, [0, 1, 2]], squares[:, [0, 2, 3]]])
+    if kind == "layers":
+        cells = np.concatenate([cells, cells + len(points)])
+        points = np.vstack([points, points])
+        upper = np.arange(len(cells)) >= len(cells) // 2
+    else:
+        flat = np.abs(points[:, 0] - 5) < 0.5
+        points[flat, 0] = 5
+        upper = points[cells].mean(axis=1)[:, 0] > 5
+        points, cells = apart(points, cells, upper, [])
+    mesh = fs.Mesh(points, {"triangle": cells})
+    for group, chosen in (("LOW", ~upper), ("UP", upper)):
+        mesh.add_group(group, "element", mesh.cell_ids["triangle"][chosen])
+    return mesh
+
+
+def members(mesh, group):
+    """Node indices of an element group."""
+    ids = mesh.groups[group, "element"].ids
+    return np.unique(np.concatenate([c[np.isin(mesh.cell_ids[k], ids)].ravel() for k, c in mesh.cells.items()]))
+
+
+def skin(mesh, group):
+    """Outer faces of a body as sets of places."""
+    ids, count = mesh.groups[group, "element"].ids, collections.Counter()
+    for kind, cells in mesh.cells.items():
+        for face in FACES.get(kind.rstrip("0123456789"), ()):
+            for row in cells[np.isin(mesh.cell_ids[kind], ids)][:, face]:
+                count[tuple(sorted(row))] += 1
+    return {frozenset(map(tuple, mesh.points[list(f)])) for f, n in count.items() if n == 1}
+
+
+def add_contact(mesh):
+    """CON_A, CON_B: nodes of the pairs on either side; SURF_A, SURF_B: their faces, of solids."""
+    low, high = members(mesh, "LOW"), members(mesh, "UP")
+    places = {}
+    for n in np.setdiff1d(high, low):
+        places[tuple(mesh.points[n])] = n
+    pairs = [(n, places[tuple(mesh.points[n])]) for n in np.setdiff1d(low, high) if tuple(mesh.points[n]) in places]
+    for name, side in zip(("CON_A", "CON_B"), zip(*pairs)):
+        mesh.add_group(name, "node", mesh.node_ids[list(side)])
+    return {tuple(mesh.points[a]) for a, _ in pairs}
+
+
+def make(kind, seed):
+    """Mesh, the operation as a function of the mesh, whether it removes."""
+    rng = np.random.default_rng(seed)
+    mesh = shells(kind, rng) if kind in ("layers", "plates") else bodies(kind, rng)
+    if kind == "lips":
+        middle = fs.Mesh(mesh.points, mesh.cells)
+        merged = fs.crack(glued(middle), fs.Plane((3, 2.5, HEIGHT), (0, 0, 1)), within=fs.Disk((3, 2.5, HEIGHT), 1.8), name="OLD").mesh
+        mesh = sided(merged)
+    add_contact(mesh)
+    size = mesh.points.max(axis=0)
+    at = size * rng.uniform(0.2, 0.8, 3)
+    if kind not in ("layers", "plates"):
+        at[2] = HEIGHT + rng.uniform(-1.2, 1.2)
+    direction = rng.normal(size=3)
+    if kind in ("layers", "plates"):
+        direction[2] *= 0.2
+    what = rng.integers(5)
+    if what == 0:
+        return mesh, lambda m: fs.crack(m, fs.Plane(at, direction), name="T"), False
+    if what == 1:
+        return mesh, lambda m: fs.crack(m, fs.Sphere(at, rng.uniform(1.5, 2.5)), name="T"), False
+    if what == 2:
+        axis = (0.1, 0.2, 1) if kind in ("layers", "plates") else direction
+        radius = rng.uniform(0.8, 1.6)
+        return mesh, lambda m: fs.drill(m, fs.Cylinder(at, axis, radius), name="T"), True
+    if what == 3:
+        return mesh, lambda m: fs.cut(m, fs.Plane(at, direction), width=0.4, name="T"), True
+    return mesh, lambda m: fs.refine(m, fs.Plane(at, direction), 0.5), False
+
+
+def glued(mesh):
+    """One body: nodes at one place made one."""
+    _, first, inverse = np.unique(mesh.points, axis=0, return_index=True, return_inverse=True)
+    return fs.Mesh(mesh.points[first], {k: inverse.reshape(-1)[c] for k, c in mesh.cells.items()})
+
+
+def sided(mesh):
+    """LOW and UP by the middle of elements."""
+    for group, sign in (("LOW", -1), ("UP", 1)):
+        ids = [
+            mesh.cell_ids[k][sign * (mesh.points[c].mean(axis=1)[:, 2] - HEIGHT) > 0]
+            for k, c in mesh.cells.items()
+            if k.startswith("tetra")
+        ]
+        mesh.add_group(group, "element", np.concatenate(ids))
+    return mesh
+
+
+def check(kind, mesh, result, removes):
+    """What does not hold."""
+    found, after = [], result.mesh
+    if min(v.min() for k, v in fs.measure(after).items() if len(v) and k != "vertex") <= 0:
+        found.append("an element without volume")
+    places = [
+        collections.Counter(map(tuple, after.points[np.isin(after.node_ids, after.groups[g, "node"].ids)]))
+        for g in ("CON_A", "CON_B")
+    ]
+    made = set(map(tuple, after.points[np.isin(after.node_ids, wall(after))]))
+    if removes:  # of an element above and one below, one may have gone
+        places = [collections.Counter(p for p in side.elements() if p not in made) for side in places]
+    if places[0] != places[1]:
+        found.append(f"pairs: {sum((places[0] - places[1]).values())} / {sum((places[1] - places[0]).values())} alone")
+    low, high = members(after, "LOW"), members(after, "UP")
+    alone = set(after.node_ids[np.intersect1d(low, high)])
+    was = set(mesh.node_ids[np.intersect1d(members(mesh, "LOW"), members(mesh, "UP"))])
+    if not was and alone:
+        found.append(f"{len(alone)} nodes join the bodies")
+    if kind not in ("layers", "plates", "lips", "glued"):
+        middle = [{f for f in skin(after, g)} for g in ("LOW", "UP")]
+        at_contact = set(places[0])
+        on = [{f for f in side if all(p in at_contact for p in f)} for side in middle]
+        # A wall may have all its corners there, too, but is on one side alone.
+        odd = [f for f in on[0] ^ on[1] if is_on_contact(kind, f) and not f <= made]
+        if odd:
+            found.append(f"{len(odd)} faces on one side alone")
+    groups = {(g.name, g.kind): g for g in result.report.groups}
+    bodies = np.array([(g.measure_before, g.measure_after) for g in (groups[n, "element"] for n in ("LOW", "UP"))])
+    if kind == "lips":  # the border beyond them is not plane
+        bodies = bodies.sum(axis=0, keepdims=True)
+    if not removes and not kind.startswith("curved") and np.ptp(bodies, axis=1).max() > 1e-9 * bodies.max():
+        found.append(f"measures {bodies.tolist()}")
+    for name in ("CON_A", "CON_B"):
+        g = groups[name, "node"]
+        if g.count_after != len(after.groups[name, "node"].ids):
+            found.append(f"{name} counts {g.count_after}")
+    return found
+
+
+def wall(mesh):
+    """Numbers of the nodes on what a tool made."""
+    found = [mesh.node_ids[:0]]
+    for g in mesh.groups.all():
+        if g.name.startswith("T_"):
+            found.append(g.ids if g.kind == "node" else mesh.node_ids[members(mesh, g.name)])
+    return np.concatenate(found)
+
+
+def is_on_contact(kind, face):
+    middle = np.mean(list(face), axis=0)
+    if kind.startswith("curved"):
+        return abs(middle[2] - HEIGHT - 0.5 * np.sin(middle[0] / 2.5) * np.cos(middle[1] / 3)) < 0.05
+    return all(abs(p[2] - HEIGHT) < 1e-9 for p in face)
+
+
+def worst_of(mesh):
+    return min(v.min() for k, v in fs.mean_ratio(mesh).items() if k.startswith(("t", "p", "q", "h", "w")) and len(v))
+
+
+def run(kind, cases, first, list_refused):
+    refused, failed, qualities, poor, seconds = collections.Counter(), {}, [], 0, 0.0
+    for seed in range(first, first + cases):
+        mesh, operate, removes = make(kind, seed)
+        start = time.perf_counter()
+        try:
+            result = operate(mesh)
+        except fs.Error as error:
+            refused[type(error).__name__] += 1
+            if list_refused:
+                print(f"  {kind} {seed}: {error}")
+            continue
+        seconds += time.perf_counter() - start
+        if wrong := check(kind, mesh, result, removes):
+            failed[seed] = wrong
+        qualities.append(worst_of(result.mesh))
+        if qualities[-1] < min(0.1, worst_of(mesh)):
+            poor += 1
+            if list_refused:
+                print(f"  {kind} {seed}: quality {qualities[-1]:.3f}")
+    print(
+        f"{kind:<14} {cases} cases, refused {dict(refused)}, least quality {min(qualities, default=1):.3f}, poor {poor}, "
+        f"{seconds / max(1, len(qualities)):.3f} s each"
+    )
+    for seed, wrong in failed.items():
+        print(f"  FAILED {kind} {seed}: {'; '.join(wrong)}")
+    return not failed
+
+
+KINDS = ("flat", "flat second", "curved", "curved second", "glued", "lips", "hexahedra", "layers", "plates")
+
+
+def main():
+    given = case_arguments(__doc__, KINDS).parse_args()
+    kinds = [given.kind] if given.kind else KINDS
+    return 0 if all([run(k, given.cases, given.seed, given.refused) for k in kinds]) else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
