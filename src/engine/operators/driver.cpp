@@ -173,8 +173,8 @@ void check_name(const Mesh& mesh, const std::string& name, const Naming& naming)
 namespace {
 
 /// On a mesh whose double nodes near the tool, if any, are single.
-Result perform_on(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known) {
-    Stopwatch::Time started = Stopwatch::now();
+Result perform_on(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known,
+                  Stopwatch::Time started) {
     std::optional<Refined> converted = simplify_first(input, around(recipe), recipe.zones(), options, known), refined;
     if (converted) {
         converted->converting = Stopwatch::since(started);
@@ -218,13 +218,20 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
     check_name(input, options.name, recipe.naming());
     check_options(options);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    const Stopwatch::Time started = Stopwatch::now();
     WeldFirst weld(input, known);
     if (!weld || !(weld.is_near(around(recipe)) || !recipe.zones().empty()))
-        return perform_on(recipe, input, options, known);
+        return perform_on(recipe, input, options, known, started);
     recipe.start(weld.mesh());
-    Result result = perform_on(recipe, weld.mesh(), options, weld.known());
-    weld.finish(result, options.strict, options.band_only);
-    return result;
+    const double welding = Stopwatch::since(started);
+    Result result = perform_on(recipe, weld.mesh(), options, weld.known(), Stopwatch::now());
+    const Stopwatch::Time done = Stopwatch::now();
+    if (weld.finish(result, options.strict, options.band_only)) {
+        result.report.seconds.insert(result.report.seconds.begin(), {"weld", welding + Stopwatch::since(done)});
+        return result;
+    }
+    recipe.start(input);
+    return perform_on(recipe, input, options, known, started);
 }
 
 }  // namespace femscalpel

@@ -144,11 +144,11 @@ void WeldFirst::carry(Mesh& mesh, const Changes& changes, bool strict, Report& r
     if (!converted.empty()) fit_cards(mesh, converted);
 }
 
-void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Report& report) const {
+void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index doubled, Report& report) const {
     report.welded_pairs = welded_->pairs();
-    report.nodes_added += unwelded.born + unwelded.doubled;
+    report.nodes_added += unwelded.born + doubled - report.nodes_doubled;
     report.nodes_split += unwelded.born;
-    report.nodes_doubled += unwelded.doubled;
+    report.nodes_doubled = doubled;
     report.nodes_moved += unwelded.moved;
     for (auto& [name, numbers] : report.node_sets) {
         const std::vector<Index> single = numbers;
@@ -174,17 +174,20 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Report&
     }
 }
 
-void WeldFirst::finish(Result& result, bool strict, bool part) {
+bool WeldFirst::finish(Result& result, bool strict, bool part) {
     Mesh& mesh = result.mesh;
     Changes changes = in_one(stages_);
+    const bool opened = !changes.copies.empty();
     const Index number = std::max(next_numbers(marked()).node, mesh.largest_node_id() + 1);
     const Unwelded unwelded = unweld(marked(), *welded_, mesh, changes, number);
+    if (opened && changes.copies.empty()) return false;
     remove_group(mesh, welded_->faces);
     rename_marks(mesh, other_prefix, mark_prefix);
     mesh.companion = input_.companion;
     if (mesh.companion && !part) carry(mesh, changes, strict, result.report);
     remove_marks(mesh);
-    report_pairs(mesh, unwelded, result.report);
+    report_pairs(mesh, unwelded, static_cast<Index>(changes.copies.size()), result.report);
+    return true;
 }
 
 }  // namespace femscalpel

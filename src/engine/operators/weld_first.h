@@ -37,14 +37,15 @@ public:
     std::vector<Changes>& stages() { return stages_; }
 
     /// Takes the nodes of what an operation made of mesh() apart again, carries the solver's input over, and brings the
-    /// report up to date. `part`: that is the band alone. `strict`: see warnings_of().
-    void finish(Result& result, bool strict, bool part = false);
+    /// report up to date. `part`: that is the band alone. `strict`: see warnings_of(). False, and the result is of no
+    /// use, when a crack opened but what was open before.
+    bool finish(Result& result, bool strict, bool part = false);
 
 private:
     const Mesh& marked() const { return marks_->mesh ? *marks_->mesh : input_; }
     void find_marks();
     void carry(Mesh& mesh, const Changes& changes, bool strict, Report& report) const;
-    void report_pairs(const Mesh& mesh, const Unwelded& unwelded, Report& report) const;
+    void report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index doubled, Report& report) const;
 
     const Mesh& input_;
     DeckMarks own_marks_;

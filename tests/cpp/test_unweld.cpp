@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cutting/unweld.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace femscalpel {
+namespace {
+
+using testing::ElementsAre;
+using testing::UnorderedElementsAre;
+
+TEST(InOne, AncestorsPartsAndSharesGoBackToTheFirst) {
+    Changes first, second;
+    first.born.push_back({100, {1, 2}, {{1, 0.5}, {2, 0.5}}});
+    first.parts.push_back({50, 5});
+    second.born.push_back({101, {100, 3}, {{100, 0.5}, {3, 0.5}}});
+    second.born.push_back({102, {100, 101}, {}});
+    second.parts.push_back({51, 50});
+    second.parts.push_back({52, 6});
+    second.copies.push_back({103, 101});
+    const Changes all = in_one(std::vector{first, second});
+    ASSERT_EQ(all.born.size(), 3u);
+    EXPECT_THAT(all.born[1].ancestors, ElementsAre(1, 2, 3));
+    EXPECT_THAT(all.born[1].shares, ElementsAre(std::pair<Index, double>(1, 0.25), std::pair<Index, double>(2, 0.25),
+                                                std::pair<Index, double>(3, 0.5)));
+    EXPECT_THAT(all.born[2].ancestors, ElementsAre(1, 2, 3));
+    EXPECT_TRUE(all.born[2].shares.empty());
+    EXPECT_EQ(all.parts[1].parent, 5);
+    EXPECT_EQ(all.parts[2].parent, 6);
+    EXPECT_EQ(all.copies[0].source, 101);
+}
+
+/// Tetrahedra 1 above and 2 below the triangle of nodes 1 2 3 and 11 12 13.
+Mesh input() {
+    Mesh mesh;
+    const Vec3 at[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, -2}};
+    const Index numbers[] = {1, 2, 3, 4, 11, 12, 13, 14};
+    for (int n = 0; n < 8; ++n) mesh.add_node(at[n], numbers[n]);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 1);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{4, 6, 5, 7}, 2);
+    const GroupIndex both = mesh.add_group("BELOW", GroupKind::node);
+    set_group_members(mesh, both, {GroupKind::node, {11, 12, 13}, {}});
+    return mesh;
+}
+
+std::vector<Index> numbers(const Mesh& mesh, Index cell) {
+    std::vector<Index> out;
+    for (const Index n : mesh.block(CellType::tetra).nodes(cell)) out.push_back(mesh.node_ids[n]);
+    return out;
+}
+
+TEST(Unweld, NothingChangedIsTheInput) {
+    const Mesh before = input();
+    const auto welded = weld(before, 0);
+    ASSERT_TRUE(welded);
+    Mesh mesh = welded->mesh;
+    Changes changes;
+    const Unwelded out = unweld(before, *welded, mesh, changes, 100);
+    EXPECT_EQ(out.moved + out.born + out.doubled, 0);
+    EXPECT_EQ(mesh.points, before.points);
+    EXPECT_EQ(mesh.node_ids, before.node_ids);
+    EXPECT_EQ(mesh.block(CellType::tetra).connectivity, before.block(CellType::tetra).connectivity);
+    EXPECT_THAT(group_members(mesh, 0).ids, ElementsAre(11, 12, 13));
+    EXPECT_TRUE(changes.empty());
+}
+
+TEST(Unweld, WhatMovesAndIsBornDoesSoOnBothSides) {
+    const Mesh before = input();
+    const auto welded = weld(before, 0);
+    ASSERT_TRUE(welded);
+    Mesh mesh = welded->mesh;
+    // Node 1 moves, the edge 1-2 is split at the node 100: elements 1 and 3 above, 2 and 4 below.
+    mesh.points[0] = {0.5, 0, 0};
+    const Index born = mesh.add_node({1, 0, 0}, 100, mesh.node_families[0]);
+    mesh.block(CellType::tetra).connectivity = {0, born, 2, 3, 0, 2, born, 7};
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{born, 1, 2, 3}, 3);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{born, 2, 1, 7}, 4);
+    Changes changes;
+    changes.born.push_back({100, {1, 2}, {{1, 0.5}, {2, 0.5}}});
+    changes.parts = {{3, 1}, {4, 2}};
+    const Unwelded out = unweld(before, *welded, mesh, changes, 101);
+    EXPECT_EQ(out.moved, 1);
+    EXPECT_EQ(out.born, 1);
+    EXPECT_EQ(out.doubled, 0);
+    EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 100, 3, 4));
+    EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 101, 14));
+    EXPECT_THAT(numbers(mesh, 2), ElementsAre(100, 2, 3, 4));
+    EXPECT_THAT(numbers(mesh, 3), ElementsAre(101, 13, 12, 14));
+    EXPECT_EQ(mesh.points[4], Vec3(0.5, 0, 0));
+    EXPECT_THAT(group_members(mesh, 0).ids, UnorderedElementsAre(11, 12, 13, 101));
+    ASSERT_EQ(changes.born.size(), 2u);
+    EXPECT_EQ(changes.born[1].node, 101);
+    EXPECT_THAT(changes.born[1].ancestors, ElementsAre(11, 12));
+    EXPECT_THAT(changes.born[1].shares, ElementsAre(std::pair<Index, double>(11, 0.5), std::pair<Index, double>(12, 0.5)));
+    EXPECT_THAT(out.partners.at(100), ElementsAre(101));
+}
+
+TEST(Unweld, ASideThatIsGoneTakesItsNodesAlong) {
+    const Mesh before = input();
+    const auto welded = weld(before, 0);
+    ASSERT_TRUE(welded);
+    Mesh mesh = welded->mesh;
+    CellBlock& block = mesh.block(CellType::tetra);
+    block.connectivity.resize(4);
+    block.ids.resize(1);
+    block.families.resize(1);
+    Changes changes;
+    unweld(before, *welded, mesh, changes, 100);
+    EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
+    EXPECT_THAT(mesh.node_ids, ElementsAre(1, 2, 3, 4, 14));  // of the node 14 the operation had to think
+}
+
+TEST(Unweld, ACrackThroughBothDoublesBoth) {
+    const Mesh before = input();
+    const auto welded = weld(before, 0);
+    ASSERT_TRUE(welded);
+    // As if tetrahedra 3 and 4 were on the other lip of a crack, at copies of the nodes 1, 2, 3.
+    Mesh mesh = welded->mesh;
+    const Index p = mesh.add_node({0, 0, 0}, 101), q = mesh.add_node({2, 0, 0}, 102), r = mesh.add_node({0, 2, 0}, 103);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, q, r, 3}, 3);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, r, q, 7}, 4);
+    Changes changes;
+    changes.copies = {{101, 1}, {102, 2}, {103, 3}};
+    changes.parts = {{3, 1}, {4, 2}};
+    const Unwelded out = unweld(before, *welded, mesh, changes, 104);
+    EXPECT_EQ(out.doubled, 3);
+    EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
+    EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));
+    EXPECT_THAT(numbers(mesh, 2), ElementsAre(101, 102, 103, 4));
+    EXPECT_THAT(numbers(mesh, 3), ElementsAre(104, 106, 105, 14));
+    EXPECT_EQ(changes.copies.size(), 6u);
+    EXPECT_EQ(changes.copies[3].source, 11);
+}
+
+TEST(Unweld, ACrackAlongTheWeldOpensNothing) {
+    const Mesh before = input();
+    const auto welded = weld(before, 0);
+    ASSERT_TRUE(welded);
+    Mesh mesh = welded->mesh;
+    const Index p = mesh.add_node({0, 0, 0}, 101), q = mesh.add_node({2, 0, 0}, 102), r = mesh.add_node({0, 2, 0}, 103);
+    mesh.block(CellType::tetra).connectivity = {p, q, r, 3, 0, 2, 1, 7};
+    Changes changes;
+    changes.copies = {{101, 1}, {102, 2}, {103, 3}};
+    unweld(before, *welded, mesh, changes, 104);
+    EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
+    EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));
+    EXPECT_TRUE(changes.copies.empty());
+    EXPECT_EQ(mesh.node_ids, before.node_ids);
+}
+
+}  // namespace
+}  // namespace femscalpel
