@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -211,6 +212,23 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
     return out;
 }
 
+/// Says which borders of groups are uneven now, as elements were filled in across them.
+void warn_of_borders(const Mesh& fitted, const CrossedBorders& borders, const std::string& whose, United& out) {
+    const auto names = [&](const std::set<GroupIndex>& groups) {
+        std::string text;
+        for (const GroupIndex g : groups) text += (text.empty() ? "'" : ", '") + fitted.groups[g].name + "'";
+        return text;
+    };
+    if (!borders.groups.empty())
+        out.warnings.push_back(whose + "the border of " + names(borders.groups) +
+                               " runs through where elements were filled in, as near " + point_text(borders.at) +
+                               ", and is uneven there: what fills is in the groups of what was nearest before");
+    if (borders.lost > 0)
+        out.warnings.push_back(whose + std::to_string(borders.lost) + " face(s) of " + names(borders.faces) +
+                               " are gone, as near " + point_text(borders.at) +
+                               ": they lay inside, between elements that gave way to what was filled in");
+}
+
 /// One of the two is fitted to the other's skin where they meet.
 United unite_solids(Joint& joint, double tolerance, const MergeOptions& options) {
     const std::size_t base = options.keep_addition ? 1 : 0, fitted = 1 - base;
@@ -236,6 +254,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         for (const std::string& group : emptied_groups(joint.mesh(1), refilled.mesh))
             out.warnings.push_back("the addition: group '" + group +
                                    "' is empty now: all that it had is where the two meet");
+        warn_of_borders(joint.mesh(1), refilled.borders, "the addition: ", out);
         out.mesh = std::move(joint.mesh(0));
         out.worst = refilled.worst;
         unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
@@ -248,6 +267,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         renew_surface_sets(refilled.mesh, marks.surface_sets, *solver_input(input), refilled.added);
     out.warnings = warnings_of(carry_deck(input, refilled.mesh, refilled.changes), options.strict);
     remove_marks(refilled.mesh);
+    warn_of_borders(input, refilled.borders, "", out);
     out.worst = refilled.worst;
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (Index n = 0; n < refilled.mesh.node_count(); ++n)
@@ -405,6 +425,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         out.report.warnings.push_back(text.str());
     }
     warn_of_sections(mesh, out.mesh, options.name + "_ADDED", out.report);
+    if (!solids && mesh.dimension() == 3) warn_of_inside(mesh, out.mesh, options.name + "_ADDED", out.report);
     if (solids) warn_of_buried(out.mesh, options.name + "_ADDED", out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
