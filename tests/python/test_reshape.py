@@ -331,9 +331,50 @@ def test_a_deck_follows(tmp_path):
     fs.reshape(deck, "END", by=(-2.5, 0, 0), strict=True)
 
 
-@pytest.mark.parametrize("by, text", [(-9, "inside out"), (-13, "pass through the part")])
+@pytest.mark.parametrize("by, text", [(-9, "pass the end of what it slides on"), (-13, "pass through the part")])
 def test_a_wall_that_passes_a_corner_or_the_whole_part_is_refused(by, text):
     mesh = fs.read(MESHES / "l_shape.inp")
     with pytest.raises(fs.ToolError, match=text) as error:
         fs.reshape(mesh, "LOAD", by=(by, 0, 0))
     assert error.value.parameter == "by"
+
+
+def step_plate():
+    """An L in the plane: 10 x 8 less the 5 x 4 in its upper right corner, with the sides of that in groups."""
+    grid = np.stack(np.meshgrid(np.linspace(0, 10, 21), np.linspace(0, 8, 17), indexing="ij"), axis=-1).reshape(-1, 2)
+    index = np.arange(21 * 17).reshape(21, 17)
+    cells = np.array([t for i in range(20) for j in range(16) if i < 10 or j < 8 for t in (
+        (index[i, j], index[i + 1, j], index[i + 1, j + 1]), (index[i, j], index[i + 1, j + 1], index[i, j + 1])
+    )])  # fmt: skip
+    used = np.unique(cells)
+    mesh = fs.Mesh(np.column_stack([grid[used], np.zeros(len(used))]), {"triangle": np.searchsorted(used, cells)})
+    x, y, _ = mesh.points.T
+    mesh.add_group("INNER", "node", mesh.node_ids[(x == 5) & (y >= 4)])
+    mesh.add_group("STEP", "node", mesh.node_ids[(y == 4) & (x >= 5)])
+    mesh.add_group("TOP", "node", mesh.node_ids[y == 8])
+    return mesh
+
+
+@pytest.mark.parametrize("by", [5, 5.1, 6, 8])
+def test_a_border_does_not_slide_past_the_end_of_another(by):
+    """Else there would be a slit: nodes of the one side of the step on edges of the other."""
+    with pytest.raises(fs.ToolError, match="its rim would pass the end of what it slides on"):
+        fs.reshape(step_plate(), "INNER", by=(by, 0, 0))
+
+
+@pytest.mark.parametrize("group, by", [
+    ("INNER", (-6, 0, 0)), ("INNER", (-40, 0, 0)), ("TOP", (0, -9, 0)), ("STEP", (0, -5, 0)),
+])  # fmt: skip
+def test_the_border_of_a_shell_that_would_leave_it_is_refused_at_once(group, by):
+    with pytest.raises(fs.ToolError, match="would pass through the part, and leave it on another side") as caught:
+        fs.reshape(step_plate(), group, by=by)
+    assert caught.value.parameter == "by"
+
+
+@pytest.mark.parametrize("by", [(-4, 0, 0), (4.5, 0, 0), (2, 0, 0)])
+def test_the_border_of_a_step_moves(by):
+    mesh = step_plate()
+    after = fs.reshape(mesh, "INNER", by=by).mesh
+    a, b, c = (after.points[after.cells["triangle"][:, k], :2] for k in range(3))
+    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    assert areas.min() > 0 and areas.sum() == pytest.approx(60 + 4 * by[0])

@@ -5,14 +5,17 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "cancel.h"
+#include "cutting/border_overlap.h"
 #include "cutting/mend_curved.h"
 #include "cutting/remesh.h"
 #include "cutting/skin_beside.h"
+#include "cutting/slide_off.h"
 #include "cutting/untangler.h"
 #include "deformation/bar_network.h"
 #include "deformation/relaxation.h"
@@ -46,7 +49,8 @@ public:
           wall_(wall),
           motion_(motion),
           goals_(f, wall, motion, mesh),
-          remesher_(f, mesh, [this](int v) { return slides(v); }) {}
+          remesher_(f, mesh, [this](int v) { return slides(v); }),
+          overlapped_before_(wall.faces || border_overlap(f.d)) {}
 
     MovedWall run() {
         MovedWall out;
@@ -118,18 +122,34 @@ private:
 
     /// Elements would be crushed for long before it shows that there is no way.
     void check_paths() const {
-        if (!wall_.faces) return;
-        const SkinBeside skin(band_);
-        for (int s = 0; s < band_.cut_faces.size(); ++s) {
-            if (!band_.cut_faces.alive(s)) continue;
-            Vec3 from = Vec3::Zero(), to = from;
-            for (const int v : band_.cut_faces[s]) {
-                from += band_.nodes[v].at / 3;
-                to += goals_[v] / 3;
+        const SkinBeside skin = wall_.faces ? SkinBeside::of_solid(band_) : SkinBeside::of_shells(d_);
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                Vec3 from = Vec3::Zero(), to = from;
+                for (const int v : list[s]) {
+                    from += band_.nodes[v].at / static_cast<double>(list[s].size());
+                    to += goals_[v] / static_cast<double>(list[s].size());
+                }
+                const double length = outside * band_.mean_edge_length(list[s][0]);
+                if (const auto at = skin.exit(from, to, length, shell_normal(list[s]))) refuse_to_leave(*at);
             }
-            const double length = outside * band_.mean_edge_length(band_.cut_faces[s][0]);
-            if (const auto at = skin.exit(from, to, length)) refuse_to_leave(*at);
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        if (const auto at = slides_off(
+                band_, [this](int v) { return goals_[v]; }, outside))
+            refuse_to_slide_off(*at);
+    }
+
+    /// Of the shell that a part of the wall ends, in the input; zero in a solid.
+    static Vec3 shell_normal(const std::array<int, 3>& /*face*/) { return Vec3::Zero(); }
+    Vec3 shell_normal(const std::array<int, 2>& edge) const {
+        for (const int t : band_.triangles.around(edge[0])) {
+            const auto& n = band_.triangles[t];
+            if (std::ranges::find(n, edge[1]) != n.end()) return d_.shell_normals[band_.triangles.origin(t)];
         }
+        return Vec3::Zero();
     }
 
     void advance(double part) {
@@ -178,6 +198,7 @@ private:
         remesher_.run(goal_of_end);
         mend_curved(f_, false);
         check_sides();
+        if (const auto at = overlapped_before_ ? std::nullopt : border_overlap(d_)) refuse_to_slide_off(*at);
     }
 
     /// Unit normal of a part of the wall, out of the material.
@@ -228,6 +249,13 @@ private:
         throw ToolError(message.str(), motion_.parameter);
     }
 
+    [[noreturn]] void refuse_to_slide_off(const Vec3& at) const {
+        std::ostringstream message;
+        message << "the wall cannot be moved so far: its rim would pass the end of what it slides on before it is at ("
+                << at.transpose() << "). Move it less";
+        throw ToolError(message.str(), motion_.parameter);
+    }
+
     [[noreturn]] void refuse_to_leave(const Vec3& at) const {
         std::ostringstream message;
         message
@@ -243,6 +271,7 @@ private:
     const WallMotion& motion_;
     WallGoals goals_;
     Remesher remesher_;
+    bool overlapped_before_;  // the border of shells, as lips of a crack do
     bool arrived_ = false;
 };
 
