@@ -11,7 +11,8 @@ namespace {
 using checks::WithWall;
 
 std::optional<Vec3> pushed(const WithWall& w, const Vec3& by) {
-    return slides_off(w.f.d.band, [&](int v) -> Vec3 { return w.f.d.band.nodes[v].at + by; }, 0.3);
+    return slides_off(
+        w.f.d.band, [&](int v) -> Vec3 { return w.f.d.band.nodes[v].at + by; }, 0.3);
 }
 
 /// A block with a step: the wall is its upper face, or its side above the step.

@@ -378,3 +378,27 @@ def test_the_border_of_a_step_moves(by):
     a, b, c = (after.points[after.cells["triangle"][:, k], :2] for k in range(3))
     areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
     assert areas.min() > 0 and areas.sum() == pytest.approx(60 + 4 * by[0])
+
+
+@pytest.mark.parametrize("digits", [5, 6, 8, "single"])
+@pytest.mark.parametrize("along", [-1.5, 1.5])
+def test_rounded_coordinates_of_a_face_that_group_borders_cut(digits, along):
+    """In a turned frame no plane is one to the last digit; both sides of the border have to go onto the same."""
+    plain = grid_box((10, 8, 4), (10.0, 8.0, 4.0))
+    turn, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    points = plain.points @ turn.T
+    if digits == "single":
+        points = points.astype(np.float32).astype(float)
+    else:
+        points = np.array([[float(f"{v:.{digits}g}") for v in x] for x in points])
+    mesh = fs.Mesh(points, plain.cells)
+    mesh.add_group("TOP", "node", mesh.node_ids[plain.points[:, 2] == 4])
+    middle = plain.points[plain.cells["tetra"]].mean(axis=1)
+    mesh.add_group("LEFT", "element", mesh.cell_ids["tetra"][middle[:, 0] < 5])
+    mesh.add_group("FRONT", "element", mesh.cell_ids["tetra"][middle[:, 1] < 3])
+    after = fs.reshape(mesh, "TOP", by=along * turn[:, 2]).mesh
+    volumes = tetra_volumes(after.points, after.cells["tetra"])
+    assert volumes.min() > 0 and volumes.sum() == pytest.approx(80 * (4 + along), rel=1e-3)
+    left = np.isin(after.cell_ids["tetra"], after.groups["LEFT"].ids)
+    assert volumes[left].sum() == pytest.approx(40 * (4 + along), rel=1e-3)

@@ -251,7 +251,8 @@ private:
 
     [[noreturn]] void refuse_to_slide_off(const Vec3& at) const {
         std::ostringstream message;
-        message << "the wall cannot be moved so far: its rim would pass the end of what it slides on before it is at ("
+        message << "the wall cannot be moved so far: its rim would pass the end of what it slides on (a surface, "
+                   "a line or a border of groups) before it is at ("
                 << at.transpose() << "). Move it less";
         throw ToolError(message.str(), motion_.parameter);
     }

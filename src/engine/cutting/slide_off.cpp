@@ -52,7 +52,8 @@ std::optional<Vec3> first_off(const BandMesh& band, const auto& kept, const std:
 std::optional<Vec3> slides_off(const BandMesh& band, const std::function<Vec3(int)>& goal, double off) {
     const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
     std::vector<Slide> on_surfaces, on_lines;
-    const auto add = [&](std::vector<Slide>& to, const Vec3& from, const Vec3& goal_there, Vec3 into, int tag, double o) {
+    const auto add = [&](std::vector<Slide>& to, const Vec3& from, const Vec3& goal_there, Vec3 into, int tag,
+                         double o) {
         const double length = into.norm();
         if (length > 0 && (goal_there - from).dot(into) > o * length) to.push_back({goal_there, tag, o});
     };
