@@ -402,3 +402,12 @@ def test_rounded_coordinates_of_a_face_that_group_borders_cut(digits, along):
     assert volumes.min() > 0 and volumes.sum() == pytest.approx(80 * (4 + along), rel=1e-3)
     left = np.isin(after.cell_ids["tetra"], after.groups["LEFT"].ids)
     assert volumes[left].sum() == pytest.approx(40 * (4 + along), rel=1e-3)
+
+
+@pytest.mark.parametrize("radius, x, y", [(1.2, 6.3, 5.2), (1.3, 5.5, 5.1)])
+def test_a_hole_so_coarse_that_its_facets_are_parted(radius, x, y):
+    """Patches of one cylinder: what is fitted to each of them is not the same to the last digit."""
+    mesh = fs.read(MESHES / "two_boxes.inp")
+    mesh = fs.drill(mesh, fs.Cylinder((x, y, 0), Z, radius), refine=False, name="HOLE").mesh
+    result = fs.reshape(mesh, "HOLE_WALL", by=(0.5, 0.2, 0))
+    check(mesh, result, fs.Cylinder((x + 0.5, y + 0.2, 0), Z, radius))

@@ -37,8 +37,9 @@ SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch&
     return out;
 }
 
-/// Finds the surfaces of patches. Where coordinates were rounded, patches of one plane, cut by borders of groups, have
-/// one: each by itself would be a little off the other's, and nodes between them could not be on both.
+/// Finds the surfaces of patches. Those of one plane, cylinder or sphere, which borders of groups or the edges of
+/// coarse facets part, have one where coordinates were rounded or it takes iterations: each by itself would be a little
+/// off the other's, and nodes between them could not be on both.
 struct Fitter {
     struct Fitted {
         SurfaceSample sample;
@@ -49,7 +50,7 @@ struct Fitter {
     void add(std::size_t patch, SurfaceSample sample) {
         Fitted fitted{std::move(sample), {patch}, {}};
         fitted.tool = fitted_tool(fitted.sample.points, fitted.sample.normals, tolerance, carried);
-        if (rounded && fitted.tool)
+        if (fitted.tool && (rounded || fitted.tool->kind() != "plane"))
             for (Fitted& other : all)
                 if (join(other, fitted)) return;
         all.push_back(std::move(fitted));
