@@ -251,3 +251,28 @@ def test_shells_inside_a_solid_are_told():
     assert not any("inside the solid" in w for w in trimmed.report.warnings)
     on = plate((2, 2.6, 4), (2, 0.3, 0), (0, 0, 1.5), (4, 3), "FIN")
     assert not any("inside the solid" in w for w in fs.merge(box(), on).report.warnings)
+
+
+def test_an_inverted_element_of_the_addition_is_not_the_meshs():
+    good = block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A")
+    cells = good.cells["tetra"].copy()
+    cells[3] = cells[3][[1, 0, 2, 3]]
+    with pytest.raises(fs.QualityError, match="the addition already has 1 flat or inverted") as caught:
+        fs.merge(box(), fs.Mesh(good.points, {"tetra": cells}))
+    assert caught.value.parameter == "other"
+
+
+def test_a_word_on_refinement_names_no_option_that_there_is_not():
+    fine = block((5, 3.1, 3), (6, 4, 0.4), (32, 24, 2), "A")
+    (text,) = [w for w in fs.merge(grid_box((10, 6, 3), (10.0, 6.0, 3.0)), fine).report.warnings if "finer" in w]
+    assert text.startswith("the addition is finer than the mesh, which was refined first, to edges of")
+    assert text.endswith("elements") and "refine=" not in text and "where they meet: from" in text
+
+
+@pytest.mark.parametrize("options, parameter", [
+    ({"prefix": "a b\n"}, "prefix"), ({"name": "a" * 200}, "name"), ({"name": "a b", "method": "tie"}, "name"),
+])  # fmt: skip
+def test_names_that_solvers_do_not_accept(options, parameter):
+    with pytest.raises(fs.ToolError) as caught:
+        fs.merge(box(), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A"), **options)
+    assert caught.value.parameter == parameter

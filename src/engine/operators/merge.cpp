@@ -25,6 +25,7 @@
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
 #include "operators/attach.h"
+#include "operators/driver.h"
 #include "operators/joint.h"
 #include "operators/merge_checks.h"
 #include "operators/merge_report.h"
@@ -86,6 +87,7 @@ public:
         if (!refined_[m]) return;
         const Report& first = refined_[m]->report;
         report.warnings.insert(report.warnings.begin(), first.warnings.begin(), first.warnings.end());
+        for (std::string& warning : report.warnings) speak_of_meshes(warning, m);
         if (!is_refined(m)) return;
         report.refinement = refined_[m]->summary;
         report.nodes_added += first.nodes_added;
@@ -94,6 +96,18 @@ public:
     }
 
 private:
+    /// There is no tool here, nor an option to refine.
+    static void speak_of_meshes(std::string& warning, std::size_t m) {
+        const std::string tool = "the tool is finer than the mesh", option = " elements. refine=";
+        const std::size_t end = warning.find(option);
+        if (!warning.starts_with(tool) || end == std::string::npos) return;
+        const std::string finer =
+            m == 0 ? "the addition is finer than the mesh" : "the mesh is finer than the addition";
+        warning = finer + warning.substr(tool.size(), end + 9 - tool.size());
+        if (const std::size_t near = warning.find("near the tool"); near != std::string::npos)
+            warning.replace(near, 13, "where they meet");
+    }
+
     bool is_refined(std::size_t m) const { return refined_[m] && !refined_[m]->tried_in_vain; }
 
     std::array<const Mesh*, 2> meshes_;
@@ -155,16 +169,19 @@ void check_overlap(const Mesh& mesh, const Mesh& addition) {
                         "other");
 }
 
-/// Throws ToolError when a group that the operator makes has a name already.
+/// Throws ToolError when a group that the operator makes has a name already, or none that solvers accept.
 void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name, bool tie) {
     const std::vector<const char*> made =
         tie ? std::vector{"_TIE_MESH", "_TIE_ADDED", "_ADDED"} : std::vector{"_SEAM", "_ADDED"};
-    for (const char* suffix : made)
-        for (const Mesh* m : {&mesh, &addition})
-            if (m->find_group(name + suffix))
-                throw ToolError("name '" + name + "' is taken: " + (m == &mesh ? "the mesh" : "the addition") +
-                                    " already has a group '" + name + suffix + "'; choose another",
-                                "name");
+    for (const char* suffix : made) {
+        Naming naming;
+        naming.front = name + suffix;
+        check_name(mesh, name, naming);
+        if (addition.find_group(naming.front))
+            throw ToolError(
+                "name '" + name + "' is taken: the addition already has a group '" + naming.front + "'; choose another",
+                "name");
+    }
 }
 
 /// The report on the mesh, with what the addition brings.
@@ -391,6 +408,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     Stopwatch::Time started = Stopwatch::now();
     check(mesh, other, options);
     check_names(mesh, other, options.name, options.tie);
+    check_characters(options.prefix, "prefix");
     if (options.tie) return tie(mesh, other, options);
     Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
     const std::vector<std::string> left_out = reduce_to_sections(mesh, addition);
