@@ -411,3 +411,14 @@ def test_a_hole_so_coarse_that_its_facets_are_parted(radius, x, y):
     mesh = fs.drill(mesh, fs.Cylinder((x, y, 0), Z, radius), refine=False, name="HOLE").mesh
     result = fs.reshape(mesh, "HOLE_WALL", by=(0.5, 0.2, 0))
     check(mesh, result, fs.Cylinder((x + 0.5, y + 0.2, 0), Z, radius))
+
+
+@pytest.mark.parametrize("gap, told", [(2, False), (0.5, True)])
+def test_a_hole_that_gets_less_round_is_told(gap, told):
+    """Between the hole and the side of the plate there is no room for all of its nodes."""
+    mesh = fs.drill(
+        fs.read(MESHES / "two_boxes.inp"), fs.Cylinder((6.3, 5.2, 0), Z, 1.2), refine=False, name="HOLE"
+    ).mesh
+    result = fs.reshape(mesh, "HOLE_WALL", by=(0, 10 - 1.2 - gap - 5.2, 0))
+    volumes = [tetra_volumes(m.points, m.cells["tetra"]).sum() for m in (mesh, result.mesh)]
+    assert (volumes[1] - volumes[0] > 1) == told == any("less round" in w for w in result.report.warnings)

@@ -34,6 +34,9 @@ constexpr double goal_of_steps = 0.22, goal_of_end = 0.3;
 /// A wall that is moved into the material may be outside of it on its way for this part of an edge: facets of bent
 /// surfaces differ from these by less.
 constexpr double outside = 0.3;
+/// A round wall whose chords are so many times as far off it as they were, and more by that part of their length, is
+/// worth a word.
+constexpr double flatter = 1.2, flatter_by = 1e-3;
 /// So many steps, and so many for each that would do if nothing was in the way, are enough.
 constexpr int least_bound = 60, bound_per_step = 6;
 /// So many nodes for each of the input, and for each of the wall and edge length on its way: more are born only where
@@ -55,6 +58,7 @@ public:
     MovedWall run() {
         MovedWall out;
         const double bound = std::min(spoilt, remesher_.worst() / 2);
+        chords_off_ = chords_off([this](const Vec3& x) { return motion_.carried(x); })[0];
         double left = 1, step = first_step();
         check_paths();
         const double most_steps = least_bound + bound_per_step / step;
@@ -174,6 +178,38 @@ private:
         relax(d_, remesher_.strained());
     }
 
+    /// How far chords of a wall that is carried are off the curved surfaces it is to lie on, in the mean; and their
+    /// length.
+    std::array<double, 2> chords_off(auto moved) const {
+        double sum = 0, lengths = 0, chords = 0;
+        if (!band_.mid_nodes.empty()) return {};  // edges of second order follow it
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                const Tool* tool = list.alive(s) && !motion_.onto ? motion_.tools[list.tag(s)] : nullptr;
+                if (!tool || tool->kind() == "plane") continue;
+                for (std::size_t k = 0; k < list[s].size(); ++k, ++chords) {
+                    const Vec3 &a = band_.nodes[list[s][k]].at, &b = band_.nodes[list[s][(k + 1) % list[s].size()]].at;
+                    const double length = (moved(a) - moved(b)).norm();
+                    sum += length * std::abs(tool->distance(moved((a + b) / 2)));
+                    lengths += length;
+                }
+            }
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        return lengths > 0 ? std::array{sum / lengths, lengths / chords} : std::array{0.0, 0.0};
+    }
+
+    void warn_of_chords() {
+        const auto [off, length] = chords_off([](const Vec3& x) { return x; });
+        if (off <= flatter * chords_off_ + flatter_by * length) return;
+        std::ostringstream text;
+        text << "the wall is less round than it was, as its nodes had to make room: in the mean its edges are " << off
+             << " off the surface it lies on, which were " << chords_off_
+             << ". Move it less, or refine the mesh there first";
+        f_.warnings.push_back(text.str());
+    }
+
     /// Edges of patches that keep their shape are as bent as before, for their size.
     void scale_bulges() {
         if (!d_.mids.any() || motion_.carried.factor == 1) return;
@@ -197,6 +233,7 @@ private:
         relax(d_, remesher_.strained());
         remesher_.run(goal_of_end);
         mend_curved(f_, false);
+        warn_of_chords();
         check_sides();
         if (const auto at = overlapped_before_ ? std::nullopt : border_overlap(d_)) refuse_to_slide_off(*at);
     }
@@ -273,6 +310,7 @@ private:
     WallGoals goals_;
     Remesher remesher_;
     bool overlapped_before_;  // the border of shells, as lips of a crack do
+    double chords_off_ = 0;   // before, for the size after
     bool arrived_ = false;
 };
 
