@@ -52,7 +52,7 @@ std::optional<Vec3> first_off(const BandMesh& band, const auto& kept, const std:
 std::optional<Vec3> slides_off(const BandMesh& band, const std::function<Vec3(int)>& goal, double off) {
     const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
     std::vector<Slide> on_surfaces, on_lines;
-    const auto add = [&](std::vector<Slide>& to, const Vec3& from, const Vec3& goal_there, Vec3 into, int tag,
+    const auto add = [&](std::vector<Slide>& to, const Vec3& from, const Vec3& goal_there, const Vec3& into, int tag,
                          double o) {
         const double length = into.norm();
         if (length > 0 && (goal_there - from).dot(into) > o * length) to.push_back({goal_there, tag, o});
@@ -77,7 +77,7 @@ std::optional<Vec3> slides_off(const BandMesh& band, const std::function<Vec3(in
             add(on_lines, at(v), goal(v), at(w) - at(v), band.creases.tag(s), off * band.mean_edge_length(v));
         }
     }
-    if (const auto found = first_off(band, band.skin, on_surfaces, [&](const auto& n, const Vec3& x) {
+    if (auto found = first_off(band, band.skin, on_surfaces, [&](const auto& n, const Vec3& x) {
             Vec3 weights;
             return (closest_on_triangle(at(n[0]), at(n[1]), at(n[2]), x, weights) - x).norm();
         }))
