@@ -10,7 +10,7 @@ namespace {
 
 TEST(SkinBeside, WhereAPathLeavesTheMaterial) {
     const Workpiece f = checks::whole_workpiece(checks::grid(4, 4, 4), checks::away);
-    const SkinBeside skin(f.d.band);
+    const SkinBeside skin = SkinBeside::of_solid(f.d.band);
     const Vec3 top(1.3, 2.4, 4);
     EXPECT_FALSE(skin.exit(top, {1.3, 2.4, 0.5}, 0.3)) << "stays inside";
     EXPECT_FALSE(skin.exit(top, {1.3, 2.4, -0.2}, 0.3)) << "out for less than the length";
@@ -18,6 +18,21 @@ TEST(SkinBeside, WhereAPathLeavesTheMaterial) {
     const auto below = skin.exit(top, {1.3, 2.4, -1}, 0.3);
     ASSERT_TRUE(below);
     EXPECT_LT((*below - Vec3(1.3, 2.4, 0)).norm(), 1e-12);
+}
+
+TEST(SkinBeside, OfShellsIsTheirBorder) {
+    Mesh mesh;
+    checks::add_plate(mesh, {0, 0, 0}, Vec3::UnitX(), Vec3::UnitY(), 4, 4);
+    checks::add_plate(mesh, {2, 0, 0}, Vec3::UnitY(), Vec3::UnitZ(), 4, 2);  // across it
+    const Workpiece f = checks::whole_workpiece(mesh, checks::away);
+    const SkinBeside skin = SkinBeside::of_shells(f.d);
+    const Vec3 from(0, 1.3, 0), up = Vec3::UnitZ();
+    EXPECT_FALSE(skin.exit(from, {3.5, 1.3, 0}, 0.3, up)) << "past what stands there";
+    EXPECT_FALSE(skin.exit({0, 4, 0}, {3.5, 0.01, 0}, 0.3, up)) << "past its corner";
+    EXPECT_FALSE(skin.exit(from, {-3, 1.3, 0}, 0.3, up)) << "leads out from the beginning";
+    const auto at = skin.exit(from, {5, 1.3, 0}, 0.3, up);
+    ASSERT_TRUE(at);
+    EXPECT_LT((*at - Vec3(4, 1.3, 0)).norm(), 1e-12);
 }
 
 }  // namespace

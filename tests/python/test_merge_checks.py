@@ -6,7 +6,7 @@ import pytest
 
 import femscalpel as fs
 from merge_parts import block, plate, rod, shell, solid
-from meshes import grid_box
+from meshes import grid_box, quadratic
 from test_tie import face_areas, hexahedra
 
 
@@ -156,3 +156,123 @@ def test_faces_where_the_two_meet_leave_the_groups_of_the_one_that_is_cut():
     result = fs.merge(mesh, addition, keep="addition")
     assert face_areas(result.mesh, "TOP")[0] == pytest.approx(6 * 5 - 2.2 * 1.7)
     assert not any("inside now" in w for w in result.report.warnings)
+
+
+def all_nodes(mesh, name):
+    mesh.add_group(name, "node", mesh.node_ids)
+    return mesh
+
+
+@pytest.mark.parametrize("second_order", [False, True])
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+def test_a_group_of_all_nodes_has_those_of_what_is_filled_in(keep, second_order):
+    """*INITIAL CONDITIONS are given to such a group: a node without a temperature is at zero."""
+    order = quadratic if second_order else lambda mesh: mesh
+    mesh, addition = all_nodes(order(box()), "NALL"), block((3, 2.6, 2.7), (2.2, 1.7, 2.5), (3, 3, 3), "A")
+    all_nodes(addition, "AALL")
+    number = "tetra10" if second_order else "tetra"
+    mesh.add_group("BODY", "element", mesh.cell_ids[number])
+    result = fs.merge(mesh, addition, keep=keep).mesh
+    for elements, nodes in (("BODY", "NALL"), ("ADD_ADDED", "AALL")):
+        cells = result.cells[number][np.isin(result.cell_ids[number], result.groups[elements].ids)]
+        if not second_order or nodes == "NALL":  # mid-side nodes that the addition had not are in no group of it
+            assert set(result.node_ids[np.unique(cells)]) <= set(result.groups[nodes].ids)
+
+
+def test_a_group_of_corners_gets_no_mid_side_nodes():
+    mesh, addition = quadratic(box()), block((3, 2.6, 2.7), (2.2, 1.7, 2.5), (3, 3, 3), "A")
+    mesh.add_group("CORNERS", "node", mesh.node_ids[np.unique(mesh.cells["tetra10"][:, :4])])
+    mesh.add_group("BODY", "element", mesh.cell_ids["tetra10"])
+    result = fs.merge(mesh, addition, keep="addition").mesh
+    cells = result.cells["tetra10"][np.isin(result.cell_ids["tetra10"], result.groups["BODY"].ids)]
+    corners, group = set(result.node_ids[np.unique(cells[:, :4])]), set(result.groups["CORNERS"].ids)
+    assert corners <= group
+    assert group.isdisjoint(set(result.node_ids[result.points[:, 2] < 3.99]) - corners)
+
+
+def test_the_total_of_a_load_on_all_nodes_stays(tmp_path):
+    """What is filled in brings new nodes into the set."""
+    mesh = all_nodes(box(), "NALL")
+    fs.write(mesh, tmp_path / "mesh.inp")
+    deck = "*STEP\n*STATIC\n*CLOAD\nNALL, 1, 1.\n*END STEP\n"
+    (tmp_path / "mesh.inp").write_text((tmp_path / "mesh.inp").read_text() + deck)
+    addition = block((3, 2.6, 2.7), (2.2, 1.7, 2.5), (3, 3, 3), "A")
+    result = fs.merge(fs.read(tmp_path / "mesh.inp"), addition, keep="addition")
+    fs.write(result.mesh, tmp_path / "out.inp")
+    card = (tmp_path / "out.inp").read_text().split("*CLOAD\n")[1].splitlines()[0]
+    assert card == "NALL_LOAD1, 1, 1."
+    assert set(result.mesh.groups["NALL_LOAD1"].ids) <= set(mesh.node_ids)
+
+
+def grid_faces(mesh):
+    cells = mesh.cells["tetra"]
+    return {tuple(face) for k in range(4) for face in np.sort(np.delete(cells, k, axis=1), axis=1)}
+
+
+def halves():
+    """With a border at x = 3, facets and triangles on it."""
+    plain = box()
+    on = np.array([face for face in sorted(grid_faces(plain)) if np.allclose(plain.points[list(face), 0], 3)])
+    mesh = fs.Mesh(plain.points, {**plain.cells, "triangle": on})
+    mesh.add_group("BAFFLE", "element", mesh.cell_ids["triangle"])
+    ids, x = mesh.cell_ids["tetra"], mesh.points[mesh.cells["tetra"]].mean(axis=1)[:, 0]
+    mesh.add_group("LEFT", "element", ids[x < 3])
+    mesh.add_group("RIGHT", "element", ids[x > 3])
+    local = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
+    mesh.add_group("MIDDLE", "facet", [
+        (number, k + 1)
+        for number, cell in zip(ids[x < 3], mesh.cells["tetra"][x < 3])
+        for k, face in enumerate(local)
+        if np.allclose(mesh.points[cell[list(face)], 0], 3)
+    ])  # fmt: skip
+    return mesh
+
+
+@pytest.mark.parametrize("height", [2.7, 4])
+def test_borders_that_run_through_what_is_filled_in_are_told(height):
+    addition = block((3, 2.6, height), (2.2, 1.7, 5.2 - height), (3, 3, 3), "A")
+    assert not any("border" in w or "gone" in w for w in fs.merge(halves(), addition).report.warnings)
+    result = fs.merge(halves(), addition, keep="addition")
+    (border,) = [w for w in result.report.warnings if "is uneven there" in w]
+    (faces,) = [w for w in result.report.warnings if "are gone" in w]
+    filled = grid_faces(result.mesh)
+    assert all(tuple(sorted(face)) in filled for face in result.mesh.cells["triangle"])
+    assert "the border of 'LEFT', 'RIGHT' runs through" in border
+    assert "of 'BAFFLE', 'MIDDLE'" in faces
+    beside = block((1, 2.6, height), (1.1, 1.7, 5.2 - height), (2, 3, 3), "A")
+    assert not any("uneven" in w for w in fs.merge(halves(), beside, keep="addition").report.warnings)
+
+
+def test_shells_inside_a_solid_are_told():
+    fin = plate((2, 2.6, 2.5), (2, 0.3, 0), (0, 0, 3), (4, 6), "FIN")
+    (inside,) = [w for w in fs.merge(box(), fin).report.warnings if "inside the solid" in w]
+    assert "do not hold to it" in inside
+    trimmed = fs.merge(box(), fin, keep_side=(3, 2.7, 9))
+    assert not any("inside the solid" in w for w in trimmed.report.warnings)
+    on = plate((2, 2.6, 4), (2, 0.3, 0), (0, 0, 1.5), (4, 3), "FIN")
+    assert not any("inside the solid" in w for w in fs.merge(box(), on).report.warnings)
+
+
+def test_an_inverted_element_of_the_addition_is_not_the_meshs():
+    good = block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A")
+    cells = good.cells["tetra"].copy()
+    cells[3] = cells[3][[1, 0, 2, 3]]
+    with pytest.raises(fs.QualityError, match="the addition already has 1 flat or inverted") as caught:
+        fs.merge(box(), fs.Mesh(good.points, {"tetra": cells}))
+    assert caught.value.parameter == "other"
+
+
+def test_a_word_on_refinement_names_no_option_that_there_is_not():
+    fine = block((5, 3.1, 3), (6, 4, 0.4), (32, 24, 2), "A")
+    (text,) = [w for w in fs.merge(grid_box((10, 6, 3), (10.0, 6.0, 3.0)), fine).report.warnings if "finer" in w]
+    assert text.startswith("the addition is finer than the mesh, which was refined first, to edges of")
+    assert text.endswith("elements") and "refine=" not in text and "where they meet: from" in text
+
+
+@pytest.mark.parametrize("options, parameter", [
+    ({"prefix": "a b\n"}, "prefix"), ({"name": "a" * 200}, "name"), ({"name": "a b", "method": "tie"}, "name"),
+])  # fmt: skip
+def test_names_that_solvers_do_not_accept(options, parameter):
+    with pytest.raises(fs.ToolError) as caught:
+        fs.merge(box(), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A"), **options)
+    assert caught.value.parameter == parameter

@@ -331,9 +331,94 @@ def test_a_deck_follows(tmp_path):
     fs.reshape(deck, "END", by=(-2.5, 0, 0), strict=True)
 
 
-@pytest.mark.parametrize("by, text", [(-9, "inside out"), (-13, "pass through the part")])
+@pytest.mark.parametrize("by, text", [(-9, "pass the end of what it slides on"), (-13, "pass through the part")])
 def test_a_wall_that_passes_a_corner_or_the_whole_part_is_refused(by, text):
     mesh = fs.read(MESHES / "l_shape.inp")
     with pytest.raises(fs.ToolError, match=text) as error:
         fs.reshape(mesh, "LOAD", by=(by, 0, 0))
     assert error.value.parameter == "by"
+
+
+def step_plate():
+    """An L in the plane: 10 x 8 less the 5 x 4 in its upper right corner, with the sides of that in groups."""
+    grid = np.stack(np.meshgrid(np.linspace(0, 10, 21), np.linspace(0, 8, 17), indexing="ij"), axis=-1).reshape(-1, 2)
+    index = np.arange(21 * 17).reshape(21, 17)
+    cells = np.array([t for i in range(20) for j in range(16) if i < 10 or j < 8 for t in (
+        (index[i, j], index[i + 1, j], index[i + 1, j + 1]), (index[i, j], index[i + 1, j + 1], index[i, j + 1])
+    )])  # fmt: skip
+    used = np.unique(cells)
+    mesh = fs.Mesh(np.column_stack([grid[used], np.zeros(len(used))]), {"triangle": np.searchsorted(used, cells)})
+    x, y, _ = mesh.points.T
+    mesh.add_group("INNER", "node", mesh.node_ids[(x == 5) & (y >= 4)])
+    mesh.add_group("STEP", "node", mesh.node_ids[(y == 4) & (x >= 5)])
+    mesh.add_group("TOP", "node", mesh.node_ids[y == 8])
+    return mesh
+
+
+@pytest.mark.parametrize("by", [5, 5.1, 6, 8])
+def test_a_border_does_not_slide_past_the_end_of_another(by):
+    """Else there would be a slit: nodes of the one side of the step on edges of the other."""
+    with pytest.raises(fs.ToolError, match="its rim would pass the end of what it slides on"):
+        fs.reshape(step_plate(), "INNER", by=(by, 0, 0))
+
+
+@pytest.mark.parametrize("group, by", [
+    ("INNER", (-6, 0, 0)), ("INNER", (-40, 0, 0)), ("TOP", (0, -9, 0)), ("STEP", (0, -5, 0)),
+])  # fmt: skip
+def test_the_border_of_a_shell_that_would_leave_it_is_refused_at_once(group, by):
+    with pytest.raises(fs.ToolError, match="would pass through the part, and leave it on another side") as caught:
+        fs.reshape(step_plate(), group, by=by)
+    assert caught.value.parameter == "by"
+
+
+@pytest.mark.parametrize("by", [(-4, 0, 0), (4.5, 0, 0), (2, 0, 0)])
+def test_the_border_of_a_step_moves(by):
+    mesh = step_plate()
+    after = fs.reshape(mesh, "INNER", by=by).mesh
+    a, b, c = (after.points[after.cells["triangle"][:, k], :2] for k in range(3))
+    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    assert areas.min() > 0 and areas.sum() == pytest.approx(60 + 4 * by[0])
+
+
+@pytest.mark.parametrize("digits", [5, 6, 8, "single"])
+@pytest.mark.parametrize("along", [-1.5, 1.5])
+def test_rounded_coordinates_of_a_face_that_group_borders_cut(digits, along):
+    """In a turned frame no plane is one to the last digit; both sides of the border have to go onto the same."""
+    plain = grid_box((10, 8, 4), (10.0, 8.0, 4.0))
+    turn, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    points = plain.points @ turn.T
+    if digits == "single":
+        points = points.astype(np.float32).astype(float)
+    else:
+        points = np.array([[float(f"{v:.{digits}g}") for v in x] for x in points])
+    mesh = fs.Mesh(points, plain.cells)
+    mesh.add_group("TOP", "node", mesh.node_ids[plain.points[:, 2] == 4])
+    middle = plain.points[plain.cells["tetra"]].mean(axis=1)
+    mesh.add_group("LEFT", "element", mesh.cell_ids["tetra"][middle[:, 0] < 5])
+    mesh.add_group("FRONT", "element", mesh.cell_ids["tetra"][middle[:, 1] < 3])
+    after = fs.reshape(mesh, "TOP", by=along * turn[:, 2]).mesh
+    volumes = tetra_volumes(after.points, after.cells["tetra"])
+    assert volumes.min() > 0 and volumes.sum() == pytest.approx(80 * (4 + along), rel=1e-3)
+    left = np.isin(after.cell_ids["tetra"], after.groups["LEFT"].ids)
+    assert volumes[left].sum() == pytest.approx(40 * (4 + along), rel=1e-3)
+
+
+@pytest.mark.parametrize("radius, x, y", [(1.2, 6.3, 5.2), (1.3, 5.5, 5.1)])
+def test_a_hole_so_coarse_that_its_facets_are_parted(radius, x, y):
+    """Patches of one cylinder: what is fitted to each of them is not the same to the last digit."""
+    mesh = fs.read(MESHES / "two_boxes.inp")
+    mesh = fs.drill(mesh, fs.Cylinder((x, y, 0), Z, radius), refine=False, name="HOLE").mesh
+    result = fs.reshape(mesh, "HOLE_WALL", by=(0.5, 0.2, 0))
+    check(mesh, result, fs.Cylinder((x + 0.5, y + 0.2, 0), Z, radius))
+
+
+@pytest.mark.parametrize("gap, told", [(2, False), (0.5, True)])
+def test_a_hole_that_gets_less_round_is_told(gap, told):
+    """Between the hole and the side of the plate there is no room for all of its nodes."""
+    mesh = fs.drill(
+        fs.read(MESHES / "two_boxes.inp"), fs.Cylinder((6.3, 5.2, 0), Z, 1.2), refine=False, name="HOLE"
+    ).mesh
+    result = fs.reshape(mesh, "HOLE_WALL", by=(0, 10 - 1.2 - gap - 5.2, 0))
+    volumes = [tetra_volumes(m.points, m.cells["tetra"]).sum() for m in (mesh, result.mesh)]
+    assert (volumes[1] - volumes[0] > 1) == told == any("less round" in w for w in result.report.warnings)

@@ -5,14 +5,17 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "cancel.h"
+#include "cutting/border_overlap.h"
 #include "cutting/mend_curved.h"
 #include "cutting/remesh.h"
 #include "cutting/skin_beside.h"
+#include "cutting/slide_off.h"
 #include "cutting/untangler.h"
 #include "deformation/bar_network.h"
 #include "deformation/relaxation.h"
@@ -31,6 +34,9 @@ constexpr double goal_of_steps = 0.22, goal_of_end = 0.3;
 /// A wall that is moved into the material may be outside of it on its way for this part of an edge: facets of bent
 /// surfaces differ from these by less.
 constexpr double outside = 0.3;
+/// A round wall whose chords are so many times as far off it as they were, and more by that part of their length, is
+/// worth a word.
+constexpr double flatter = 1.2, flatter_by = 1e-3;
 /// So many steps, and so many for each that would do if nothing was in the way, are enough.
 constexpr int least_bound = 60, bound_per_step = 6;
 /// So many nodes for each of the input, and for each of the wall and edge length on its way: more are born only where
@@ -46,11 +52,13 @@ public:
           wall_(wall),
           motion_(motion),
           goals_(f, wall, motion, mesh),
-          remesher_(f, mesh, [this](int v) { return slides(v); }) {}
+          remesher_(f, mesh, [this](int v) { return slides(v); }),
+          overlapped_before_(wall.faces || border_overlap(f.d)) {}
 
     MovedWall run() {
         MovedWall out;
         const double bound = std::min(spoilt, remesher_.worst() / 2);
+        chords_off_ = chords_off([this](const Vec3& x) { return motion_.carried(x); })[0];
         double left = 1, step = first_step();
         check_paths();
         const double most_steps = least_bound + bound_per_step / step;
@@ -118,18 +126,34 @@ private:
 
     /// Elements would be crushed for long before it shows that there is no way.
     void check_paths() const {
-        if (!wall_.faces) return;
-        const SkinBeside skin(band_);
-        for (int s = 0; s < band_.cut_faces.size(); ++s) {
-            if (!band_.cut_faces.alive(s)) continue;
-            Vec3 from = Vec3::Zero(), to = from;
-            for (const int v : band_.cut_faces[s]) {
-                from += band_.nodes[v].at / 3;
-                to += goals_[v] / 3;
+        const SkinBeside skin = wall_.faces ? SkinBeside::of_solid(band_) : SkinBeside::of_shells(d_);
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                Vec3 from = Vec3::Zero(), to = from;
+                for (const int v : list[s]) {
+                    from += band_.nodes[v].at / static_cast<double>(list[s].size());
+                    to += goals_[v] / static_cast<double>(list[s].size());
+                }
+                const double length = outside * band_.mean_edge_length(list[s][0]);
+                if (const auto at = skin.exit(from, to, length, shell_normal(list[s]))) refuse_to_leave(*at);
             }
-            const double length = outside * band_.mean_edge_length(band_.cut_faces[s][0]);
-            if (const auto at = skin.exit(from, to, length)) refuse_to_leave(*at);
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        if (const auto at = slides_off(
+                band_, [this](int v) { return goals_[v]; }, outside))
+            refuse_to_slide_off(*at);
+    }
+
+    /// Of the shell that a part of the wall ends, in the input; zero in a solid.
+    static Vec3 shell_normal(const std::array<int, 3>& /*face*/) { return Vec3::Zero(); }
+    Vec3 shell_normal(const std::array<int, 2>& edge) const {
+        for (const int t : band_.triangles.around(edge[0])) {
+            const auto& n = band_.triangles[t];
+            if (std::ranges::find(n, edge[1]) != n.end()) return d_.shell_normals[band_.triangles.origin(t)];
         }
+        return Vec3::Zero();
     }
 
     void advance(double part) {
@@ -152,6 +176,38 @@ private:
         }
         if (remesher_.worst() < spoilt) untangle(d_, others, 2 * spoilt);
         relax(d_, remesher_.strained());
+    }
+
+    /// How far chords of a wall that is carried are off the curved surfaces it is to lie on, in the mean; and their
+    /// length.
+    std::array<double, 2> chords_off(auto moved) const {
+        double sum = 0, lengths = 0, chords = 0;
+        if (!band_.mid_nodes.empty()) return {};  // edges of second order follow it
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                const Tool* tool = list.alive(s) && !motion_.onto ? motion_.tools[list.tag(s)] : nullptr;
+                if (!tool || tool->kind() == "plane") continue;
+                for (std::size_t k = 0; k < list[s].size(); ++k, ++chords) {
+                    const Vec3 &a = band_.nodes[list[s][k]].at, &b = band_.nodes[list[s][(k + 1) % list[s].size()]].at;
+                    const double length = (moved(a) - moved(b)).norm();
+                    sum += length * std::abs(tool->distance(moved((a + b) / 2)));
+                    lengths += length;
+                }
+            }
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        return lengths > 0 ? std::array{sum / lengths, lengths / chords} : std::array{0.0, 0.0};
+    }
+
+    void warn_of_chords() {
+        const auto [off, length] = chords_off([](const Vec3& x) { return x; });
+        if (off <= flatter * chords_off_ + flatter_by * length) return;
+        std::ostringstream text;
+        text << "the wall is less round than it was, as its nodes had to make room: in the mean its edges are " << off
+             << " off the surface it lies on, which were " << chords_off_
+             << ". Move it less, or refine the mesh there first";
+        f_.warnings.push_back(text.str());
     }
 
     /// Edges of patches that keep their shape are as bent as before, for their size.
@@ -177,7 +233,9 @@ private:
         relax(d_, remesher_.strained());
         remesher_.run(goal_of_end);
         mend_curved(f_, false);
+        warn_of_chords();
         check_sides();
+        if (const auto at = overlapped_before_ ? std::nullopt : border_overlap(d_)) refuse_to_slide_off(*at);
     }
 
     /// Unit normal of a part of the wall, out of the material.
@@ -228,6 +286,14 @@ private:
         throw ToolError(message.str(), motion_.parameter);
     }
 
+    [[noreturn]] void refuse_to_slide_off(const Vec3& at) const {
+        std::ostringstream message;
+        message << "the wall cannot be moved so far: its rim would pass the end of what it slides on (a surface, "
+                   "a line or a border of groups) before it is at ("
+                << at.transpose() << "). Move it less";
+        throw ToolError(message.str(), motion_.parameter);
+    }
+
     [[noreturn]] void refuse_to_leave(const Vec3& at) const {
         std::ostringstream message;
         message
@@ -243,6 +309,8 @@ private:
     const WallMotion& motion_;
     WallGoals goals_;
     Remesher remesher_;
+    bool overlapped_before_;  // the border of shells, as lips of a crack do
+    double chords_off_ = 0;   // before, for the size after
     bool arrived_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <unordered_map>
 #include <unsupported/Eigen/BVH>
+#include <utility>
 
 #include "cancel.h"
 #include "cutting/cavity.h"
@@ -84,6 +85,7 @@ public:
         find_taken();
         find_cavity();
         assemble(fill());
+        out_.borders = crossed_borders(mesh_, taken_, other_, [&](const Key& face) { return is_filled(face); });
         return std::move(out_);
     }
 
@@ -178,7 +180,9 @@ private:
                 }
             }
         for (const auto& [key, face] : faces)
-            if (face.second == 1 && !covered_.contains(key)) {
+            if (face.second > 1)
+                between_.insert(key);
+            else if (!covered_.contains(key)) {
                 left_.insert(key);
                 triangles_.push_back({own(face.first[0]), own(face.first[1]), own(face.first[2])});
             }
@@ -215,25 +219,54 @@ private:
                 at_[p] = place.contains(found->second) ? place[found->second] : add_old_node(found->second);
                 continue;
             }
-            at_[p] = out_.mesh.add_node(other_.points[n], number_.node++);
-            out_.partner.push_back(n);
+            at_[p] = add_new_node(other_.points[n], n);
         }
-        for (std::size_t k = 0; k < filled.points.size(); ++k) {
-            at_[points_.size() + k] = out_.mesh.add_node(filled.points[k], number_.node++);
-            out_.partner.push_back(-1);
-        }
+        for (std::size_t k = 0; k < filled.points.size(); ++k)
+            at_[points_.size() + k] = add_new_node(filled.points[k], -1);
         for (Index n = 0; n < mesh_.node_count(); ++n)
             if (partner_[n] >= 0 && other_points_.contains(partner_[n]))
                 old_places_[n] = at_[other_points_.at(partner_[n])];
         for (const auto& [n, p] : own_points_) old_places_[n] = at_[p];
         add_elements(filled);
-        restore_skin(place);
+        for (const auto& [n, p] : place) old_places_.emplace(n, p);
+        restore_skin();
     }
 
     /// A node of the mesh that only taken elements had, but which the cavity's faces have.
     Index add_old_node(Index n) {
         out_.partner.push_back(partner_[n]);
         return out_.mesh.add_node(mesh_.points[n], mesh_.node_ids[n], mesh_.node_families[n]);
+    }
+
+    Index add_new_node(const Vec3& at, Index partner) {
+        out_.partner.push_back(partner);
+        const Index node = out_.mesh.add_node(at, number_.node++);
+        born_.emplace(node, false);
+        return node;
+    }
+
+    /// New nodes of an element are in the node groups that hold the element it stands for: all of its corners or, of
+    /// mid-side nodes, all of these.
+    void join_node_groups(const std::vector<Index>& nodes, std::span<const Index> parent) {
+        FamilyTable& families = out_.mesh.families;
+        const auto common = [&](std::span<const Index> of) {
+            FamilyIndex family = of.empty() ? 0 : mesh_.node_families[of.front()];
+            for (const Index n : of) family = families.intersect(family, mesh_.node_families[n]);
+            return family;
+        };
+        const auto join = [&](std::span<const Index> list, FamilyIndex family) {
+            for (const Index n : list) {
+                const auto born = born_.find(n);
+                if (born == born_.end()) continue;
+                FamilyIndex& own = out_.mesh.node_families[n];
+                own = families.unite(own, family);
+                if (std::exchange(born->second, true)) continue;
+                out_.changes.born.push_back({out_.mesh.node_ids[n], {}});
+                for (int k = 0; k < 4; ++k) out_.changes.born.back().ancestors.push_back(mesh_.node_ids[parent[k]]);
+            }
+        };
+        join(std::span(nodes).first(4), common(parent.first(4)));
+        join(std::span(nodes).subspan(4), common(parent.subspan(4)));
     }
 
     /// What is not taken out: all elements but the taken, and those on them that have no other to be on. The nodes of
@@ -258,8 +291,10 @@ private:
             for (Index c = 0; c < b.size(); ++c) {
                 const auto n = b.nodes(c);
                 // What lies on taken elements alone is seen to later.
+                const bool is_face = traits(b.type).corners == 3;
+                const Key key = is_face ? sorted({n[0], n[1], n[2]}) : Key{-1, -1, -1};
                 const bool gone = std::ranges::any_of(n, [&](Index v) { return in_taken[v] && !left[v]; }) ||
-                                  (traits(b.type).corners == 3 && covered_.contains(sorted({n[0], n[1], n[2]})));
+                                  (is_face && (covered_.contains(key) || between_.contains(key)));
                 if (!gone)
                     cells[static_cast<int>(b.type)].push_back(c);
                 else
@@ -274,17 +309,15 @@ private:
 
     void add_elements(const Filled& filled) {
         std::vector<Vec3> centres;
-        std::vector<FamilyIndex> families;
-        std::vector<Index> parents;
+        std::vector<CellRef> parents;
         bool second_order = false;
         for (int type = 0; type < cell_type_count; ++type)
             for (const Index c : taken_[type]) {
                 const auto n = mesh_.blocks()[type].nodes(c);
                 centres.emplace_back(
                     (mesh_.points[n[0]] + mesh_.points[n[1]] + mesh_.points[n[2]] + mesh_.points[n[3]]) / 4);
-                families.push_back(mesh_.blocks()[type].families[c]);
-                parents.push_back(mesh_.blocks()[type].ids[c]);
-                second_order = second_order || traits(mesh_.blocks()[type].type).quadratic;
+                parents.push_back({mesh_.blocks()[type].type, c});
+                second_order = second_order || traits(parents.back().type).quadratic;
             }
         std::vector<int> objects(centres.size());
         std::iota(objects.begin(), objects.end(), 0);
@@ -306,8 +339,11 @@ private:
             if (second_order)
                 for (const auto& e : traits(CellType::tetra10).edges) nodes.push_back(middle(nodes[e[0]], nodes[e[1]]));
             const CellType type = second_order ? CellType::tetra10 : CellType::tetra;
-            out_.changes.parts.push_back({number_.cell, parents[nearest.best]});
-            const Index cell = out_.mesh.add_cell(type, nodes, number_.cell++, families[nearest.best]);
+            const CellRef& parent = parents[nearest.best];
+            const CellBlock& of = mesh_.block(parent.type);
+            out_.changes.parts.push_back({number_.cell, of.ids[parent.cell]});
+            const Index cell = out_.mesh.add_cell(type, nodes, number_.cell++, of.families[parent.cell]);
+            join_node_groups(nodes, of.nodes(parent.cell));
             out_.added.push_back({type, cell});
             for (int f = 0; f < 4; ++f) {
                 const auto& o = outward_faces[f];
@@ -346,20 +382,24 @@ private:
 
     Index middle(Index a, Index b) {
         const auto [found, fresh] = middles_.emplace(mesh_edge_key(a, b), out_.mesh.node_count());
-        if (fresh) {
-            out_.mesh.add_node((out_.mesh.points[a] + out_.mesh.points[b]) / 2, number_.node++);
-            out_.partner.push_back(-1);
-        }
+        if (fresh) add_new_node((out_.mesh.points[a] + out_.mesh.points[b]) / 2, -1);
         return found->second;
     }
 
+    /// Where a node of the mesh is in the result, or -1.
+    Index place_now(Index n) const {
+        const auto found = old_places_.find(n);
+        return found == old_places_.end() ? -1 : found->second;
+    }
+
+    /// Whether a face of the mesh is one of what was filled in.
+    bool is_filled(const Key& face) const {
+        return filled_faces_.contains(sorted({place_now(face[0]), place_now(face[1]), place_now(face[2])}));
+    }
+
     /// Facets of taken elements, and elements on these, that lie on what is left of the skin.
-    void restore_skin(const std::unordered_map<Index, Index>& place) {
-        const auto now = [&](Index n) -> Index {
-            if (const auto found = place.find(n); found != place.end()) return found->second;
-            const auto found = old_places_.find(n);
-            return found == old_places_.end() ? -1 : found->second;
-        };
+    void restore_skin() {
+        const auto now = [&](Index n) { return place_now(n); };
         std::vector<Index> nodes;
         for (const CellRef& c : loose_) {
             const CellBlock& b = mesh_.block(c.type);
@@ -369,6 +409,8 @@ private:
             nodes.clear();
             for (int k = 0; k < t.corners; ++k) nodes.push_back(now(n[k]));
             if (std::ranges::any_of(nodes, [](Index v) { return v < 0; })) continue;
+            if (t.corners == 3 && between_.contains(sorted({n[0], n[1], n[2]})) && !is_filled({n[0], n[1], n[2]}))
+                continue;
             if (t.quadratic)
                 for (const auto& e : t.edges) nodes.push_back(middle(nodes[e[0]], nodes[e[1]]));
             out_.mesh.add_cell(c.type, nodes, b.ids[c.cell], b.families[c.cell]);
@@ -402,7 +444,7 @@ private:
     std::set<Index> on_cover_;  // nodes of the covered skin
     CellLists taken_;           // ascending
     std::vector<CellRef> loose_;
-    std::set<Key> left_;  // the cavity's faces that are the mesh's
+    std::set<Key> left_, between_;  // the cavity's faces that are the mesh's; those between elements that are taken
     std::set<std::pair<Index, Index>> left_edges_;
     std::vector<Vec3> points_;
     std::vector<Triangle> triangles_;
@@ -411,6 +453,7 @@ private:
     std::unordered_map<Index, Index> old_places_;  // nodes of the mesh at the cavity, in the result
     std::unordered_map<std::uint64_t, Index> middles_;
     std::map<Key, CellRef> filled_faces_;
+    std::map<Index, bool> born_;  // nodes of the result that the mesh has not; whether the changes have them
     Numbering number_;
     Refilled out_;
 };

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cutting/crossed_borders.h"
 #include "mesh/changes.h"
 #include "mesh/surface.h"
 
@@ -16,6 +17,7 @@ struct Refilled {
     double worst = 1;            ///< smallest mean ratio of these
     std::vector<CellRef> added;  ///< these
     Changes changes;             ///< which element taken out was nearest to each
+    CrossedBorders borders;      ///< of groups, that ran through what was taken out
 };
 
 /// Fits a solid to a part of the skin of another: takes out its tetrahedra that reach there, or inside the other, and

@@ -19,6 +19,8 @@ namespace {
 /// A wall that is carried may end so far beside a curved surface that its nodes keep to, in edge lengths: the facets of
 /// both differ by as much.
 constexpr double beside_curved = 0.1;
+/// Coordinates off by less than this part of the size have not been rounded.
+constexpr double exact = 1e-11;
 
 SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch& patch) {
     const KeptGeometry& g = f.d.constraints.geometry();
@@ -34,6 +36,48 @@ SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch&
     }
     return out;
 }
+
+/// Finds the surfaces of patches. Those of one plane, cylinder or sphere, which borders of groups or the edges of
+/// coarse facets part, have one where coordinates were rounded or it takes iterations: each by itself would be a little
+/// off the other's, and nodes between them could not be on both.
+struct Fitter {
+    struct Fitted {
+        SurfaceSample sample;
+        std::vector<std::size_t> patches;
+        std::unique_ptr<Tool> tool;
+    };
+
+    void add(std::size_t patch, SurfaceSample sample) {
+        Fitted fitted{std::move(sample), {patch}, {}};
+        fitted.tool = fitted_tool(fitted.sample.points, fitted.sample.normals, tolerance, carried);
+        if (fitted.tool && (rounded || fitted.tool->kind() != "plane"))
+            for (Fitted& other : all)
+                if (join(other, fitted)) return;
+        all.push_back(std::move(fitted));
+    }
+
+    bool join(Fitted& other, const Fitted& fitted) const {
+        if (!other.tool || other.tool->kind() != fitted.tool->kind()) return false;
+        SurfaceSample both = other.sample;
+        both.points.insert(both.points.end(), fitted.sample.points.begin(), fitted.sample.points.end());
+        both.normals.insert(both.normals.end(), fitted.sample.normals.begin(), fitted.sample.normals.end());
+        auto tool = fitted_tool(both.points, both.normals, tolerance, carried);
+        const auto is_along = [&](const SurfaceSample& s) {
+            return tool->normal(carried(s.points[0])).dot(s.normals[0]) > 0;
+        };
+        if (!tool || tool->kind() != fitted.tool->kind() || is_along(other.sample) != is_along(fitted.sample))
+            return false;
+        other.sample = std::move(both);
+        other.patches.push_back(fitted.patches[0]);
+        other.tool = std::move(tool);
+        return true;
+    }
+
+    double tolerance;
+    Similarity carried;
+    bool rounded;
+    std::vector<Fitted> all;
+};
 
 /// The directions in which the normals of a wall point, as a projector.
 Eigen::Matrix3d directions_across(const std::vector<Vec3>& normals) {
@@ -56,8 +100,7 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
     }
     if (motion.onto) return;
     const KeptGeometry& g = f.d.constraints.geometry();
-    const double tolerance = std::max(1e-8 * g.size, g.rounding);
-    std::vector<Vec3> normals;
+    Fitter fitter{std::max(1e-8 * g.size, g.rounding), motion.carried, g.rounding > exact * g.size, {}};
     for (std::size_t k = 0; k < wall.patches.size(); ++k) {
         if (wall.patches[k].follows) continue;
         SurfaceSample sample = sample_of(f, wall, wall.patches[k]);
@@ -65,13 +108,16 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
             const int t = f.d.band.triangles.around(g.segments[wall.patches[k].parts[0]].node[0])[0];
             double_across(sample, f.d.shell_normals[t], g.size);
         }
-        motion.own.push_back(fitted_tool(sample.points, sample.normals, tolerance, motion.carried));
-        motion.tools[k] = motion.own.back().get();
-        if (!motion.tools[k]) {
-            normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
-            continue;
-        }
-        for (const Vec3& x : sample.points) normals.push_back(motion.tools[k]->normal(motion.carried(x)));
+        fitter.add(k, std::move(sample));
+    }
+    std::vector<Vec3> normals;
+    for (Fitter::Fitted& fitted : fitter.all) {
+        for (const std::size_t k : fitted.patches) motion.tools[k] = fitted.tool.get();
+        if (!fitted.tool)
+            normals.insert(normals.end(), fitted.sample.normals.begin(), fitted.sample.normals.end());
+        else
+            for (const Vec3& x : fitted.sample.points) normals.push_back(fitted.tool->normal(motion.carried(x)));
+        motion.own.push_back(std::move(fitted.tool));
     }
     motion.across = directions_across(normals);
 }

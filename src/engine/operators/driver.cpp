@@ -147,14 +147,18 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
 
 }  // namespace
 
-void check_name(const Mesh& mesh, const std::string& name, const Naming& naming) {
-    if (name.empty()) throw ToolError("name is empty; the new groups need one", "name");
+void check_characters(const std::string& name, const char* parameter) {
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
         std::string::npos)
         throw ToolError(
-            "name '" + name +
+            std::string(parameter) + " '" + name +
                 "' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups",
-            "name");
+            parameter);
+}
+
+void check_name(const Mesh& mesh, const std::string& name, const Naming& naming) {
+    if (name.empty()) throw ToolError("name is empty; the new groups need one", "name");
+    check_characters(name, "name");
     std::set<std::string> groups;
     for (const auto& list : naming.groups) groups.insert(list.begin(), list.end());
     if (!naming.front.empty()) groups.insert(naming.front);

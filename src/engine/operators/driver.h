@@ -68,6 +68,9 @@ public:
     virtual void finished(const Rebuilt& rebuilt) { (void)rebuilt; }
 };
 
+/// Throws ToolError when a part of groups' names, given as that parameter, has characters that solvers do not accept.
+void check_characters(const std::string& name, const char* parameter);
+
 /// Throws ToolError that names `name` when an operator could not call its groups so.
 void check_name(const Mesh& mesh, const std::string& name, const Naming& naming);
 

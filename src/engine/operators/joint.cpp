@@ -154,6 +154,10 @@ Seamed imprinted(const Mesh& mesh, std::vector<ImprintLine> lines, std::size_t m
                  const Prepared& known) {
     try {
         return imprint_seam(mesh, std::move(lines), m == 1, options, known);
+    } catch (const QualityError& error) {
+        const std::string text = error.what(), mesh_is = "the mesh already has";
+        if (m == 0 || !text.starts_with(mesh_is)) throw;
+        throw QualityError("the addition already has" + text.substr(mesh_is.size()), "other");
     } catch (const UnsupportedElementError& error) {
         const std::string text = error.what();
         const std::size_t verb = text.find(" reaches "), end = text.find(';');

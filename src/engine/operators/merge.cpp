@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
 #include "operators/attach.h"
+#include "operators/driver.h"
 #include "operators/joint.h"
 #include "operators/merge_checks.h"
 #include "operators/merge_report.h"
@@ -85,6 +87,7 @@ public:
         if (!refined_[m]) return;
         const Report& first = refined_[m]->report;
         report.warnings.insert(report.warnings.begin(), first.warnings.begin(), first.warnings.end());
+        for (std::string& warning : report.warnings) speak_of_meshes(warning, m);
         if (!is_refined(m)) return;
         report.refinement = refined_[m]->summary;
         report.nodes_added += first.nodes_added;
@@ -93,6 +96,18 @@ public:
     }
 
 private:
+    /// There is no tool here, nor an option to refine.
+    static void speak_of_meshes(std::string& warning, std::size_t m) {
+        const std::string tool = "the tool is finer than the mesh", option = " elements. refine=";
+        const std::size_t end = warning.find(option);
+        if (!warning.starts_with(tool) || end == std::string::npos) return;
+        const std::string finer =
+            m == 0 ? "the addition is finer than the mesh" : "the mesh is finer than the addition";
+        warning = finer + warning.substr(tool.size(), end + 9 - tool.size());
+        if (const std::size_t near = warning.find("near the tool"); near != std::string::npos)
+            warning.replace(near, 13, "where they meet");
+    }
+
     bool is_refined(std::size_t m) const { return refined_[m] && !refined_[m]->tried_in_vain; }
 
     std::array<const Mesh*, 2> meshes_;
@@ -154,16 +169,19 @@ void check_overlap(const Mesh& mesh, const Mesh& addition) {
                         "other");
 }
 
-/// Throws ToolError when a group that the operator makes has a name already.
+/// Throws ToolError when a group that the operator makes has a name already, or none that solvers accept.
 void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name, bool tie) {
     const std::vector<const char*> made =
         tie ? std::vector{"_TIE_MESH", "_TIE_ADDED", "_ADDED"} : std::vector{"_SEAM", "_ADDED"};
-    for (const char* suffix : made)
-        for (const Mesh* m : {&mesh, &addition})
-            if (m->find_group(name + suffix))
-                throw ToolError("name '" + name + "' is taken: " + (m == &mesh ? "the mesh" : "the addition") +
-                                    " already has a group '" + name + suffix + "'; choose another",
-                                "name");
+    for (const char* suffix : made) {
+        Naming naming;
+        naming.front = name + suffix;
+        check_name(mesh, name, naming);
+        if (addition.find_group(naming.front))
+            throw ToolError(
+                "name '" + name + "' is taken: the addition already has a group '" + naming.front + "'; choose another",
+                "name");
+    }
 }
 
 /// The report on the mesh, with what the addition brings.
@@ -211,6 +229,23 @@ United unite_shells(Joint& joint, const MergeOptions& options) {
     return out;
 }
 
+/// Says which borders of groups are uneven now, as elements were filled in across them.
+void warn_of_borders(const Mesh& fitted, const CrossedBorders& borders, const std::string& whose, United& out) {
+    const auto names = [&](const std::set<GroupIndex>& groups) {
+        std::string text;
+        for (const GroupIndex g : groups) text += (text.empty() ? "'" : ", '") + fitted.groups[g].name + "'";
+        return text;
+    };
+    if (!borders.groups.empty())
+        out.warnings.push_back(whose + "the border of " + names(borders.groups) +
+                               " runs through where elements were filled in, as near " + point_text(borders.at) +
+                               ", and is uneven there: what fills is in the groups of what was nearest before");
+    if (borders.lost > 0)
+        out.warnings.push_back(whose + std::to_string(borders.lost) + " face(s) of " + names(borders.faces) +
+                               " are gone, as near " + point_text(borders.at) +
+                               ": they lay inside, between elements that gave way to what was filled in");
+}
+
 /// One of the two is fitted to the other's skin where they meet.
 United unite_solids(Joint& joint, double tolerance, const MergeOptions& options) {
     const std::size_t base = options.keep_addition ? 1 : 0, fitted = 1 - base;
@@ -236,6 +271,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         for (const std::string& group : emptied_groups(joint.mesh(1), refilled.mesh))
             out.warnings.push_back("the addition: group '" + group +
                                    "' is empty now: all that it had is where the two meet");
+        warn_of_borders(joint.mesh(1), refilled.borders, "the addition: ", out);
         out.mesh = std::move(joint.mesh(0));
         out.worst = refilled.worst;
         unite(out.mesh, refilled.mesh, refilled.partner, add_group_added(out.mesh, options), names_of(options));
@@ -248,6 +284,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         renew_surface_sets(refilled.mesh, marks.surface_sets, *solver_input(input), refilled.added);
     out.warnings = warnings_of(carry_deck(input, refilled.mesh, refilled.changes), options.strict);
     remove_marks(refilled.mesh);
+    warn_of_borders(input, refilled.borders, "", out);
     out.worst = refilled.worst;
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (Index n = 0; n < refilled.mesh.node_count(); ++n)
@@ -371,6 +408,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     Stopwatch::Time started = Stopwatch::now();
     check(mesh, other, options);
     check_names(mesh, other, options.name, options.tie);
+    check_characters(options.prefix, "prefix");
     if (options.tie) return tie(mesh, other, options);
     Mesh addition = is_second_order(mesh) ? to_second_order(other) : to_first_order(other);
     const std::vector<std::string> left_out = reduce_to_sections(mesh, addition);
@@ -405,6 +443,7 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         out.report.warnings.push_back(text.str());
     }
     warn_of_sections(mesh, out.mesh, options.name + "_ADDED", out.report);
+    if (!solids && mesh.dimension() == 3) warn_of_inside(mesh, out.mesh, options.name + "_ADDED", out.report);
     if (solids) warn_of_buried(out.mesh, options.name + "_ADDED", out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;

@@ -241,6 +241,31 @@ void warn_of_buried(const Mesh& result, const std::string& added, Report& report
                                   "there, as a pressure, it still does. Take them out of the group if it should not");
 }
 
+void warn_of_inside(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report) {
+    const GroupIndex group = *result.find_group(added, GroupKind::element);
+    const std::vector<SurfaceFace> skin = surface_near(mesh, box_around(mesh));
+    if (skin.empty()) return;
+    const SurfaceTree tree(mesh, skin);
+    const Box box = box_around(mesh);
+    Index inside = 0;
+    Vec3 first = Vec3::Zero();
+    SparseCheck check(64);
+    for (const CellBlock& b : result.blocks()) {
+        if (traits(b.type).dimension != 2) continue;
+        for (Index c = 0; c < b.size(); ++c, check()) {
+            if (!result.families.contains(b.families[c], group)) continue;
+            const Vec3 centre = centre_of(result, {b.type, c});
+            if (!box.contains(centre) || tree.signed_distance(centre) >= 0) continue;
+            if (inside++ == 0) first = centre;
+        }
+    }
+    if (inside > 0)
+        report.warnings.push_back(std::to_string(inside) + " elements of the addition are inside the solid, as at " +
+                                  point_text(first) +
+                                  ": they have no nodes in common with it but along its skin, and do not hold to it "
+                                  "there. keep_side, a point outside, leaves them off");
+}
+
 std::vector<std::string> emptied_groups(const Mesh& before, const Mesh& after) {
     const std::vector<Index> then = sizes(before), now = sizes(after);
     std::vector<std::string> out;

@@ -30,6 +30,9 @@ void check_other_elements(const Mesh& mesh, const Mesh& addition);
 /// Warns of groups that have faces between the elements of the group `added` and others, which were on the skin.
 void warn_of_buried(const Mesh& result, const std::string& added, Report& report);
 
+/// Warns of elements of the group `added`, shells joined to a solid, that are inside it.
+void warn_of_inside(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report);
+
 /// Names of groups with members in the one mesh, and none in the other, where they are called the same.
 std::vector<std::string> emptied_groups(const Mesh& before, const Mesh& after);
 

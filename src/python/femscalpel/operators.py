@@ -352,7 +352,8 @@ def merge(
         Prefix of the new groups: ``name_SEAM``, the nodes that the two share, and ``name_ADDED``, the addition's
         elements.
     keep : {"mesh", "addition"}
-        Which of two solids that overlap stays as it is; the overlap is cut off the other.
+        Which of two solids that overlap or touch stays as it is; the overlap is cut off the other, and its elements
+        behind the contact are made anew: a border of groups that runs through these becomes uneven, which is reported.
     tolerance : float, optional
         What is nearer than this to the other's surface touches it, and is moved there. A tenth of the shorter mean
         edge length when not given.
