@@ -26,7 +26,10 @@ TEST(FaceNodes, FollowTheTriangles) {
     const Mesh before = with_groups();
     Result result;
     result.mesh = before;
-    result.report.groups.push_back({.name = "NODES", .kind = GroupKind::node, .count_before = 3, .count_after = 3});
+    GroupRecord nodes;
+    nodes.name = "NODES";
+    nodes.count_before = nodes.count_after = 3;
+    result.report.groups.push_back(nodes);
     // The face got a node more, of another family.
     const Index born = result.mesh.add_node({0.5, 0.5, 0}, 5, 0);
     const FamilyIndex face = result.mesh.families.with(0, *result.mesh.find_group("FACE", GroupKind::element));

@@ -62,8 +62,12 @@ TEST(Reshape, OnlyTheBandChanges) {
         for (Index n = 0; n < mesh.node_count(); ++n) {
             EXPECT_EQ(result.mesh.node_ids[n], mesh.node_ids[n]);
             same += result.mesh.points[n] == mesh.points[n];
-            if (mesh.points[n].x() < 5) EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
-            if (mesh.points[n].x() == 12) EXPECT_EQ(result.mesh.points[n].x(), 13.5);
+            if (mesh.points[n].x() < 5) {
+                EXPECT_EQ(result.mesh.points[n], mesh.points[n]);
+            }
+            if (mesh.points[n].x() == 12) {
+                EXPECT_EQ(result.mesh.points[n].x(), 13.5);
+            }
         }
         EXPECT_EQ(result.report.nodes_moved, mesh.node_count() - same);
         EXPECT_EQ(checks::members(result.mesh, "SHAPE_WALL", GroupKind::node),

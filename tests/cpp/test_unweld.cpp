@@ -92,7 +92,8 @@ TEST(Unweld, WhatMovesAndIsBornDoesSoOnBothSides) {
     ASSERT_EQ(changes.born.size(), 2u);
     EXPECT_EQ(changes.born[1].node, 101);
     EXPECT_THAT(changes.born[1].ancestors, ElementsAre(11, 12));
-    EXPECT_THAT(changes.born[1].shares, ElementsAre(std::pair<Index, double>(11, 0.5), std::pair<Index, double>(12, 0.5)));
+    EXPECT_THAT(changes.born[1].shares,
+                ElementsAre(std::pair<Index, double>(11, 0.5), std::pair<Index, double>(12, 0.5)));
     EXPECT_THAT(out.partners.at(100), ElementsAre(101));
 }
 

@@ -11,6 +11,8 @@
 namespace femscalpel {
 namespace {
 
+using checks::grid;
+
 /// A box of tetrahedra, parted at x = 5 by a crack.
 Mesh parted() {
     CrackOptions options;
@@ -25,8 +27,11 @@ TEST(WeldFirst, OnlyWhereThereIsSomethingNear) {
     const WeldFirst weld(mesh, {});
     ASSERT_TRUE(weld);
     const Plane near({5.2, 0, 0}, {1, 0.3, 0}), far({500, 0, 0}, {1, 0, 0});
-    EXPECT_TRUE(weld.is_near(std::vector<Blade>{{.tool = &near}}));
-    EXPECT_FALSE(weld.is_near(std::vector<Blade>{{.tool = &far}}));
+    std::vector<Blade> blades(1);
+    blades[0].tool = &near;
+    EXPECT_TRUE(weld.is_near(blades));
+    blades[0].tool = &far;
+    EXPECT_FALSE(weld.is_near(blades));
 }
 
 TEST(WeldFirst, ACrackAcrossAnEarlierOneMatchesNodeForNode) {
@@ -34,7 +39,8 @@ TEST(WeldFirst, ACrackAcrossAnEarlierOneMatchesNodeForNode) {
     const Result result = crack(mesh, Plane({5, 2, 2}, {0.2, 1, 0.3}), {});
     EXPECT_GT(result.report.welded_pairs, 10);
     EXPECT_EQ(result.report.seconds.front().first, "weld");
-    for (const std::string& w : result.report.warnings) EXPECT_THAT(w, testing::Not(testing::HasSubstr("lie on each other")));
+    for (const std::string& w : result.report.warnings)
+        EXPECT_THAT(w, testing::Not(testing::HasSubstr("lie on each other")));
     // Each node of the old lips has one of the other lip at its place.
     std::map<std::array<double, 3>, std::array<int, 2>> at;
     for (int side = 0; side < 2; ++side) {

@@ -22,6 +22,7 @@
 #include "operators/driver.h"
 #include "operators/edit.h"
 #include "operators/warnings.h"
+#include "operators/weld_first.h"
 
 namespace femscalpel {
 namespace {
@@ -213,16 +214,11 @@ Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, 
     return report;
 }
 
-}  // namespace
-
-Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Prepared& known) {
+/// On a mesh whose double nodes, if any, are single.
+Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Naming& naming,
+                  const Prepared& known) {
     Laps seconds;
     Stopwatch watch(seconds);
-    check(options);
-    Naming naming;
-    naming.front = options.name + "_WALL";
-    check_name(input, options.name, naming);
-    (void)drifting_groups(input, options.preserve);  // whose names may be unknown
     Covered covered = covered_by(input, find(input, group));
     WallMotion motion = motion_of(options);
     watch.lap("locate");
@@ -251,9 +247,31 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
     Result result{{}, report_of(edit, options, f, edited)};
     result.mesh = std::move(edited.rebuilt.mesh);
-    remove_marks(result.mesh);
+    if (known.stages)
+        known.stages->push_back(std::move(edited.rebuilt.changes));
+    else
+        remove_marks(result.mesh);
     watch.lap("report");
     result.report.seconds = seconds.list();
+    return result;
+}
+
+}  // namespace
+
+Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Prepared& known) {
+    check(options);
+    Naming naming;
+    naming.front = options.name + "_WALL";
+    check_name(input, options.name, naming);
+    (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    const Stopwatch::Time started = Stopwatch::now();
+    WeldFirst weld(input, known);
+    if (!weld) return reshape_on(input, group, options, naming, known);
+    const double welding = Stopwatch::since(started);
+    Result result = reshape_on(weld.mesh(), group, options, naming, weld.known());
+    const Stopwatch::Time done = Stopwatch::now();
+    (void)weld.finish(result, options.strict);
+    result.report.seconds.insert(result.report.seconds.begin(), {"weld", welding + Stopwatch::since(done)});
     return result;
 }
 
