@@ -70,7 +70,7 @@ public:
             r.surroundings = std::make_unique<Surroundings>(*r.path, r.reach);
         }
         check_apart();
-        for (const Rounding& r : roundings_)
+        for (Rounding& r : roundings_)
             for (const int side : {0, 1}) add_wall(r, side);
         for (const Rounding& r : roundings_)
             for (const int which : {0, 1})
@@ -214,7 +214,8 @@ private:
     void find_edges(const Mesh& mesh, const Along& along, double radius) {
         const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
         const std::vector<FeatureLine> lines = find_feature_lines(mesh, along, options_.feature_angle);
-        vertices_ = find_vertices(mesh, lines, skin);
+        const SkinPlanes planes(mesh, skin);
+        vertices_ = find_vertices(mesh, lines, skin, &planes);
         std::vector<const FilletPath*> paths;
         for (std::size_t k = 0; k < lines.size(); ++k) {
             FilletEnds ends{line_ends(mesh, lines[k], skin)};
@@ -224,7 +225,8 @@ private:
                     ends.kind[m.which] = LineEnd::joined;
                     ends.to_centre[m.which] = v.to_centre;
                 }
-            roundings_.push_back({std::make_unique<FilletPath>(mesh, lines[k], radius, skin, ends), 0, nullptr});
+            roundings_.push_back(
+                {std::make_unique<FilletPath>(mesh, lines[k], radius, skin, ends, &planes), 0, nullptr});
             paths.push_back(roundings_.back().path.get());
             if (lines[k].extended)
                 warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
@@ -241,8 +243,23 @@ private:
         });
     }
 
+    /// Whether a straight edge's wall is that of another edge.
+    static bool is_wall(const FilletPath& path, int side, const FilletPath& other, const Tool& others) {
+        if (&path == &other || !path.is_straight()) return false;
+        const Vec2 &p = path.tangent_point(side), &q = path.normal(side);
+        return std::ranges::all_of(
+            std::array{path.at(path.begin(), p), path.at(path.end(), p), path.at(path.begin(), p + path.radius() * q)},
+            [&](const Vec3& x) {
+                // Rounded coordinates tell the less of where a wall is, the farther it is from its edge.
+                const double off = 1e-9 * (path.length() + path.radius()) + 2 * path.sag() +
+                                   path.face_slack() * path.place(x).p.norm() +
+                                   other.face_slack() * other.place(x).p.norm();
+                return std::abs(others.distance(x)) <= off && others.normal(x).dot(path.wall(side).normal(x)) > 0.999;
+            });
+    }
+
     /// A surface to be cut along. Those of edges that meet may be one: nodes lie on three at most.
-    void add_wall(const Rounding& r, int side) {
+    void add_wall(Rounding& r, int side) {
         const FilletPath& path = *r.path;
         const auto bound = [&path, reach = r.reach, side, shallow = ends_at_slant(path)](const Vec3& x) {
             const double across = std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
@@ -250,19 +267,10 @@ private:
             // Six walls would meet in the ball's centre: they part what is near the skin, and no more.
             return std::max(across, 5 * std::abs(path.place(x).p.dot(path.normal(side))));
         };
-        const auto same = [&](const Blade& blade) {
-            if (roundings_.size() == 1 || !path.is_straight()) return false;
-            const Vec2 &p = path.tangent_point(side), &q = path.normal(side);
-            const double off = 1e-9 * (path.length() + path.radius());
-            return std::ranges::all_of(std::array{path.at(path.begin(), p), path.at(path.end(), p),
-                                                  path.at(path.begin(), p + path.radius() * q)},
-                                       [&](const Vec3& x) {
-                                           return std::abs(blade.tool->distance(x)) <= off &&
-                                                  blade.tool->normal(x).dot(path.wall(side).normal(x)) > 0.999;
-                                       });
-        };
-        const auto found = std::ranges::find_if(blades_, same);
+        const auto found = std::ranges::find_if(
+            blades_, [&](const Blade& blade) { return is_wall(path, side, *owners_[blade.tag], *blade.tool); });
         if (found != blades_.end()) {
+            r.path->use_wall(side, *found->tool);
             found->inside.clear();
             found->bound = [first = found->bound, bound](const Vec3& x) { return std::min(first(x), bound(x)); };
             return;
@@ -271,6 +279,7 @@ private:
         Blade blade{&path.wall(side), bound, {}, static_cast<int>(blades_.size())};
         if (side == 1) blade.inside.push_back(&path.wall(0));
         blades_.push_back(std::move(blade));
+        owners_.push_back(&path);
     }
 
     /// The skin beside the edge is parted where its rounding stops.
@@ -338,7 +347,7 @@ private:
     void find_corners(const Mesh& mesh, const Along& along, double radius) {
         for (const OutlineCorner& c : find_outline_corners(mesh, along, options_.feature_angle)) {
             const Vec3& at = mesh.points[c.node];
-            Rounding r{std::make_unique<FilletPath>(at, c.normal, c.along, c.convex, radius), 0, nullptr};
+            Rounding r{std::make_unique<FilletPath>(mesh, at, c.normal, c.along, c.convex, radius), 0, nullptr};
             if (r.path->tangent_length() > 0.999 * std::min(c.room[0], c.room[1])) {
                 std::ostringstream message;
                 message << "radius: " << radius << " is too large for the corner at (" << at.transpose()
@@ -356,6 +365,7 @@ private:
     std::vector<Rounding> roundings_;
     std::vector<FilletVertex> vertices_;
     std::vector<Blade> blades_, surroundings_;
+    std::vector<const FilletPath*> owners_;  // of the walls among the blades
     std::vector<std::string> warnings_;
 };
 

@@ -110,7 +110,8 @@ private:
     Section end_section(int which);
     Section end_on_face(int which);
     Vec3 plane_at(int corner) const;
-    double off_plane() const { return 1e-7 * (path_.radius() + path_.length()); }
+    Vec3 plane_of(const std::vector<Triangle>& faces, int node, const Vec3& about) const;
+    double off_plane() const { return 1e-7 * (path_.radius() + path_.length()) + 4 * m_.slack().off(); }
     int skin_part(Section& section, int side, int domain);
     Section end_in_wall(int which);
     Section open_end(int which);
