@@ -22,6 +22,8 @@ namespace {
 
 using SkinTriangle = std::array<Index, 3>;
 
+/// Faces whose normals are so far along a line lie across it.
+constexpr double across = 0.3;
 /// Two edges of a line that turns by more are not one line: a circle of eight segments still is.
 const double largest_turn = std::cos(50 * std::numbers::pi / 180);
 
@@ -264,13 +266,13 @@ LineEnd line_end(const Mesh& mesh, const std::vector<SkinTriangle>& around, Inde
     Facing plane, wall;
     for (const SkinTriangle& f : around) {
         const Facing here = facing(f);
-        Facing& across = here.normal.dot(onwards) > 0 ? plane : wall;
-        if (std::abs(here.normal.dot(onwards)) >= 0.3 && (!across.is_found() || here.off < across.off)) across = here;
+        Facing& known = here.normal.dot(onwards) > 0 ? plane : wall;
+        if (std::abs(here.normal.dot(onwards)) >= across && (!known.is_found() || here.off < known.off)) known = here;
     }
     bool runs_out = plane.is_found(), stands = wall.is_found();
     for (const SkinTriangle& f : around) {
         const Facing here = facing(f);
-        runs_out = runs_out && (here.normal.dot(onwards) < 0.3 || here.is(plane));
+        runs_out = runs_out && (here.normal.dot(onwards) < across || here.is(plane));
         stands = stands && (here.is(wall) || std::ranges::any_of(beside, [&](const SkinTriangle& b) {
                                 return (here.normal - normal(mesh, b)).norm() <= 0.1;
                             }));
@@ -306,6 +308,24 @@ std::array<LineEnd, 2> line_ends(const Mesh& mesh, const FeatureLine& line,
         out[which] = line_end(mesh, around, node, before, which == 0 ? line.faces.front() : line.faces.back());
     }
     return out;
+}
+
+std::optional<std::array<Index, 3>> wall_at_end(const Mesh& mesh, const FeatureLine& line, int which,
+                                                const std::vector<std::array<Index, 3>>& skin) {
+    const CoordinateSlack slack(mesh);
+    const std::size_t last = line.nodes.size() - 1;
+    const Index node = line.nodes[which == 0 ? 0 : last], before = line.nodes[which == 0 ? 1 : last - 1];
+    const Vec3 onwards = (mesh.points[node] - mesh.points[before]).normalized();
+    std::optional<SkinTriangle> best;
+    double least = 0;
+    for (const SkinTriangle& f : skin) {
+        if (std::ranges::find(f, node) == f.end() || normal(mesh, f).dot(onwards) > -across) continue;
+        const double off = slack.normal(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]);
+        if (best && off >= least) continue;
+        best = f;
+        least = off;
+    }
+    return best;
 }
 
 std::vector<FeatureLine> find_feature_lines(const Mesh& mesh, const Along& along, double feature_angle) {

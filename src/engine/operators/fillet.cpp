@@ -211,6 +211,11 @@ private:
         }
     }
 
+    /// The normal of a face into the material, which is out of an edge that ends at it.
+    static Vec3 out_of_edge(const Mesh& mesh, const std::array<Index, 3>& f) {
+        return (mesh.points[f[2]] - mesh.points[f[0]]).cross(mesh.points[f[1]] - mesh.points[f[0]]).normalized();
+    }
+
     void find_edges(const Mesh& mesh, const Along& along, double radius) {
         const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
         const std::vector<FeatureLine> lines = find_feature_lines(mesh, along, options_.feature_angle);
@@ -219,6 +224,12 @@ private:
         std::vector<const FilletPath*> paths;
         for (std::size_t k = 0; k < lines.size(); ++k) {
             FilletEnds ends{line_ends(mesh, lines[k], skin)};
+            for (const int which : {0, 1}) {
+                if (ends.kind[which] != LineEnd::wall) continue;
+                const auto wall = wall_at_end(mesh, lines[k], which, skin);
+                const auto plane = wall ? planes.of(*wall) : std::nullopt;
+                if (wall) ends.normal[which] = plane ? Vec3(-plane->normal) : out_of_edge(mesh, *wall);
+            }
             for (const FilletVertex& v : vertices_)
                 for (const auto& m : v.members) {
                     if (m.edge != k) continue;

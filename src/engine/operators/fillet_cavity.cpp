@@ -22,6 +22,7 @@ double FilletCavity::replace(int tag, int more) {
     for (FilletRun& run : runs_) run.find_sections();
     keep_other_borders();
     for (FilletRun& run : runs_) run.find_rows();
+    for (FilletRun& run : runs_) run.put_rows_on_ball();
     for (const FilletVertex& vertex : vertices_) check_domains(vertex);
     make_arcs(more);
     for (FilletRun& run : runs_) run.make_faces();

@@ -242,8 +242,8 @@ bool FilletMaterial::is_rounded_off(int v) const {
 /// Whether an element has a face that the new material's end, or that of what is rounded off, parts.
 bool FilletMaterial::meets_end(int tetra, std::span<const FilletReach> edges) const {
     const auto parted = [&](const FilletPath& path, const Tool& end, const Triangle& face) {
-        if (std::ranges::any_of(face, [&](int v) { return std::abs(end.distance(at(v))) > 10 * f_.tolerance; }))
-            return false;
+        const double off = 10 * f_.tolerance + 4 * slack_.off();
+        if (std::ranges::any_of(face, [&](int v) { return std::abs(end.distance(at(v))) > off; })) return false;
         const Vec2 p = path.place(middle(face)).p;
         const bool outside = p.dot(path.normal(0)) > 0 && p.dot(path.normal(1)) > 0;
         if (!path.convex()) return outside;

@@ -58,13 +58,14 @@ private:
     const FilletPath& path_;
 };
 
-/// Across the edge at an end.
+/// Across the edge at an end, in a plane whose normal is given if that is not at a right angle.
 class EndPlane final : public Tool {
 public:
-    EndPlane(const FilletPath& path, int which) {
+    EndPlane(const FilletPath& path, int which, const Vec3& normal) {
         const double s = which == 0 ? path.begin() : path.end(), step = (which == 0 ? -1 : 1) * path.mean_edge() / 4;
         origin_ = path.at(s, Vec2::Zero());
-        normal_ = (path.at(s + step, Vec2::Zero()) - path.at(s - step, Vec2::Zero())).normalized();
+        normal_ =
+            normal.isZero() ? (path.at(s + step, Vec2::Zero()) - path.at(s - step, Vec2::Zero())).normalized() : normal;
     }
     std::string kind() const override { return "plane"; }
     double distance(const Vec3& x) const override { return normal_.dot(x - origin_); }
@@ -92,7 +93,7 @@ FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
         if (closed_) break;
         if (ends_[which] == LineEnd::open) stop_at_corner(which, near);
         if (ends_[which] == LineEnd::joined) cut_back_at(which, ends.to_centre[which]);
-        end_planes_[which] = std::make_unique<EndPlane>(*this, which);
+        end_planes_[which] = std::make_unique<EndPlane>(*this, which, ends.normal[which]);
     }
     check_room(near);
 }
@@ -205,11 +206,11 @@ FilletPath::Piece FilletPath::fitted(const Piece& arc, std::span<const Vec3> poi
     return {centre_3d + radius * out, normal_3d_.cross(outwards), arc.curvature > 0 ? 1 / radius : -1 / radius, 0, 0};
 }
 
-/// Whether points lie on the arc through the first of them, that in the middle, and the last.
+/// Whether points lie on an arc.
 bool FilletPath::lie_on_arc(std::span<const Vec3> points) const {
-    const Piece arc = arc_through(points.front(), points[(points.size() - 1) / 2], points.back());
-    const Vec3 centre = points.front() - right(arc) / arc.curvature;
+    const Piece arc = fitted(arc_through(points[0], points[1], points[2]), points);
     const double radius = 1 / std::abs(arc.curvature);
+    const Vec3 centre = arc.start - right(arc) / arc.curvature;
     return std::ranges::all_of(points, [&](const Vec3& x) {
         return std::abs((x - centre).norm() - radius) <= 1e-4 * radius + 4 * slack_.off();
     });

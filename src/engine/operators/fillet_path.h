@@ -19,6 +19,8 @@ namespace femscalpel {
 /// How an edge that is rounded ends at its beginning and end.
 struct FilletEnds {
     std::array<LineEnd, 2> kind{LineEnd::plane, LineEnd::plane};
+    /// Of the plane face at a wall, out of the edge.
+    std::array<Vec3, 2> normal{Vec3::Zero(), Vec3::Zero()};
     /// Where it is joined to others: FilletVertex::to_centre.
     std::array<Vec3, 2> to_centre{Vec3::Zero(), Vec3::Zero()};
 };

@@ -53,8 +53,10 @@ public:
 
     /// Takes what is across the edge out of the material's skin and borders. Throws QualityError where it cannot.
     void find_sections();
-    /// Finds the tangent lines on the skin, and moves them onto the ball where facets have them off it.
+    /// Finds the tangent lines on the skin.
     void find_rows();
+    /// Moves them onto the ball where facets have them off it. To be called when all edges have found theirs.
+    void put_rows_on_ball();
     /// Into how many parts the arc should be divided.
     int wanted_divisions() const;
     /// Whether the arc is divided in its middle.
@@ -134,7 +136,6 @@ private:
 
     Row find_row(int side) const;
     void place_in_rows(Section& section) const;
-    void put_rows_on_ball();
 
     double on_plane(const Vec2& p, const Section& section) const;
     void make_arc(Section& section);

@@ -157,7 +157,6 @@ void FilletRun::check_strips() const {
 void FilletRun::find_rows() {
     for (const int side : {0, 1}) rows_[side] = find_row(side);
     for (Section& section : sections_) place_in_rows(section);
-    put_rows_on_ball();
 }
 
 /// Where the outlines of what goes of a section leave the skin beside the edge.
