@@ -45,6 +45,18 @@ Eigen::Matrix3d directions_across(const std::vector<Vec3>& normals) {
     return out;
 }
 
+/// The tool of another patch on which one goes, too: of a plane that groups part, rounded coordinates make planes that
+/// differ a little, and no node could be on both.
+const Tool* known_tool(const WallMotion& motion, const SurfaceSample& sample, double tolerance) {
+    for (const auto& tool : motion.own) {
+        if (!tool) continue;
+        const bool lies_on = std::ranges::all_of(
+            sample.points, [&](const Vec3& x) { return std::abs(tool->distance(motion.carried(x))) <= tolerance; });
+        if (lies_on) return tool.get();
+    }
+    return nullptr;
+}
+
 }  // namespace
 
 void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
@@ -65,8 +77,11 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
             const int t = f.d.band.triangles.around(g.segments[wall.patches[k].parts[0]].node[0])[0];
             double_across(sample, f.d.shell_normals[t], g.size);
         }
-        motion.own.push_back(fitted_tool(sample.points, sample.normals, tolerance, motion.carried));
-        motion.tools[k] = motion.own.back().get();
+        motion.tools[k] = g.rounding > 0 ? known_tool(motion, sample, 2 * tolerance) : nullptr;
+        if (!motion.tools[k]) {
+            motion.own.push_back(fitted_tool(sample.points, sample.normals, tolerance, motion.carried));
+            motion.tools[k] = motion.own.back().get();
+        }
         if (!motion.tools[k]) {
             normals.insert(normals.end(), sample.normals.begin(), sample.normals.end());
             continue;
