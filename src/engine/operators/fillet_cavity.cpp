@@ -107,8 +107,8 @@ void FilletCavity::keep_other_borders() {
     material_.skin.clear();
 }
 
-/// Where all nodes of a face inside are of one node group, it is kept as if the group had it, until it is given up here.
-/// False where elements or facets lie on it.
+/// Where all nodes of a face inside are of one node group, it is kept as if the group had it, until it is given up
+/// here. False where elements or facets lie on it.
 bool FilletCavity::drop_faces_of_nodes(const Triangle& face) {
     BandMesh& band = f_.d.band;
     if (band.triangles.find(face) >= 0 || band.facet_faces.find(face) >= 0) return false;

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -13,6 +14,9 @@
 
 namespace femscalpel {
 namespace {
+
+/// A tangent line's radius about an axis must be this part of its distance from the edge, so that elements go around.
+constexpr double axis_margin = 0.05;
 
 [[noreturn]] void refuse(const std::string& text, const Vec3& near, const char* parameter) {
     std::ostringstream message;
@@ -395,7 +399,7 @@ FilletPath::SkinNear FilletPath::skin_near(const Mesh& mesh, const std::vector<s
         for (const int side : {0, 1})
             for (const double part : {0.0, 1.1})
                 box.extend(at(begin_ + length() * k / (2.0 * places), part * tangent_point(side)));
-    const double margin = room_margin();
+    const double margin = std::max(room_margin(0), room_margin(1));
     box.min().array() -= 2 * margin;
     box.max().array() += 2 * margin;
     SkinNear near;
@@ -426,7 +430,7 @@ void FilletPath::stop_at_corner(int which, const SkinNear& near) {
     const auto fits = [&](double s) {
         return std::ranges::all_of(std::array{0, 1}, [&](int side) {
             return std::ranges::all_of(std::array{0.4, 0.7, 1.0, 1.1},
-                                       [&](double part) { return off_face(near, side, s, part) <= room_margin(); });
+                                       [&](double part) { return off_face(near, side, s, part) <= room_margin(side); });
         });
     };
     const double end = which == 0 ? begin_ : end_, inwards = which == 0 ? 1 : -1, tiny = 0.02 * mean_edge_,
@@ -459,7 +463,10 @@ void FilletPath::cut_back_at(int which, const Vec3& to_centre) {
 
 /// Each face must be found under the tangent point, at some places along the edge.
 void FilletPath::check_room(const SkinNear& near) const {
-    const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
+    // A round face may be too narrow for a part of the edge only.
+    const double fineness = is_straight() ? 1 : 3;
+    const int places =
+        std::clamp(static_cast<int>(fineness * length() / mean_edge_), 4, static_cast<int>(64 * fineness));
     const double begin = begin_ + std::max(0.0, cut_back_[0]), end = end_ - std::max(0.0, cut_back_[1]);
     if (end - begin < 0.02 * length())
         refuse("too large for an edge between corners, whose roundings would meet", at((begin + end) / 2, Vec2::Zero()),
@@ -467,19 +474,62 @@ void FilletPath::check_room(const SkinNear& near) const {
     for (int k = 0; k < places; ++k)
         for (const int side : {0, 1}) {
             const double s = begin + (end - begin) * (k + 0.5) / places;
-            const bool past_axis = std::ranges::any_of(
-                pieces_, [&](const Piece& q) { return 1 + q.curvature * 1.02 * tangent_point(side).x() <= 0; });
-            if (past_axis)
-                refuse("too large for a face beside the edge: the tangent line passes the axis", at(s, Vec2::Zero()),
-                       "radius");
+            if (tangent_radius(side) < axis_margin * tangent_length_) refuse_axis(side, at(s, Vec2::Zero()));
             // Seen a little beyond the tangent line: a face must not end at it.
-            if (off_face(near, side, s, 1.02) > room_margin()) {
-                std::ostringstream text;
-                text << radius_ << " is too large for a face beside the edge, which ends, or is not what it is at the "
-                     << "edge, before the distance of " << tangent_length_ << " at which it would be touched";
-                refuse(text.str(), at(s, Vec2::Zero()), "radius");
-            }
+            if (off_face(near, side, s, 1.02) > room_margin(side)) refuse_room(near, begin, end, places);
         }
+}
+
+double FilletPath::tangent_radius(int face) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Piece& q : pieces_)
+        if (q.curvature != 0) {
+            const double from_axis = 1 + q.curvature * tangent_point(face).x();
+            least = std::min(least, std::max(0.0, from_axis) / std::abs(q.curvature));
+        }
+    return least;
+}
+
+/// How far a face may seem to be off where it is: a plane one across the axis of an arc has no facets beside it.
+double FilletPath::room_margin(int side) const {
+    const bool is_flat = std::abs(along_face_[side].y()) < 1e-6;
+    return 2 * (is_flat ? 2 * slack_.off() : sag_) + 1e-3 * tangent_length_;
+}
+
+void FilletPath::refuse_axis(int side, const Vec3& near) const {
+    // Where the tangent line's radius is as large as is wanted.
+    double largest = radius_;
+    for (const Piece& q : pieces_)
+        if (const double inwards = -q.curvature * along_face_[side].x(); inwards > 0)
+            largest = std::min(largest, radius_ / (tangent_length_ * (inwards + axis_margin * std::abs(q.curvature))));
+    std::ostringstream text;
+    text << radius_ << " is too large for a face beside the edge, which is round: the line where it would be touched "
+         << "comes too near the axis. There is room for about " << std::setprecision(3) << largest << ",";
+    refuse(text.str(), near, "radius");
+}
+
+/// Where there is least room.
+void FilletPath::refuse_room(const SkinNear& near, double begin, double end, int places) const {
+    double fits = 1;  // part of the way to the tangent line
+    Vec3 where = at(begin, Vec2::Zero());
+    for (int k = 0; k < places; ++k)
+        for (const int side : {0, 1}) {
+            const double s = begin + (end - begin) * (k + 0.5) / places;
+            const auto is_off = [&](double part) { return off_face(near, side, s, 1.02 * part) > room_margin(side); };
+            if (!is_off(fits)) continue;
+            where = at(s, Vec2::Zero());
+            double low = 0;
+            for (int round = 0; round < 12; ++round) {
+                const double part = (low + fits) / 2;
+                (is_off(part) ? fits : low) = part;
+            }
+            fits = low;
+        }
+    std::ostringstream text;
+    text << radius_ << " is too large for a face beside the edge, which ends, or is not what it is at the edge, before "
+         << "the distance of " << tangent_length_ << " at which it would be touched. There is room for about "
+         << std::setprecision(3) << fits * radius_ << ",";
+    refuse(text.str(), where, "radius");
 }
 
 }  // namespace femscalpel

@@ -71,6 +71,9 @@ public:
     const Vec2& normal(int face) const { return normal_[face]; }
     const Vec2& centre() const { return centre_; }
     double tangent_length() const { return tangent_length_; }
+    /// The smallest radius of the tangent line on a face where it is a circle about an arc's axis; infinite along
+    /// straight edges.
+    double tangent_radius(int face) const;
     /// How far from the edge there is material that goes or comes.
     double rounded_reach() const { return tangent_length_; }
 
@@ -125,7 +128,9 @@ private:
     using SkinNear = std::vector<std::array<Vec3, 3>>;
     SkinNear skin_near(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
     double off_face(const SkinNear& near, int side, double s, double part) const;
-    double room_margin() const { return 2 * sag_ + 1e-3 * tangent_length_; }
+    double room_margin(int side) const;
+    [[noreturn]] void refuse_axis(int side, const Vec3& near) const;
+    [[noreturn]] void refuse_room(const SkinNear& near, double begin, double end, int places) const;
     void stop_at_corner(int which, const SkinNear& near);
     void cut_back_at(int which, const Vec3& to_centre);
     void check_room(const SkinNear& near) const;
