@@ -11,7 +11,7 @@ from rounding_cases import rounded
 from test_fillet import face_points
 
 #: Edges in planes, along circles, in walls, with groups, that meet.
-CASES = [("convex", 0), ("convex", 6), ("concave", 1), ("bordered", 2), ("ended", 2), ("ended", 6), ("corner", 2),
+CASES = [("convex", 0), ("convex", 1), ("concave", 1), ("bordered", 2), ("ended", 2), ("ended", 6), ("corner", 2),
          ("corner", 15), ("wall", 22)]  # fmt: skip
 
 
