@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cutting/planar_mesh.h"
@@ -129,6 +130,7 @@ private:
     SkinNear skin_near(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
     double off_face(const SkinNear& near, int side, double s, double part) const;
     double room_margin(int side) const;
+    [[noreturn]] static void refuse(const std::string& text, const Vec3& near, const char* parameter);
     [[noreturn]] void refuse_axis(int side, const Vec3& near) const;
     [[noreturn]] void refuse_room(const SkinNear& near, double begin, double end, int places) const;
     void stop_at_corner(int which, const SkinNear& near);
