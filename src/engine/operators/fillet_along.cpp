@@ -30,6 +30,7 @@ void FilletRun::find_borders_along() {
         const Vec3 normal = (forwards ? 1 : -1) * m_.normal(border->nodes);
         if (plane.isZero()) {
             std::vector<Triangle> faces;
+            faces.reserve(m_.borders.size());
             for (const Border& b : m_.borders) faces.push_back(b.nodes);
             plane = plane_of(faces, edge_[k], normal);
         }

@@ -70,6 +70,7 @@ int FilletRun::skin_part(Section& section, int side, int domain) {
 /// The normal of the plane faces across the edge at its end.
 Vec3 FilletRun::plane_at(int corner) const {
     std::vector<Triangle> faces;
+    faces.reserve(m_.skin.size());
     for (const Face& face : m_.skin) faces.push_back(face.nodes);
     // What another edge has taken.
     for (const FilletPatch& patch : patches_.all())

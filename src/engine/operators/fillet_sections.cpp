@@ -106,6 +106,7 @@ FilletRun::Section FilletRun::border_at(std::size_t node) {
         if (!border) m_.refuse("several borders meet there", at(section.corner));
         if (section.normal.isZero()) {
             std::vector<Triangle> faces;
+            faces.reserve(m_.borders.size());
             for (const Border& b : m_.borders) faces.push_back(b.nodes);
             set_normal(section, plane_of(faces, section.corner, m_.normal(border->nodes)));
         }
