@@ -26,10 +26,10 @@ TEST(FaceNodes, FollowTheTriangles) {
     const Mesh before = with_groups();
     Result result;
     result.mesh = before;
-    GroupRecord nodes;
-    nodes.name = "NODES";
-    nodes.count_before = nodes.count_after = 3;
-    result.report.groups.push_back(nodes);
+    GroupRecord record;
+    record.name = "NODES";
+    record.count_before = record.count_after = 3;
+    result.report.groups.push_back(record);
     // The face got a node more, of another family.
     const Index born = result.mesh.add_node({0.5, 0.5, 0}, 5, 0);
     const FamilyIndex face = result.mesh.families.with(0, *result.mesh.find_group("FACE", GroupKind::element));

@@ -47,6 +47,12 @@ TEST(CoordinateRounding, IsHalfAUnitOfTheLastSignificantDigit) {
     EXPECT_DOUBLE_EQ(coordinate_rounding(printed(random_points(7), "%.8e")), 0.5e-8);
 }
 
+TEST(CoordinateRounding, IsThatOfTheLargestWhereFewAreSoLarge) {
+    std::vector<Vec3> points = random_points(9);
+    for (int k = 0; k < 8; ++k) points[k].x() = 10.1234567 + 0.013 * k;
+    EXPECT_DOUBLE_EQ(coordinate_rounding(printed(points, "%.5e")), 0.5e-4);
+}
+
 TEST(CoordinateRounding, IsHalfAUnitOfTheLastDecimal) {
     EXPECT_DOUBLE_EQ(coordinate_rounding(printed(random_points(700), "%.4f")), 0.5e-4);
 }

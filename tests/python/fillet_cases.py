@@ -8,6 +8,8 @@ anyhow (test meshes half of the time without their groups), the radius between h
 is room; `bordered` edges, along which and across which groups of elements meet in many ways;
 `ended` ones that end at a wall or in another way; `corner`s of boxes: two or three edges at one, four around a face,
 all twelve; a `hole` whose radius becomes 0.6 to 1.7 times the old; a `wall` that is moved by up to three edge lengths.
+With --digits 6 or --single, meshes are turned anyhow, moved, and rounded to so many significant digits or to single
+precision before, as files have them.
 A result is checked: one part, conforming, positive volumes. Printed: how many were refused; the smallest mean
 ratio, and how many results have at least 0.15 (fillets) or 0.2 or the input's (walls); the farthest node of the new
 face or wall from its surface, in the size of the mesh; the largest error of the volume as a part of what is added
@@ -27,6 +29,7 @@ import femscalpel as fs
 from campaign import case_arguments
 from merge_parts import check_conforming, worst
 from meshes import grid_box, tetra_volumes
+from rounding_cases import rounded
 from test_fillet import l_shape
 from test_reshape import random_hole
 
@@ -36,11 +39,49 @@ CENTROID = (10 - 3 * np.pi) / (12 - 3 * np.pi)  # of that, from either line
 
 
 @dataclasses.dataclass
+class Placement:
+    """Where a mesh is put before something is done to it, and how its coordinates are rounded there."""
+
+    turn: np.ndarray
+    shift: np.ndarray
+    rounding: object = "as they are"
+
+    def point(self, x):
+        return self.turn @ np.asarray(x, float) + self.shift
+
+    def direction(self, x):
+        return self.turn @ np.asarray(x, float)
+
+    def back(self, points):
+        return (points - self.shift) @ self.turn
+
+    def of(self, mesh):
+        if self.rounding == "as they are":
+            return mesh
+        return rounded(moved(mesh, mesh.points @ self.turn.T + self.shift), self.rounding)
+
+    def off(self, mesh):
+        """How far coordinates are off at most."""
+        if self.rounding == "as they are":
+            return 0
+        exact = mesh.points @ self.turn.T + self.shift
+        return np.abs(self.of(mesh).points - exact).max()
+
+
+HERE = Placement(np.eye(3), np.zeros(3))
+
+
+def moved(mesh, points):
+    groups = [(g.name, g.kind, g.ids) for g in mesh.groups.all()]
+    return fs.Mesh(points, mesh.cells, node_ids=mesh.node_ids, cell_ids=mesh.cell_ids, groups=groups)
+
+
+@dataclasses.dataclass
 class Case:
     """A mesh, what is done to it, and what must come out."""
 
     mesh: fs.Mesh
-    run: object  # the operation
+    run: object  # the operation, on the mesh where it is placed
     new_group: str
     distance: object  # of points to the surface
     change: float  # of the volume
@@ -89,8 +130,8 @@ def straight(mesh, start, end, first, second, room, sign, rng):
         return np.linalg.norm(way - np.outer(way @ along, along), axis=1) - radius
 
     change = sign * CORNER * radius**2 * length
-    point = tuple(start + rng.uniform(0.2, 0.8) * (end - start))
-    return Case(mesh, lambda: fs.fillet(mesh, point, radius), "FILLET_FACE", off, change, abs(change),
+    point = start + rng.uniform(0.2, 0.8) * (end - start)
+    return Case(mesh, lambda m, at: fs.fillet(m, [at.point(point)], radius), "FILLET_FACE", off, change, abs(change),
                 radius >= 2 * edge, 0.15, lambda x: to_edge(x) < 1e-6 * np.ptp(mesh.points))  # fmt: skip
 
 
@@ -109,7 +150,7 @@ def circular(mesh, z, rim, up, sign, room, rng):
     change = sign * CORNER * radius**2 * 2 * np.pi * (rim + sign * CENTROID * radius)
     angle = rng.uniform(0, 2 * np.pi)
     place = (rim * np.cos(angle), rim * np.sin(angle), z)
-    return Case(mesh, lambda: fs.fillet(mesh, place, radius), "FILLET_FACE", off, change, abs(change),
+    return Case(mesh, lambda m, at: fs.fillet(m, [at.point(place)], radius), "FILLET_FACE", off, change, abs(change),
                 False, 0.15, lambda x: to_edge(x) < 1e-6 * np.ptp(mesh.points))  # fmt: skip
 
 
@@ -245,9 +286,9 @@ def corner(rng):
     else:
         corners = 1 if len(edges) == 3 else 8
         change = CORNER * radius**2 * (sum(lengths) - 3 * corners * radius) + corners * (1 - np.pi / 6) * radius**3
-    points = [tuple(turn @ (0.5 * sum(line(e)))) for e in edges]
-    return Case(mesh, lambda: fs.fillet(mesh, points, radius), "FILLET_FACE", off, -change, change,
-                radius >= 2 * edge, 0.15)  # fmt: skip
+    points = [turn @ (0.5 * sum(line(e))) for e in edges]
+    return Case(mesh, lambda m, at: fs.fillet(m, [at.point(p) for p in points], radius), "FILLET_FACE", off, -change,
+                change, radius >= 2 * edge, 0.15)  # fmt: skip
 
 
 def any_turn(rng):
@@ -301,8 +342,12 @@ def hole(rng):
     whole = volume(fs.read(MESHES / "two_boxes.inp"))
     change = whole - np.pi * (radius * factor) ** 2 * 10 * slant - volume(mesh)
     size = np.pi * (radius * max(1, factor)) ** 2 * 10 * slant
-    return Case(mesh, lambda: fs.reshape(mesh, "HOLE_WALL", onto=tool), "SHAPE_WALL", tool.distance, change, size,
-                False, min(0.2, worst(mesh)))  # fmt: skip
+
+    def run(m, at):
+        onto = fs.Cylinder(at.point(origin), at.direction(axis), radius * factor)
+        return fs.reshape(m, "HOLE_WALL", onto=onto)
+
+    return Case(mesh, run, "SHAPE_WALL", tool.distance, change, size, False, min(0.2, worst(mesh)))
 
 
 def wall(rng):
@@ -330,8 +375,8 @@ def wall(rng):
         area = next(g.measure_before for g in area.groups if g.name == name)
     edge = edge_length_near(mesh, lambda x: np.abs((x - at) @ out))
     by = edge * rng.uniform(0.1, 3) * rng.choice([-1, 1])
-    return Case(mesh, lambda: fs.reshape(mesh, name, by=by * out), "SHAPE_WALL", lambda x: (x - at) @ out - by,
-                by * area, abs(by * area), True, min(0.2, worst(mesh)))  # fmt: skip
+    return Case(mesh, lambda m, to: fs.reshape(m, name, by=to.direction(by * out)), "SHAPE_WALL",
+                lambda x: (x - at) @ out - by, by * area, abs(by * area), True, min(0.2, worst(mesh)))  # fmt: skip
 
 
 KINDS = {f.__name__: f for f in (convex, concave, bordered, ended, corner, hole, wall)}
@@ -374,11 +419,20 @@ class Outcome:
     seconds: float = 0
 
 
-def one(kind, seed):
+def anywhere(rounding, seed):
+    if rounding == "as they are":
+        return HERE
+    rng = np.random.default_rng([seed, 1])
+    return Placement(any_turn(rng), rng.uniform(-20, 20, 3), rounding)
+
+
+def one(kind, seed, rounding="as they are"):
     case = KINDS[kind](np.random.default_rng(seed))
+    place = anywhere(rounding, seed)
+    mesh = place.of(case.mesh)
     started = time.time()
     try:
-        result = case.run()
+        result = case.run(mesh, place)
     except fs.Error as error:
         return Outcome(str(error), True, seconds=time.time() - started)
     out = Outcome(seconds=time.time() - started, exact=case.exact)
@@ -391,10 +445,10 @@ def one(kind, seed):
     size = np.linalg.norm(np.ptp(case.mesh.points, axis=0))
     out.quality = worst(after)
     out.good = out.quality >= case.goal
-    out.off = np.abs(case.distance(points_of(after, case.new_group))).max() / size
+    out.off = np.abs(case.distance(place.back(points_of(after, case.new_group)))).max() / size
     out.volume = abs(volume(after) - volume(case.mesh) - case.change) / case.change_size
-    out.elsewhere = change_elsewhere(case.mesh, after, result.report, case.at)
-    if out.off > 1e-9:
+    out.elsewhere = change_elsewhere(mesh, after, result.report, case.at and (lambda x: case.at(place.back(x))))
+    if out.off > 1e-9 + 10 * place.off(case.mesh) / size:
         out.problem = f"nodes are {out.off:.1e} of the size off the surface"
     elif out.elsewhere > 1e-9:
         out.problem = f"a group elsewhere changed by {out.elsewhere:.1e}"
@@ -404,11 +458,15 @@ def one(kind, seed):
 def main():
     arguments = case_arguments(__doc__, KINDS)
     arguments.add_argument("--poor", action="store_true")
+    how = arguments.add_mutually_exclusive_group()
+    how.add_argument("--digits", type=int, help="significant, that meshes are rounded to")
+    how.add_argument("--single", action="store_true", help="meshes are rounded to single precision")
     given = arguments.parse_args()
+    rounding = given.digits or ("single" if given.single else "as they are")
     print("kind     cases  refused  wrong  minimum    good      off   volume  (all)  elsewhere  seconds  slowest")
     for kind in [given.kind] if given.kind else KINDS:
         seeds = range(given.seed, given.seed + given.cases)
-        all_of = {seed: one(kind, seed) for seed in seeds}
+        all_of = {seed: one(kind, seed, rounding) for seed in seeds}
         made = [o for o in all_of.values() if not o.problem]
         counts = collections.Counter("refused" if o.refused else "wrong" for o in all_of.values() if o.problem)
         seconds = [o.seconds for o in all_of.values()]

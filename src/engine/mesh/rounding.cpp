@@ -26,6 +26,9 @@ constexpr int digits_of_single = 8;
 /// these have is the file's (one in ten ends in a zero).
 constexpr double noticed = 0.05, typical = 0.15;
 
+/// Numbers that tell of those with one first digit.
+constexpr int few = 3;
+
 /// The files meant have six digits or more; in sizes of the mesh.
 constexpr double coarsest = 1e-5;
 
@@ -65,6 +68,7 @@ double coordinate_rounding(std::span<const Vec3> points) {
     const std::size_t stride = std::max<std::size_t>(1, points.size() * 3 / sample);
     int telling = 0, singles = 0, decimals = 0;
     std::map<int, int> last_digits;
+    std::map<int, std::map<int, int>> by_first;  // the same of those with one first digit
     for (std::size_t k = 0; k < points.size(); k += stride)
         for (int a = 0; a < 3; ++a) {
             const double x = points[k][a];
@@ -77,12 +81,21 @@ double coordinate_rounding(std::span<const Vec3> points) {
             if (d.digits > most_digits) continue;
             ++decimals;
             ++last_digits[d.last];
+            ++by_first[d.last + d.digits][d.last];
         }
     double rounding = 0;
     if (singles > noticed * telling) rounding = std::ldexp(largest, -24);
     if (decimals > noticed * telling)
         for (const auto& [last, count] : last_digits)
             if (count > typical * decimals) rounding = std::max(rounding, 0.5 * std::pow(10.0, last));
+    // Where a file has so many significant digits, the last of the largest numbers is another, few as they may be.
+    if (decimals > noticed * telling)
+        for (const auto& [first, digits] : by_first) {
+            int all = 0;
+            for (const auto& [last, count] : digits) all += count;
+            for (const auto& [last, count] : digits)
+                if (count >= few && 2 * count > all) rounding = std::max(rounding, 0.5 * std::pow(10.0, last));
+        }
     return std::min(rounding, coarsest * size);
 }
 

@@ -15,12 +15,15 @@
 #include "cancel.h"
 #include "cutting/surface_line.h"
 #include "mesh/band_mesh.h"
+#include "operators/coordinate_slack.h"
 
 namespace femscalpel {
 namespace {
 
 using SkinTriangle = std::array<Index, 3>;
 
+/// Faces whose normals are so far along a line lie across it.
+constexpr double across = 0.3;
 /// Two edges of a line that turns by more are not one line: a circle of eight segments still is.
 const double largest_turn = std::cos(50 * std::numbers::pi / 180);
 
@@ -241,34 +244,52 @@ std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
 
 namespace {
 
+/// The normal of skin at a point, and by how much it may be off.
+struct Facing {
+    Vec3 normal = Vec3::Zero();
+    double off = 0;
+
+    bool is_found() const { return !normal.isZero(); }
+    bool is(const Facing& other) const { return (normal - other.normal).norm() <= 1e-6 + off + other.off; }
+};
+
 /// The end of a line at `node`, before which is `before`; `beside`: the faces at its last edge.
 LineEnd line_end(const Mesh& mesh, const std::vector<SkinTriangle>& around, Index node, Index before,
                  const std::array<SkinTriangle, 2>& beside) {
+    const CoordinateSlack slack(mesh);
     const Vec3& end = mesh.points[node];
     const Vec3 onwards = (end - mesh.points[before]).normalized();
-    Vec3 plane = Vec3::Zero(), wall = Vec3::Zero();
-    bool runs_out = true, stands = true;
+    const auto facing = [&](const SkinTriangle& f) {
+        return Facing{normal(mesh, f), slack.normal(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]])};
+    };
+    // What lies across the line, and looks out of its end or to it, by the face that shows it best.
+    Facing plane, wall;
     for (const SkinTriangle& f : around) {
-        const Vec3 n = normal(mesh, f);
-        if (n.dot(onwards) >= 0.3) {
-            if (plane.isZero()) plane = n;
-            runs_out = runs_out && (n - plane).norm() <= 1e-6;
-        }
-        if (n.dot(onwards) <= -0.3 && wall.isZero()) wall = n;
-        stands = stands && ((n - wall).norm() <= 1e-6 || std::ranges::any_of(beside, [&](const SkinTriangle& b) {
-                                return (n - normal(mesh, b)).norm() <= 0.1;
-                            }));
+        const Facing here = facing(f);
+        Facing& known = here.normal.dot(onwards) > 0 ? plane : wall;
+        if (std::abs(here.normal.dot(onwards)) >= across && (!known.is_found() || here.off < known.off)) known = here;
     }
-    for (const SkinTriangle& f : around)
+    bool runs_out = plane.is_found(), stands = wall.is_found();
+    for (const SkinTriangle& f : around) {
+        const Facing here = facing(f);
+        runs_out = runs_out && (here.normal.dot(onwards) < across || here.is(plane));
+        stands = stands && (here.is(wall) || std::ranges::any_of(beside, [&](const SkinTriangle& b) {
+                                return (here.normal - normal(mesh, b)).norm() <= 0.1;
+                            }));
         for (const Index n : f) {
+            if (n == node) continue;
             const Vec3 to = mesh.points[n] - end;
-            runs_out = runs_out && !plane.isZero() && to.dot(plane) <= 1e-6 * to.norm();
-            stands = stands && !wall.isZero() && to.dot(wall) >= -1e-6 * to.norm();
+            const double off = 1e-6 + slack.direction(to.norm());
+            runs_out = runs_out && to.dot(plane.normal) <= (off + plane.off) * to.norm();
+            stands = stands && to.dot(wall.normal) >= -(off + wall.off) * to.norm();
         }
+    }
     if (runs_out) return LineEnd::plane;
-    const Vec3 inwards = normal(mesh, beside[0]);
-    const bool concave = std::ranges::any_of(
-        beside[1], [&](Index n) { return (mesh.points[n] - end).dot(inwards) > 1e-6 * (mesh.points[n] - end).norm(); });
+    const Facing inwards = facing(beside[0]);
+    const bool concave = std::ranges::any_of(beside[1], [&](Index n) {
+        const Vec3 to = mesh.points[n] - end;
+        return to.dot(inwards.normal) > (1e-6 + slack.direction(to.norm()) + inwards.off) * to.norm();
+    });
     return stands && concave ? LineEnd::wall : LineEnd::open;
 }
 
@@ -287,6 +308,24 @@ std::array<LineEnd, 2> line_ends(const Mesh& mesh, const FeatureLine& line,
         out[which] = line_end(mesh, around, node, before, which == 0 ? line.faces.front() : line.faces.back());
     }
     return out;
+}
+
+std::optional<std::array<Index, 3>> wall_at_end(const Mesh& mesh, const FeatureLine& line, int which,
+                                                const std::vector<std::array<Index, 3>>& skin) {
+    const CoordinateSlack slack(mesh);
+    const std::size_t last = line.nodes.size() - 1;
+    const Index node = line.nodes[which == 0 ? 0 : last], before = line.nodes[which == 0 ? 1 : last - 1];
+    const Vec3 onwards = (mesh.points[node] - mesh.points[before]).normalized();
+    std::optional<SkinTriangle> best;
+    double least = 0;
+    for (const SkinTriangle& f : skin) {
+        if (std::ranges::find(f, node) == f.end() || normal(mesh, f).dot(onwards) > -across) continue;
+        const double off = slack.normal(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]);
+        if (best && off >= least) continue;
+        best = f;
+        least = off;
+    }
+    return best;
 }
 
 std::vector<FeatureLine> find_feature_lines(const Mesh& mesh, const Along& along, double feature_angle) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,11 @@ enum class LineEnd {
 /// Those at the beginning and the end of an open line.
 std::array<LineEnd, 2> line_ends(const Mesh& mesh, const FeatureLine& line,
                                  const std::vector<std::array<Index, 3>>& skin);
+
+/// A triangle of the skin at a line's end that lies across it and looks to it, that which rounded coordinates show
+/// best; none where there is none.
+std::optional<std::array<Index, 3>> wall_at_end(const Mesh& mesh, const FeatureLine& line, int which,
+                                                const std::vector<std::array<Index, 3>>& skin);
 
 /// The feature lines (edges of the skin sharper than `feature_angle`, degrees) that `along` names, each as long as it
 /// goes on smoothly. Throws ToolError (parameter "along") when there is no such group or node, or no feature line

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -30,6 +32,10 @@ namespace {
 
 /// Longest edges over the arc's length; most are shorter by a third after bisection, so that there are four and more.
 constexpr double longest_over_arc = 1 / 3.2;
+/// The same over the radius of a tangent line about an axis: some eight go around.
+constexpr double longest_over_radius = 0.8;
+/// Elements of a mesh refined for a fillet, about, over the edge's length in radii; from so many on it is not tried.
+constexpr double elements_over_radius = 1000, most_elements = 5e6;
 constexpr int fillet_attempts = 8;
 /// Smallest mean ratio of what is filled from which on nothing else is tried.
 constexpr double good_enough = 0.2;
@@ -69,8 +75,10 @@ public:
             r.reach = r.path->convex() ? 1.02 * r.path->centre().norm() : r.path->tangent_length() + 1.2 * radius;
             r.surroundings = std::make_unique<Surroundings>(*r.path, r.reach);
         }
-        check_apart();
-        for (const Rounding& r : roundings_)
+        check_apart(radius);
+        makers_.clear();
+        check_fineness();
+        for (Rounding& r : roundings_)
             for (const int side : {0, 1}) add_wall(r, side);
         for (const Rounding& r : roundings_)
             for (const int which : {0, 1})
@@ -84,13 +92,24 @@ public:
     std::vector<RefineZone> zones() const override {
         std::vector<RefineZone> zones;
         if (options_.refine.when == RefineFirst::When::never) return zones;
-        for (const Rounding& r : roundings_)
-            zones.push_back({[&path = *r.path](const Vec3& x) {
-                                 return std::max(0.0, path.distance(x, 0) - 1.1 * path.tangent_length());
-                             },
-                             options_.refine.when == RefineFirst::When::to_size
-                                 ? options_.refine.size
-                                 : r.path->arc_length() * longest_over_arc});
+        for (const Rounding& r : roundings_) {
+            const FilletPath& path = *r.path;
+            const bool to_size = options_.refine.when == RefineFirst::When::to_size;
+            const double size = to_size ? options_.refine.size : path.arc_length() * longest_over_arc;
+            zones.push_back(
+                {[&path](const Vec3& x) { return std::max(0.0, path.distance(x, 0) - 1.1 * path.tangent_length()); },
+                 size});
+            // A tangent line that is a small circle about the axis.
+            for (const int side : {0, 1}) {
+                const double round = plane_ ? size : longest_over_radius * path.tangent_radius(side);
+                if (to_size || round >= size) continue;
+                zones.push_back({[&path, side](const Vec3& x) {
+                                     const double off = (path.place(x).p - path.tangent_point(side)).norm();
+                                     return std::max(0.0, off - path.tangent_radius(side));
+                                 },
+                                 round});
+            }
+        }
         return zones;
     }
 
@@ -211,20 +230,36 @@ private:
         }
     }
 
+    /// The normal of a face into the material, which is out of an edge that ends at it.
+    static Vec3 out_of_edge(const Mesh& mesh, const std::array<Index, 3>& f) {
+        return (mesh.points[f[2]] - mesh.points[f[0]]).cross(mesh.points[f[1]] - mesh.points[f[0]]).normalized();
+    }
+
     void find_edges(const Mesh& mesh, const Along& along, double radius) {
-        const std::vector<std::array<Index, 3>> skin = skin_of(mesh);
+        const auto shared = std::make_shared<const std::vector<std::array<Index, 3>>>(skin_of(mesh));
+        const std::vector<std::array<Index, 3>>& skin = *shared;
         const std::vector<FeatureLine> lines = find_feature_lines(mesh, along, options_.feature_angle);
-        vertices_ = find_vertices(mesh, lines, skin);
+        const auto planes = std::make_shared<const SkinPlanes>(mesh, skin);
+        vertices_ = find_vertices(mesh, lines, skin, planes.get());
         std::vector<const FilletPath*> paths;
         for (std::size_t k = 0; k < lines.size(); ++k) {
             FilletEnds ends{line_ends(mesh, lines[k], skin)};
+            for (const int which : {0, 1}) {
+                if (ends.kind[which] != LineEnd::wall) continue;
+                const auto wall = wall_at_end(mesh, lines[k], which, skin);
+                const auto plane = wall ? planes->of(*wall) : std::nullopt;
+                if (wall) ends.normal[which] = plane ? Vec3(-plane->normal) : out_of_edge(mesh, *wall);
+            }
             for (const FilletVertex& v : vertices_)
                 for (const auto& m : v.members) {
                     if (m.edge != k) continue;
                     ends.kind[m.which] = LineEnd::joined;
                     ends.to_centre[m.which] = v.to_centre;
                 }
-            roundings_.push_back({std::make_unique<FilletPath>(mesh, lines[k], radius, skin, ends), 0, nullptr});
+            makers_.push_back([&mesh, shared, planes, line = lines[k], ends](double size) {
+                return std::make_unique<FilletPath>(mesh, line, size, *shared, ends, planes.get());
+            });
+            roundings_.push_back({makers_.back()(radius), 0, nullptr});
             paths.push_back(roundings_.back().path.get());
             if (lines[k].extended)
                 warnings_.emplace_back("the edge goes on beyond what was named, and is rounded as far as it goes");
@@ -241,8 +276,23 @@ private:
         });
     }
 
+    /// Whether a straight edge's wall is that of another edge.
+    static bool is_wall(const FilletPath& path, int side, const FilletPath& other, const Tool& others) {
+        if (&path == &other || !path.is_straight()) return false;
+        const Vec2 &p = path.tangent_point(side), &q = path.normal(side);
+        return std::ranges::all_of(
+            std::array{path.at(path.begin(), p), path.at(path.end(), p), path.at(path.begin(), p + path.radius() * q)},
+            [&](const Vec3& x) {
+                // Rounded coordinates tell the less of where a wall is, the farther it is from its edge.
+                const double off = 1e-9 * (path.length() + path.radius()) + 2 * path.sag() +
+                                   path.face_slack() * path.place(x).p.norm() +
+                                   other.face_slack() * other.place(x).p.norm();
+                return std::abs(others.distance(x)) <= off && others.normal(x).dot(path.wall(side).normal(x)) > 0.999;
+            });
+    }
+
     /// A surface to be cut along. Those of edges that meet may be one: nodes lie on three at most.
-    void add_wall(const Rounding& r, int side) {
+    void add_wall(Rounding& r, int side) {
         const FilletPath& path = *r.path;
         const auto bound = [&path, reach = r.reach, side, shallow = ends_at_slant(path)](const Vec3& x) {
             const double across = std::max(path.wall(1 - side).distance(x), path.distance(x, reach) - reach);
@@ -250,19 +300,10 @@ private:
             // Six walls would meet in the ball's centre: they part what is near the skin, and no more.
             return std::max(across, 5 * std::abs(path.place(x).p.dot(path.normal(side))));
         };
-        const auto same = [&](const Blade& blade) {
-            if (roundings_.size() == 1 || !path.is_straight()) return false;
-            const Vec2 &p = path.tangent_point(side), &q = path.normal(side);
-            const double off = 1e-9 * (path.length() + path.radius());
-            return std::ranges::all_of(std::array{path.at(path.begin(), p), path.at(path.end(), p),
-                                                  path.at(path.begin(), p + path.radius() * q)},
-                                       [&](const Vec3& x) {
-                                           return std::abs(blade.tool->distance(x)) <= off &&
-                                                  blade.tool->normal(x).dot(path.wall(side).normal(x)) > 0.999;
-                                       });
-        };
-        const auto found = std::ranges::find_if(blades_, same);
+        const auto found = std::ranges::find_if(
+            blades_, [&](const Blade& blade) { return is_wall(path, side, *owners_[blade.tag], *blade.tool); });
         if (found != blades_.end()) {
+            r.path->use_wall(side, *found->tool);
             found->inside.clear();
             found->bound = [first = found->bound, bound](const Vec3& x) { return std::min(first(x), bound(x)); };
             return;
@@ -271,6 +312,7 @@ private:
         Blade blade{&path.wall(side), bound, {}, static_cast<int>(blades_.size())};
         if (side == 1) blade.inside.push_back(&path.wall(0));
         blades_.push_back(std::move(blade));
+        owners_.push_back(&path);
     }
 
     /// The skin beside the edge is parted where its rounding stops.
@@ -297,7 +339,7 @@ private:
     }
 
     /// Throws where roundings touch, but for those of edges that meet.
-    void check_apart() const {
+    void check_apart(double radius) const {
         const auto meet = [&](std::size_t k, std::size_t j) {
             return std::ranges::any_of(vertices_, [&](const FilletVertex& v) {
                 const auto has = [&](std::size_t e) {
@@ -307,21 +349,62 @@ private:
             });
         };
         for (std::size_t k = 0; k < roundings_.size(); ++k)
-            for (std::size_t j = 0; j < roundings_.size(); ++j) {
-                if (j == k || meet(k, j)) continue;
-                const FilletPath &path = *roundings_[k].path, &other = *roundings_[j].path;
-                const int steps = static_cast<int>(std::ceil(path.length() / (0.25 * path.radius())));
-                for (int i = 0; i <= steps; ++i)
-                    for (int part = 0; part <= 8; ++part) {
-                        const double s = path.begin() + path.length() * i / std::max(steps, 1);
-                        const Vec3 x = path.at(s, path.arc(path.arc_angle() * part / 8));
-                        if (!is_rounded(other, x)) continue;
+            for (std::size_t j = 0; j < roundings_.size(); ++j)
+                if (j != k && !meet(k, j))
+                    if (const auto x = where_touching(*roundings_[k].path, *roundings_[j].path)) {
                         std::ostringstream message;
-                        message << "along: edges are so near each other that their roundings would touch, as at ("
-                                << x.transpose() << "): round them by a smaller radius, or one after the other";
+                        message << "along: edges are so near each other that their roundings would touch, or all but "
+                                << "do so, as at (" << x->transpose()
+                                << "): " << room_for(radius, makers_[k], makers_[j]);
                         throw ToolError(message.str(), "along");
                     }
+    }
+
+    /// The mesh is refined for what is rounded: the more, the smaller the radius.
+    void check_fineness() const {
+        if (plane_ || options_.refine.when != RefineFirst::When::automatic) return;
+        for (const Rounding& r : roundings_) {
+            const double elements = elements_over_radius * r.path->length() / r.path->radius();
+            if (elements <= most_elements) continue;
+            std::ostringstream message;
+            message.precision(3);
+            message << "radius: " << r.path->radius() << " is so small against the edge's length of "
+                    << r.path->length() << " that the mesh along it would be refined to some " << elements / 1e6
+                    << " million elements. Round by " << elements_over_radius * r.path->length() / most_elements
+                    << " or more";
+            throw ToolError(message.str(), "radius");
+        }
+    }
+
+    using Maker = std::function<std::unique_ptr<FilletPath>(double)>;
+
+    /// What to do where two edges' roundings of a radius touch.
+    static std::string room_for(double radius, const Maker& one, const Maker& other) {
+        double fits = 0, touches = 1;
+        for (int round = 0; round < 12; ++round) {
+            const double part = (fits + touches) / 2;
+            const auto first = one(part * radius), second = other(part * radius);
+            (where_touching(*first, *second) || where_touching(*second, *first) ? touches : fits) = part;
+        }
+        std::ostringstream text;
+        text.precision(3);
+        if (fits > 0)
+            text << "there is room for a radius of about " << fits * radius;
+        else
+            text << "there is no room for both";
+        return text.str();
+    }
+
+    /// A point of one edge's new face in or near what another's takes off or adds.
+    static std::optional<Vec3> where_touching(const FilletPath& path, const FilletPath& other) {
+        const int steps = static_cast<int>(std::ceil(path.length() / (0.25 * path.radius())));
+        for (int i = 0; i <= steps; ++i)
+            for (int part = 0; part <= 8; ++part) {
+                const double s = path.begin() + path.length() * i / std::max(steps, 1);
+                const Vec3 x = path.at(s, path.arc(path.arc_angle() * part / 8));
+                if (is_rounded(other, x)) return x;
             }
+        return {};
     }
 
     /// Whether what is replaced around two edges may touch.
@@ -338,7 +421,10 @@ private:
     void find_corners(const Mesh& mesh, const Along& along, double radius) {
         for (const OutlineCorner& c : find_outline_corners(mesh, along, options_.feature_angle)) {
             const Vec3& at = mesh.points[c.node];
-            Rounding r{std::make_unique<FilletPath>(at, c.normal, c.along, c.convex, radius), 0, nullptr};
+            makers_.push_back([&mesh, c](double size) {
+                return std::make_unique<FilletPath>(mesh, mesh.points[c.node], c.normal, c.along, c.convex, size);
+            });
+            Rounding r{makers_.back()(radius), 0, nullptr};
             if (r.path->tangent_length() > 0.999 * std::min(c.room[0], c.room[1])) {
                 std::ostringstream message;
                 message << "radius: " << radius << " is too large for the corner at (" << at.transpose()
@@ -354,8 +440,10 @@ private:
     bool plane_ = false;  // a mesh of triangles, with corners
     bool has_ends_ = false;
     std::vector<Rounding> roundings_;
+    std::vector<Maker> makers_;  // of the paths of roundings_ by another radius; until all is known
     std::vector<FilletVertex> vertices_;
     std::vector<Blade> blades_, surroundings_;
+    std::vector<const FilletPath*> owners_;  // of the walls among the blades
     std::vector<std::string> warnings_;
 };
 

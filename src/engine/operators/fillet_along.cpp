@@ -28,11 +28,16 @@ void FilletRun::find_borders_along() {
         if (border == m_.borders.end()) continue;
         const bool forwards = border->domain == segments_[k];
         const Vec3 normal = (forwards ? 1 : -1) * m_.normal(border->nodes);
-        if (plane.isZero()) plane = normal;
+        if (plane.isZero()) {
+            std::vector<Triangle> faces;
+            faces.reserve(m_.borders.size());
+            for (const Border& b : m_.borders) faces.push_back(b.nodes);
+            plane = plane_of(faces, edge_[k], normal);
+        }
         for (const int v : border->nodes)
             if (v != edge_[k] && v != edge_[k + 1]) inwards = place(v).p.normalized();
         const int patch = patches_.take_border(plane, plane.dot(at(edge_[k])), off_plane(), edge_[k], segments_[k]);
-        if (patch < 0 || (normal - plane).norm() > 1e-6)
+        if (patch < 0 || (normal - plane).norm() > 1e-6 + m_.normal_slack(border->nodes))
             m_.refuse("the border of groups along it is not plane, or more than one runs there", at(edge_[k]));
         along_[k] = patch;
     }

@@ -22,6 +22,7 @@ double FilletCavity::replace(int tag, int more) {
     for (FilletRun& run : runs_) run.find_sections();
     keep_other_borders();
     for (FilletRun& run : runs_) run.find_rows();
+    for (FilletRun& run : runs_) run.put_rows_on_ball();
     for (const FilletVertex& vertex : vertices_) check_domains(vertex);
     make_arcs(more);
     for (FilletRun& run : runs_) run.make_faces();
@@ -85,7 +86,14 @@ void FilletCavity::add_new_faces(int tag) {
 void FilletCavity::keep_other_borders() {
     for (const FilletMaterial::Border& b : material_.borders) {
         const Vec3& near = material_.at(b.nodes[0]);
-        if (b.domain[0] == b.domain[1]) material_.refuse("a surface that is kept ends inside the material there", near);
+        if (b.domain[0] == b.domain[1]) {
+            if (!drop_faces_of_nodes(b.nodes))
+                material_.refuse(
+                    "faces of a group end inside the material there, which is made anew. Round the edge before that "
+                    "group is made, or without it",
+                    near);
+            continue;
+        }
         if (std::ranges::any_of(b.nodes, [&](int v) { return material_.is_rounded_off(v); }))
             material_.refuse(
                 "a border of groups, or another surface that is kept, runs along the edge, or beside it, where "
@@ -97,6 +105,17 @@ void FilletCavity::keep_other_borders() {
     material_.borders.clear();
     material_.kept.insert(material_.kept.end(), material_.skin.begin(), material_.skin.end());
     material_.skin.clear();
+}
+
+/// Where all nodes of a face inside are of one node group, it is kept as if the group had it, until it is given up
+/// here. False where elements or facets lie on it.
+bool FilletCavity::drop_faces_of_nodes(const Triangle& face) {
+    BandMesh& band = f_.d.band;
+    if (band.triangles.find(face) >= 0 || band.facet_faces.find(face) >= 0) return false;
+    const int slot = band.skin.find(face);
+    if (slot < 0) return false;
+    band.skin.remove(slot);
+    return true;
 }
 
 /// What bounds a domain, normals outwards.

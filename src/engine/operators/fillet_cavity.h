@@ -37,6 +37,7 @@ private:
     void check_domains(const FilletVertex& vertex) const;
     void add_new_faces(int tag);
     void keep_other_borders();
+    bool drop_faces_of_nodes(const Triangle& face);
     std::vector<Triangle> surface_of(int domain) const;
     double fill();
     void put_on_ball();

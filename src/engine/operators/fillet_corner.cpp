@@ -31,16 +31,21 @@ using Edge = std::array<int, 2>;
 /// The outline of the mesh's triangles: the next node of each, with the material on the left.
 class Outline {
 public:
-    explicit Outline(const Mesh& mesh) : mesh_(mesh) {
+    explicit Outline(const Mesh& mesh) : mesh_(mesh), slack_(mesh) {
         std::set<std::array<Index, 2>> edges;
+        double normal_off = 0;
         for (const CellType type : {CellType::triangle, CellType::triangle6}) {
             const CellBlock& b = mesh.block(type);
             for (Index c = 0; c < b.size(); ++c) {
                 const auto n = b.nodes(c);
                 const Vec3 turned =
                     (mesh.points[n[1]] - mesh.points[n[0]]).cross(mesh.points[n[2]] - mesh.points[n[0]]);
-                if (normal.isZero()) normal = turned.normalized();
-                if (turned.normalized().dot(normal) < 1 - 1e-6)
+                const double off = slack_.normal(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]);
+                if (normal.isZero() || off < normal_off) {
+                    normal = turned.normalized();
+                    normal_off = off;
+                }
+                if ((turned.normalized() - normal).norm() > 1.4e-3 + off + normal_off)
                     refuse_along(
                         "the mesh is not plane, or its triangles are not turned all the same way; edges of "
                         "curved shells are not rounded");
@@ -90,11 +95,12 @@ private:
     double room(Index from, const Vec3& along, const Links& links) const {
         Index node = from;
         double length = 0;
+        const double off = slack_.direction((mesh_.points[links.at(from)[0]] - mesh_.points[from]).norm());
         for (std::size_t k = 0; k <= links.size(); ++k) {
             const auto found = links.find(node);
             if (found == links.end() || found->second.size() != 1) break;
             const Vec3 step = mesh_.points[found->second[0]] - mesh_.points[node];
-            if (step.normalized().dot(along) < 1 - 1e-8) break;
+            if ((step.normalized() - along).norm() > 1.4e-4 + slack_.direction(step.norm()) + off) break;
             length += step.norm();
             node = found->second[0];
         }
@@ -102,6 +108,7 @@ private:
     }
 
     const Mesh& mesh_;
+    CoordinateSlack slack_;
     Links next_, before_;
 };
 
@@ -163,7 +170,7 @@ void FilletCorner::replace(int tag) {
 
 void FilletCorner::collect() {
     const BandMesh& band = f_.d.band;
-    removed_ = elements_inside(f_, band.triangles, path_, reach_, 1e-6 * path_.radius());
+    removed_ = elements_inside(f_, band.triangles, path_, reach_, close());
     if (removed_.empty()) refuse("no element lies there", path_.at(0, Vec2::Zero()));
     const auto family = [&](int t) {
         const CellRef& c = band.triangle_cells[band.triangles.origin(t)];
@@ -183,11 +190,11 @@ void FilletCorner::find_outline() {
         for (int k = 0; k < 3; ++k) edges.insert({band.triangles[t][k], band.triangles[t][(k + 1) % 3]});
     std::map<int, int> next;
     std::array<int, 2> ends{-1, -1};
-    std::array<double, 2> nearest{1e-6, 1e-6};
+    std::array<double, 2> nearest{close(), close()};
     for (const auto& [a, b] : edges) {
         for (const int side : {0, 1})
             for (const int v : {a, b}) {
-                const double off = (path_.place(at(v)).p - path_.tangent_point(side)).norm() / path_.radius();
+                const double off = (path_.place(at(v)).p - path_.tangent_point(side)).norm();
                 if (off >= nearest[side]) continue;
                 nearest[side] = off;
                 ends[side] = v;
@@ -200,8 +207,7 @@ void FilletCorner::find_outline() {
         const bool on_outline = std::ranges::any_of(std::array{0, 1}, [&](int side) {
             return std::ranges::all_of(std::array{a, b}, [&](int v) {
                 const Vec2 p = path_.place(at(v)).p;
-                return std::abs(p.dot(path_.normal(side))) <= 1e-6 * path_.radius() &&
-                       p.dot(path_.along_face(side)) >= -1e-6 * path_.radius();
+                return std::abs(p.dot(path_.normal(side))) <= close() && p.dot(path_.along_face(side)) >= -close();
             });
         });
         if (on_outline) continue;
@@ -228,7 +234,7 @@ void FilletCorner::fill(int tag) {
     const int divisions = std::max({4, static_cast<int>(std::lround(path_.arc_length() / spacing)),
                                     static_cast<int>(std::ceil(path_.arc_angle() / (std::numbers::pi / 16) - 1e-6))});
     const bool begins_at_first =
-        (path_.place(at(outline_.front())).p - path_.tangent_point(0)).norm() < 1e-3 * path_.radius();
+        (path_.place(at(outline_.front())).p - path_.tangent_point(0)).norm() < 1e-3 * path_.radius() + close();
     std::vector<int> arc{outline_.back()};
     for (int k = 1; k < divisions; ++k) {
         // The outline ends where the arc begins, which leads back to where the outline began.

@@ -34,6 +34,8 @@ public:
 
 private:
     const Vec3& at(int v) const { return f_.d.band.nodes[v].at; }
+    /// What is nearer to the outline lies on it.
+    double close() const { return 1e-6 * path_.radius() + 2 * path_.sag(); }
     void collect();
     void find_outline();
     void fill(int tag);

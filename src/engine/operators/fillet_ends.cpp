@@ -69,20 +69,51 @@ int FilletRun::skin_part(Section& section, int side, int domain) {
 
 /// The normal of the plane faces across the edge at its end.
 Vec3 FilletRun::plane_at(int corner) const {
-    Vec3 plane = Vec3::Zero();
-    const auto add = [&](const Triangle& face, double sign) {
-        if (std::ranges::find(face, corner) == face.end()) return;
-        const Vec3 n = sign * m_.normal(face);
-        if (plane.isZero()) plane = n;
-        if ((n - plane).norm() > 1e-6)
-            m_.refuse("it ends at a corner of more than three faces, or at a face that is not plane", at(corner));
-    };
-    for (const Face& face : m_.skin) add(face.nodes, 1);
+    std::vector<Triangle> faces;
+    faces.reserve(m_.skin.size());
+    for (const Face& face : m_.skin) faces.push_back(face.nodes);
     // What another edge has taken.
     for (const FilletPatch& patch : patches_.all())
         if (std::ranges::min(patch.domain) < 0)
-            for (const Triangle& face : patch.old) add(face, patch.domain[0] >= 0 ? 1 : -1);
+            for (const Triangle& t : patch.old) faces.push_back(patch.domain[0] >= 0 ? t : Triangle{t[0], t[2], t[1]});
+    Vec3 plane = Vec3::Zero();
+    double off = 0;
+    const auto at_corner = [&](const Triangle& face) { return std::ranges::find(face, corner) != face.end(); };
+    for (const Triangle& face : faces) {
+        if (!at_corner(face) || (!plane.isZero() && m_.normal_slack(face) >= off)) continue;
+        plane = m_.normal(face);
+        off = m_.normal_slack(face);
+    }
     if (plane.isZero()) m_.refuse("it does not end at a face of the part", at(corner));
+    for (const Triangle& face : faces)
+        if (at_corner(face) && (m_.normal(face) - plane).norm() > 1e-6 + off + m_.normal_slack(face))
+            m_.refuse("it ends at a corner of more than three faces, or at a face that is not plane", at(corner));
+    return plane_of(faces, corner, plane);
+}
+
+/// The normal of the plane in which faces are about a node, from that of one of them: where coordinates were rounded,
+/// the more exact the farther the faces reach.
+Vec3 FilletRun::plane_of(const std::vector<Triangle>& faces, int node, const Vec3& about) const {
+    if (m_.slack().off() == 0) return about;
+    double off = 0.5;
+    for (const Triangle& t : faces)
+        if (std::ranges::find(t, node) != t.end() && m_.normal(t).dot(about) > 0.9)
+            off = std::min(off, m_.normal_slack(t));
+    Vec3 plane = about;
+    // A second time by the better plane, that of the first.
+    for (const double tilt : {off, off / 4}) {
+        Vec3 sum = Vec3::Zero();
+        for (const Triangle& t : faces) {
+            const bool fits =
+                m_.is_parallel(t, plane, FilletMaterial::plane_angle + tilt) && std::ranges::all_of(t, [&](int v) {
+                    const Vec3 to = at(v) - at(node);
+                    return std::abs(to.dot(plane)) <= off_plane() + tilt * to.norm();
+                });
+            const Vec3 area = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+            if (fits) sum += area.dot(plane) < 0 ? Vec3(-area) : area;
+        }
+        if (!sum.isZero()) plane = sum.normalized();
+    }
     return plane;
 }
 

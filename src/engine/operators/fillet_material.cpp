@@ -18,7 +18,11 @@ void FilletMaterial::refuse(const std::string& text, const Vec3& near) {
 }
 
 FilletMaterial::FilletMaterial(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges)
-    : f_(workpiece), mesh_(mesh), edges_(edges.begin(), edges.end()), strips_(edges.size()) {
+    : f_(workpiece),
+      mesh_(mesh),
+      slack_(workpiece.d.rounding),
+      edges_(edges.begin(), edges.end()),
+      strips_(edges.size()) {
     collect(edges);
     find_domains();
     find_boundary(edges);
@@ -65,7 +69,8 @@ bool FilletMaterial::take_wedges(std::span<const FilletReach> edges) {
         }
     };
     for (const auto& [e, faces] : at_edge) {
-        const bool within = faces.size() == 2 && std::abs(normal(faces[0]).dot(normal(faces[1]))) > 1 - 1e-6;
+        const bool within =
+            faces.size() == 2 && is_parallel(faces[0], normal(faces[1]), plane_angle + normal_slack(faces[1]));
         for (const int v : e) inside.emplace(v, true).first->second &= within;
         if (within) take_around(e[0], e[1]);
     }
@@ -217,7 +222,9 @@ bool FilletMaterial::is_within_ends(const Vec3& x, const FilletReach& edge, int 
             return Vec3(of.at(t, q + of.normal(face)) - of.at(t, q));
         };
         const auto shares = [&](int face) {
-            return (normal_of(*next, face) - normal_of(path, side)).norm() < 1e-3 && next->wall(face).distance(x) < 0;
+            return (normal_of(*next, face) - normal_of(path, side)).norm() <
+                       1e-3 + path.face_slack() + next->face_slack() &&
+                   next->wall(face).distance(x) < 0;
         };
         if (!shares(0) && !shares(1)) return false;
     }
@@ -227,20 +234,20 @@ bool FilletMaterial::is_within_ends(const Vec3& x, const FilletReach& edge, int 
 bool FilletMaterial::is_rounded_off(int v) const {
     return std::ranges::any_of(edges_, [&](const FilletReach& e) {
         return e.path->convex() && e.path->distance(at(v), 0) <= e.reach &&
-               e.path->wall(0).distance(at(v)) < -f_.tolerance && e.path->wall(1).distance(at(v)) < -f_.tolerance &&
-               e.path->ball().distance(at(v)) > f_.tolerance;
+               e.path->wall(0).distance(at(v)) < -close() && e.path->wall(1).distance(at(v)) < -close() &&
+               e.path->ball().distance(at(v)) > close();
     });
 }
 
 /// Whether an element has a face that the new material's end, or that of what is rounded off, parts.
 bool FilletMaterial::meets_end(int tetra, std::span<const FilletReach> edges) const {
     const auto parted = [&](const FilletPath& path, const Tool& end, const Triangle& face) {
-        if (std::ranges::any_of(face, [&](int v) { return std::abs(end.distance(at(v))) > 10 * f_.tolerance; }))
-            return false;
+        const double off = 10 * f_.tolerance + 4 * slack_.off();
+        if (std::ranges::any_of(face, [&](int v) { return std::abs(end.distance(at(v))) > off; })) return false;
         const Vec2 p = path.place(middle(face)).p;
         const bool outside = p.dot(path.normal(0)) > 0 && p.dot(path.normal(1)) > 0;
         if (!path.convex()) return outside;
-        return std::ranges::any_of(face, [&](int v) { return path.ball().distance(at(v)) > f_.tolerance; });
+        return std::ranges::any_of(face, [&](int v) { return path.ball().distance(at(v)) > close(); });
     };
     for (const auto& [path, reach, next] : edges)
         for (const int which : {0, 1}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -43,6 +44,9 @@ public:
     /// have no skin beside the edges: these stay. Throws QualityError when there are none.
     FilletMaterial(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges);
 
+    /// Faces whose normals differ by less are in one plane, in radians.
+    static constexpr double plane_angle = 1.4e-3;
+
     /// Throws QualityError: "the edge cannot be rounded near ...: text".
     [[noreturn]] static void refuse(const std::string& text, const Vec3& near);
 
@@ -50,6 +54,15 @@ public:
     const Vec3& at(int v) const { return f_.d.band.nodes[v].at; }
     /// The unit normal of a face.
     Vec3 normal(const Triangle& t) const { return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).normalized(); }
+    /// By how much that may be off, in radians.
+    double normal_slack(const Triangle& t) const { return slack_.normal(at(t[0]), at(t[1]), at(t[2])); }
+    /// Whether the normal of a face is another, or the opposite, but for so much and what its own may be off, in
+    /// radians.
+    bool is_parallel(const Triangle& t, const Vec3& to, double off) const {
+        const Vec3 own = normal(t);
+        return std::min((own - to).norm(), (own + to).norm()) <= off + normal_slack(t);
+    }
+    const CoordinateSlack& slack() const { return slack_; }
     Vec3 middle(const Triangle& t) const { return (at(t[0]) + at(t[1]) + at(t[2])) / 3; }
 
     /// Whether a node is in what is rounded off a convex edge.
@@ -88,8 +101,12 @@ private:
     void sort_centres();
     std::array<long, 3> cube(const Vec3& x) const;
 
+    /// What is farther than this from a surface is beside it.
+    double close() const { return std::max(f_.tolerance, f_.d.rounding); }
+
     Workpiece& f_;
     const Mesh& mesh_;
+    CoordinateSlack slack_;
     std::vector<FilletReach> edges_;
     std::vector<int> removed_;
     std::vector<int> domain_;  // of removed_

@@ -17,7 +17,7 @@ bool holds(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end()
 Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 
 bool lies_in(const FilletMaterial& m, const Triangle& t, const Vec3& normal, double offset, double off) {
-    return std::abs(m.normal(t).dot(normal)) >= 1 - 1e-6 &&
+    return m.is_parallel(t, normal, FilletMaterial::plane_angle) &&
            std::ranges::none_of(t, [&](int v) { return std::abs(normal.dot(m.at(v)) - offset) > off; });
 }
 
@@ -61,17 +61,17 @@ void FilletPatches::keep_connected(std::vector<char>& taken, const std::vector<T
 }
 
 /// A patch that another edge has taken already.
-int FilletPatches::known(const Vec3& normal, double offset, double off, int node, std::array<int, 2> domain,
-                         bool any) const {
+int FilletPatches::known(const Vec3& normal, double off, int node, std::array<int, 2> domain, bool any) const {
     for (std::size_t k = 0; k < patches_.size(); ++k) {
         const FilletPatch& p = patches_[k];
         const double sign = p.normal.dot(normal) > 0 ? 1 : -1;
-        if ((p.normal - sign * normal).norm() > 1e-6 || std::abs(p.offset - sign * offset) > 10 * off || p.free)
+        if (std::ranges::none_of(p.old, [&](const Triangle& t) { return holds(t, node); })) continue;
+        if ((p.normal - sign * normal).norm() > FilletMaterial::plane_angle ||
+            std::abs(p.normal.dot(m_.at(node)) - p.offset) > 10 * off)
             continue;
         const std::array<int, 2> own = sign > 0 ? p.domain : std::array{p.domain[1], p.domain[0]};
         const bool fits = any ? (own[0] < 0) != (own[1] < 0) : own == domain;
-        if (fits && std::ranges::any_of(p.old, [&](const Triangle& t) { return holds(t, node); }))
-            return static_cast<int>(k);
+        if (fits) return static_cast<int>(k);
     }
     return -1;
 }
@@ -94,8 +94,8 @@ int FilletPatches::take_skin(const Vec3& normal, double offset, double off, int 
         patch.old.push_back(behind ? faces[k] : turned(faces[k]));
     }
     if (patch.old.empty()) {
-        const int behind = known(normal, offset, off, node, {domain, -1}, domain < 0);
-        return behind >= 0 ? behind : known(normal, offset, off, node, {-1, domain}, domain < 0);
+        const int behind = known(normal, off, node, {domain, -1}, domain < 0);
+        return behind >= 0 ? behind : known(normal, off, node, {-1, domain}, domain < 0);
     }
     erase_marked(m_.skin, taken);
     patches_.push_back(std::move(patch));
@@ -116,7 +116,7 @@ int FilletPatches::take_border(const Vec3& normal, double offset, double off, in
     FilletPatch patch{normal, offset, domain};
     for (std::size_t k = 0; k < faces.size(); ++k)
         if (taken[k]) patch.old.push_back(m_.normal(faces[k]).dot(normal) > 0 ? faces[k] : turned(faces[k]));
-    if (patch.old.empty()) return known(normal, offset, off, node, domain, false);
+    if (patch.old.empty()) return known(normal, off, node, domain, false);
     erase_marked(m_.borders, taken);
     patches_.push_back(std::move(patch));
     return static_cast<int>(patches_.size()) - 1;

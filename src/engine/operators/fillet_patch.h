@@ -51,7 +51,7 @@ public:
     std::vector<int> nodes_near(std::span<const int> patches, const Vec3& x) const;
 
 private:
-    int known(const Vec3& normal, double offset, double off, int node, std::array<int, 2> domain, bool any) const;
+    int known(const Vec3& normal, double off, int node, std::array<int, 2> domain, bool any) const;
     void keep_connected(std::vector<char>& taken, const std::vector<Triangle>& faces, int node) const;
     const Triangle& face_near(const FilletPatch& patch, const Vec3& x) const;
     std::vector<int> outline_of(const FilletPatch& patch) const;

@@ -8,17 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "cancel.h"
-#include "mesh/closest_point.h"
-
 namespace femscalpel {
 namespace {
-
-[[noreturn]] void refuse(const std::string& text, const Vec3& near, const char* parameter) {
-    std::ostringstream message;
-    message << parameter << ": " << text << " near (" << near.transpose() << ")";
-    throw ToolError(message.str(), parameter);
-}
 
 /// A surface that is a straight line in sections across the edge.
 class RollingWall final : public Tool {
@@ -58,13 +49,14 @@ private:
     const FilletPath& path_;
 };
 
-/// Across the edge at an end.
+/// Across the edge at an end, in a plane whose normal is given if that is not at a right angle.
 class EndPlane final : public Tool {
 public:
-    EndPlane(const FilletPath& path, int which) {
+    EndPlane(const FilletPath& path, int which, const Vec3& normal) {
         const double s = which == 0 ? path.begin() : path.end(), step = (which == 0 ? -1 : 1) * path.mean_edge() / 4;
         origin_ = path.at(s, Vec2::Zero());
-        normal_ = (path.at(s + step, Vec2::Zero()) - path.at(s - step, Vec2::Zero())).normalized();
+        normal_ =
+            normal.isZero() ? (path.at(s + step, Vec2::Zero()) - path.at(s - step, Vec2::Zero())).normalized() : normal;
     }
     std::string kind() const override { return "plane"; }
     double distance(const Vec3& x) const override { return normal_.dot(x - origin_); }
@@ -77,13 +69,20 @@ private:
 
 }  // namespace
 
+void FilletPath::refuse(const std::string& text, const Vec3& near, const char* parameter) {
+    std::ostringstream message;
+    message << parameter << ": " << text << " near (" << near.transpose() << ")";
+    throw ToolError(message.str(), parameter);
+}
+
 FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
-                       const std::vector<std::array<Index, 3>>& skin, const FilletEnds& ends)
-    : closed_(line.closed), radius_(radius), ends_(ends.kind) {
+                       const std::vector<std::array<Index, 3>>& skin, const FilletEnds& ends, const SkinPlanes* planes)
+    : closed_(line.closed), slack_(mesh), radius_(radius), ends_(ends.kind) {
     std::vector<Vec3> points;
     points.reserve(line.nodes.size() + 1);
     for (const Index n : line.nodes) points.push_back(mesh.points[n]);
     if (closed_) points.push_back(points.front());
+    if (planes) find_planes(line, *planes);
     fit(points);
     find_faces(mesh, line);
     const SkinNear near = skin_near(mesh, skin);
@@ -91,14 +90,15 @@ FilletPath::FilletPath(const Mesh& mesh, const FeatureLine& line, double radius,
         if (closed_) break;
         if (ends_[which] == LineEnd::open) stop_at_corner(which, near);
         if (ends_[which] == LineEnd::joined) cut_back_at(which, ends.to_centre[which]);
-        end_planes_[which] = std::make_unique<EndPlane>(*this, which);
+        end_planes_[which] = std::make_unique<EndPlane>(*this, which, ends.normal[which]);
     }
     check_room(near);
 }
 
-FilletPath::FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex,
-                       double radius)
-    : convex_(convex), normal_3d_(normal), radius_(radius) {
+FilletPath::FilletPath(const Mesh& mesh, const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces,
+                       bool convex, double radius)
+    : convex_(convex), normal_3d_(normal), slack_(mesh), radius_(radius) {
+    sag_ = 2 * slack_.off();
     pieces_.push_back({corner, normal, 0, 0, 0});
     normal_3d_ = faces[0];
     const Vec3 x = right(pieces_[0]);
@@ -112,6 +112,7 @@ void FilletPath::fit(const std::vector<Vec3>& points) {
     mean_edge_ /= static_cast<double>(points.size() - 1);
     find_plane(points);
     for (std::size_t k = 0; k + 1 < points.size();) k = add_piece(points, k);
+    if (is_straight() && planes_[0] && planes_[1]) lay_between_planes(points.front(), points.back());
     end_ = pieces_.back().begin + pieces_.back().length;
     for (std::size_t k = 1; k < points.size(); ++k) {
         const Piece& piece = *std::ranges::find_if(pieces_, [&](const Piece& q) {
@@ -119,6 +120,32 @@ void FilletPath::fit(const std::vector<Vec3>& points) {
         });
         sag_ = std::max(sag_, (points[k] - points[k - 1]).squaredNorm() * std::abs(piece.curvature) / 7);
     }
+    // Both the nodes, and the ones by which the edge was found, may be off.
+    sag_ += 2 * slack_.off();
+}
+
+/// The planes that the faces beside all of the edge lie in.
+void FilletPath::find_planes(const FeatureLine& line, const SkinPlanes& planes) {
+    for (const int side : {0, 1}) {
+        planes_[side] = planes.of(line.faces[0][side]);
+        for (const auto& faces : line.faces) {
+            const auto other = planes.of(faces[side]);
+            if (planes_[side] && (!other || other->normal != planes_[side]->normal)) planes_[side] = std::nullopt;
+        }
+    }
+}
+
+/// A straight edge is where its faces meet.
+void FilletPath::lay_between_planes(const Vec3& first, const Vec3& last) {
+    Piece& piece = pieces_[0];
+    const auto& [n, d] = *planes_[0];
+    const auto& [m, e] = *planes_[1];
+    const double c = n.dot(m), a = d - n.dot(first), b = e - m.dot(first);
+    piece.start = first + ((a - c * b) * n + (b - c * a) * m) / (1 - c * c);
+    const Vec3 along = n.cross(m).normalized();
+    piece.tangent = along.dot(piece.tangent) < 0 ? Vec3(-along) : along;
+    piece.length = (last - piece.start).dot(piece.tangent);
+    normal_3d_ = (normal_3d_ - normal_3d_.dot(piece.tangent) * piece.tangent).normalized();
 }
 
 /// Throws if the edge is not plane.
@@ -128,45 +155,84 @@ void FilletPath::find_plane(const std::vector<Vec3>& points) {
     const Vec3 along = (b - a).normalized();
     const auto off = [&](const Vec3& p) { return (p - a).cross(along).norm(); };
     const Vec3& c = *std::ranges::max_element(points, {}, off);
-    const double size = (b - a).norm();
-    normal_3d_ = off(c) <= 1e-6 * size ? along.unitOrthogonal() : along.cross(c - a).normalized();
+    const double close = 1e-6 * (b - a).norm() + 4 * slack_.off();
+    normal_3d_ = off(c) <= close ? along.unitOrthogonal() : along.cross(c - a).normalized();
     for (const Vec3& p : points)
-        if (std::abs(normal_3d_.dot(p - a)) > 1e-6 * size)
+        if (std::abs(normal_3d_.dot(p - a)) > close)
             refuse(
                 "the edge does not lie in a plane; only straight edges, arcs of circles and smooth sequences of these "
                 "in one plane are rounded so far",
                 p, "along");
+    if (off(c) <= close) return;
+    for (const auto& face : planes_)
+        if (face && std::abs(face->normal.dot(normal_3d_)) > 0.999)
+            normal_3d_ = face->normal.dot(normal_3d_) > 0 ? face->normal : Vec3(-face->normal);
 }
 
 /// The arc from a over b to c, up to its length.
 FilletPath::Piece FilletPath::arc_through(const Vec3& a, const Vec3& b, const Vec3& c) const {
-    const Vec3 u = b - a, v = c - a, w = u.cross(v);
+    Vec3 u = b - a, v = c - a;
+    if (slack_.off() > 0)
+        for (Vec3* x : {&u, &v}) *x -= x->dot(normal_3d_) * normal_3d_;
+    const Vec3 w = u.cross(v);
     const Vec3 centre = a + (v.squaredNorm() * w.cross(u) + u.squaredNorm() * v.cross(w)) / (2 * w.squaredNorm());
     const double sign = w.dot(normal_3d_) > 0 ? 1 : -1, radius = (a - centre).norm();
     const Vec3 to_right = sign * (a - centre) / radius;
     return {a, normal_3d_.cross(to_right), sign / radius, 0, 0};
 }
 
+/// The arc that is nearest to points by least squares, of about the same.
+FilletPath::Piece FilletPath::fitted(const Piece& arc, std::span<const Vec3> points) const {
+    const Vec3 to_right = right(arc);
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    Vec3 by = Vec3::Zero();
+    double level = 0;
+    for (const Vec3& x : points) {
+        const Vec3 d = x - arc.start;
+        const Vec3 row(d.dot(to_right), d.dot(arc.tangent), 1);
+        sum += row * row.transpose();
+        by += row * (row.head<2>().squaredNorm());
+        level += d.dot(normal_3d_) / static_cast<double>(points.size());
+    }
+    const Vec3 found = sum.ldlt().solve(by);
+    const Vec2 centre = found.head<2>() / 2;
+    const double radius = std::sqrt(found.z() + centre.squaredNorm());
+    const Vec3 centre_3d = arc.start + centre.x() * to_right + centre.y() * arc.tangent + level * normal_3d_;
+    const Vec3 out = (arc.start + level * normal_3d_ - centre_3d).normalized(),
+               outwards = arc.curvature > 0 ? out : Vec3(-out);
+    return {centre_3d + radius * out, normal_3d_.cross(outwards), arc.curvature > 0 ? 1 / radius : -1 / radius, 0, 0};
+}
+
+/// Whether points lie on an arc.
+bool FilletPath::lie_on_arc(std::span<const Vec3> points) const {
+    const Piece arc = fitted(arc_through(points[0], points[1], points[2]), points);
+    const double radius = 1 / std::abs(arc.curvature);
+    const Vec3 centre = arc.start - right(arc) / arc.curvature;
+    return std::ranges::all_of(points, [&](const Vec3& x) {
+        return std::abs((x - centre).norm() - radius) <= 1e-4 * radius + 4 * slack_.off();
+    });
+}
+
 /// Adds the longest straight piece or arc from a point on; returns the place of its last point.
 std::size_t FilletPath::add_piece(const std::vector<Vec3>& points, std::size_t first) {
     const Vec3& a = points[first];
     std::size_t straight = first + 1, arc = first;
-    while (straight + 1 < points.size() && (points[straight + 1] - a).dot(points[straight] - a) > 0 &&
-           (points[straight] - a).cross(points[straight + 1] - a).norm() <=
-               1e-6 * (points[straight] - a).norm() * (points[straight + 1] - a).norm())
-        ++straight;
+    const auto goes_on = [&](const Vec3& x, const Vec3& next) {
+        const double one = (x - a).norm(), other = (next - a).norm();
+        return (next - a).dot(x - a) > 0 &&
+               (x - a).cross(next - a).norm() <= (1e-6 + slack_.direction(one) + slack_.direction(other)) * one * other;
+    };
+    while (straight + 1 < points.size() && goes_on(points[straight], points[straight + 1])) ++straight;
     Piece piece{a, (points[straight] - a).normalized(), 0, end_, (points[straight] - a).norm()};
     if (straight == first + 1 && first + 2 < points.size()) {
-        const Piece wanted = arc_through(a, points[first + 1], points[first + 2]);
-        const Vec3 centre = a - right(wanted) / wanted.curvature;
-        const double radius = 1 / std::abs(wanted.curvature);
-        for (arc = first + 2; arc + 1 < points.size(); ++arc)
-            if (std::abs((points[arc + 1] - centre).norm() - radius) > 1e-4 * radius) break;
+        arc = first + 2;
+        while (arc + 1 < points.size() && lie_on_arc(std::span(points).subspan(first, arc + 2 - first))) ++arc;
         // More exactly from points far apart.
         const bool whole = closed_ && first == 0 && arc + 1 == points.size();
         const std::size_t count = arc - first;
         piece = whole ? arc_through(a, points[count / 3], points[2 * count / 3])
                       : arc_through(a, points[first + count / 2], points[arc]);
+        if (slack_.off() > 0) piece = fitted(piece, std::span(points).subspan(first, count + 1));
         piece.begin = end_;
         for (std::size_t k = first; k < arc; ++k) {
             const double half = (points[k + 1] - points[k]).norm() * std::abs(piece.curvature) / 2;
@@ -178,7 +244,7 @@ std::size_t FilletPath::add_piece(const std::vector<Vec3>& points, std::size_t f
         const Piece& last = pieces_.back();
         const double turned = last.curvature * last.length;
         const Vec3 tangent = std::cos(turned) * last.tangent - std::sin(turned) * right(last);
-        if ((tangent - piece.tangent).norm() > 0.02)
+        if ((tangent - piece.tangent).norm() > 0.02 + slack_.direction(last.length) + slack_.direction(piece.length))
             refuse("the edge bends in another way than arcs of circles and straight pieces that join smoothly do", a,
                    "along");
     }
@@ -251,19 +317,25 @@ bool FilletPath::is_beyond_end(const Vec3& x) const {
 void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     std::array<Vec2, 2> sum{Vec2::Zero(), Vec2::Zero()};
     std::vector<std::array<Vec2, 2>> all;
+    std::vector<std::array<double, 2>> off(line.faces.size());
     for (std::size_t e = 0; e < line.faces.size(); ++e) {
         auto& here = all.emplace_back(std::array{Vec2(Vec2::Zero()), Vec2(Vec2::Zero())});
         for (const int side : {0, 1}) {
             for (const Index n : line.faces[e][side])
-                if (std::ranges::find(line.nodes, n) == line.nodes.end())
-                    here[side] = place(mesh.points[n]).p.normalized();
+                if (std::ranges::find(line.nodes, n) == line.nodes.end()) {
+                    const Vec2 p = place(mesh.points[n]).p;
+                    here[side] = p.normalized();
+                    off[e][side] = slack_.direction(p.norm());
+                }
             sum[side] += here[side];
+            face_slack_ = std::max(face_slack_, off[e][side]);
         }
     }
-    for (const int side : {0, 1}) along_face_[side] = sum[side].normalized();
+    for (const int side : {0, 1}) along_face_[side] = along_plane(side, sum[side].normalized());
+    if (is_straight() && planes_[0] && planes_[1]) face_slack_ = slack_.direction(length());
     for (std::size_t e = 0; e < all.size(); ++e)
         for (const int side : {0, 1})
-            if (!all[e][side].isZero() && (all[e][side] - along_face_[side]).norm() > 2e-3)
+            if (!all[e][side].isZero() && (all[e][side] - along_face_[side]).norm() > 2e-3 + 2 * off[e][side])
                 refuse(is_straight()
                            ? "a face beside the edge is not plane"
                            : "a face beside the edge is neither a plane nor a cylinder or cone about its axis",
@@ -281,6 +353,16 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     set_faces(outwards);
 }
 
+/// The direction of a face, by the plane in which it lies if that is known.
+Vec2 FilletPath::along_plane(int side, const Vec2& about) const {
+    if (!planes_[side]) return about;
+    const Vec2 n(planes_[side]->normal.dot(right(pieces_[0])), planes_[side]->normal.dot(normal_3d_));
+    // Beside an arc a plane that is not across its axis is not the same in all sections.
+    if (n.norm() < 1 - 1e-9 || (!is_straight() && std::abs(n.x()) > 1e-9)) return about;
+    const Vec2 along = Vec2(-n.y(), n.x()).normalized();
+    return along.dot(about) < 0 ? Vec2(-along) : along;
+}
+
 /// What follows from where the faces are, and the first one's normal out of the material.
 void FilletPath::set_faces(const Vec2& normal) {
     const Vec2 &d = along_face_[0], &e = along_face_[1];
@@ -295,103 +377,11 @@ void FilletPath::set_faces(const Vec2& normal) {
     across_ = Vec2(-to_first_.y(), to_first_.x());
     if (across_.dot(tangent_point(1) - centre_) < 0) across_ = -across_;
     arc_angle_ = std::numbers::pi - angle;
-    for (const int face : {0, 1}) walls_[face] = std::make_unique<RollingWall>(*this, face);
+    for (const int face : {0, 1}) {
+        walls_[face] = std::make_unique<RollingWall>(*this, face);
+        used_walls_[face] = walls_[face].get();
+    }
     ball_ = std::make_unique<Ball>(*this);
-}
-
-/// The skin's triangles about the tangent lines.
-FilletPath::SkinNear FilletPath::skin_near(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const {
-    Eigen::AlignedBox3d box;
-    const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
-    for (int k = 0; k <= 2 * places; ++k)
-        for (const int side : {0, 1})
-            for (const double part : {0.0, 1.1})
-                box.extend(at(begin_ + length() * k / (2.0 * places), part * tangent_point(side)));
-    const double margin = room_margin();
-    box.min().array() -= 2 * margin;
-    box.max().array() += 2 * margin;
-    SkinNear near;
-    for (const auto& f : skin) {
-        Eigen::AlignedBox3d own;
-        for (const Index n : f) own.extend(mesh.points[n]);
-        if (box.intersects(own)) near.push_back({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]});
-    }
-    return near;
-}
-
-/// How far a face beside the edge is from a point across it, at that part of the way to the tangent line.
-double FilletPath::off_face(const SkinNear& near, int side, double s, double part) const {
-    check_cancelled();
-    const Vec3 x = at(s, part * tangent_point(side)),
-               n = (at(s, tangent_point(side) + normal_[side]) - at(s, tangent_point(side))).normalized();
-    double nearest = std::numeric_limits<double>::infinity();
-    Vec3 weights;
-    for (const auto& t : near) {
-        if ((t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(n) < 0.8) continue;
-        nearest = std::min(nearest, (closest_on_triangle(t[0], t[1], t[2], x, weights) - x).norm());
-    }
-    return nearest;
-}
-
-/// Moves an end to the last place where both tangent lines lie on the faces, with what is between them and the edge.
-void FilletPath::stop_at_corner(int which, const SkinNear& near) {
-    const auto fits = [&](double s) {
-        return std::ranges::all_of(std::array{0, 1}, [&](int side) {
-            return std::ranges::all_of(std::array{0.4, 0.7, 1.0, 1.1},
-                                       [&](double part) { return off_face(near, side, s, part) <= room_margin(); });
-        });
-    };
-    const double end = which == 0 ? begin_ : end_, inwards = which == 0 ? 1 : -1, tiny = 0.02 * mean_edge_,
-                 step = mean_edge_ / 4;
-    if (fits(end + inwards * tiny)) return;
-    double low = tiny, high = tiny;  // from the end: where it does not fit, and where it does
-    do {
-        low = high;
-        high += step;
-        if (high > length() - step) {
-            std::ostringstream text;
-            text << radius_ << " is too large for the faces beside the edge, which ends at a corner: nowhere along it "
-                 << "do they reach as far as " << 1.1 * tangent_length_ << ", where they would be touched,";
-            refuse(text.str(), at(end, Vec2::Zero()), "radius");
-        }
-    } while (!fits(end + inwards * high));
-    for (int k = 0; k < 30; ++k) {
-        const double middle = (low + high) / 2;
-        (fits(end + inwards * middle) ? high : low) = middle;
-    }
-    (which == 0 ? begin_ : end_) = end + inwards * high;
-}
-
-void FilletPath::cut_back_at(int which, const Vec3& to_centre) {
-    const Vec3 tip = at(which == 0 ? begin_ : end_, Vec2::Zero());
-    if (!is_straight()) refuse("a curved edge that meets others at a corner is not rounded", tip, "along");
-    const Vec3 inwards = (which == 0 ? 1 : -1) * pieces_[0].tangent;
-    cut_back_[which] = (convex_ ? -radius_ : radius_) * to_centre.dot(inwards);
-}
-
-/// Each face must be found under the tangent point, at some places along the edge.
-void FilletPath::check_room(const SkinNear& near) const {
-    const int places = std::clamp(static_cast<int>(length() / mean_edge_), 4, 64);
-    const double begin = begin_ + std::max(0.0, cut_back_[0]), end = end_ - std::max(0.0, cut_back_[1]);
-    if (end - begin < 0.02 * length())
-        refuse("too large for an edge between corners, whose roundings would meet", at((begin + end) / 2, Vec2::Zero()),
-               "radius");
-    for (int k = 0; k < places; ++k)
-        for (const int side : {0, 1}) {
-            const double s = begin + (end - begin) * (k + 0.5) / places;
-            const bool past_axis = std::ranges::any_of(
-                pieces_, [&](const Piece& q) { return 1 + q.curvature * 1.02 * tangent_point(side).x() <= 0; });
-            if (past_axis)
-                refuse("too large for a face beside the edge: the tangent line passes the axis", at(s, Vec2::Zero()),
-                       "radius");
-            // Seen a little beyond the tangent line: a face must not end at it.
-            if (off_face(near, side, s, 1.02) > room_margin()) {
-                std::ostringstream text;
-                text << radius_ << " is too large for a face beside the edge, which ends, or is not what it is at the "
-                     << "edge, before the distance of " << tangent_length_ << " at which it would be touched";
-                refuse(text.str(), at(s, Vec2::Zero()), "radius");
-            }
-        }
 }
 
 }  // namespace femscalpel

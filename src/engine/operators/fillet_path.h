@@ -4,10 +4,15 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "cutting/planar_mesh.h"
+#include "operators/coordinate_slack.h"
 #include "operators/feature_line.h"
+#include "operators/skin_planes.h"
 #include "tools/tool.h"
 
 namespace femscalpel {
@@ -15,6 +20,8 @@ namespace femscalpel {
 /// How an edge that is rounded ends at its beginning and end.
 struct FilletEnds {
     std::array<LineEnd, 2> kind{LineEnd::plane, LineEnd::plane};
+    /// Of the plane face at a wall, out of the edge.
+    std::array<Vec3, 2> normal{Vec3::Zero(), Vec3::Zero()};
     /// Where it is joined to others: FilletVertex::to_centre.
     std::array<Vec3, 2> to_centre{Vec3::Zero(), Vec3::Zero()};
 };
@@ -35,13 +42,14 @@ public:
 
     /// At an open end the path stops where both tangent lines still lie on the faces. Throws ToolError (parameter
     /// "along" or "radius") when the line is of another kind, or the ball too large for its faces: `skin` is all of the
-    /// mesh's.
+    /// mesh's, and `planes` where these are known better than from single triangles.
     FilletPath(const Mesh& mesh, const FeatureLine& line, double radius, const std::vector<std::array<Index, 3>>& skin,
-               const FilletEnds& ends = {});
+               const FilletEnds& ends = {}, const SkinPlanes* planes = nullptr);
 
     /// A corner of a plane mesh, like an edge of no length across it: `faces` are unit vectors from it along the
     /// outline, with the material on the left of the first as seen from where `normal` points to.
-    FilletPath(const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex, double radius);
+    FilletPath(const Mesh& mesh, const Vec3& corner, const Vec3& normal, const std::array<Vec3, 2>& faces, bool convex,
+               double radius);
 
     Place place(const Vec3& x) const;
     Vec3 at(double s, const Vec2& p) const;
@@ -64,6 +72,9 @@ public:
     const Vec2& normal(int face) const { return normal_[face]; }
     const Vec2& centre() const { return centre_; }
     double tangent_length() const { return tangent_length_; }
+    /// The smallest radius of the tangent line on a face where it is a circle about an arc's axis; infinite along
+    /// straight edges.
+    double tangent_radius(int face) const;
     /// How far from the edge there is material that goes or comes.
     double rounded_reach() const { return tangent_length_; }
 
@@ -82,11 +93,15 @@ public:
     const Tool& end_plane(int which) const { return *end_planes_[which]; }
     /// Whether a point is beyond an open end.
     bool is_beyond_end(const Vec3& x) const;
-    /// How far the edge's segments may be off it.
+    /// How far the edge's segments and nodes may be off it.
     double sag() const { return sag_; }
+    /// By how much the direction of a face may be off as coordinates were rounded, in radians.
+    double face_slack() const { return face_slack_; }
 
     /// The surface through a tangent line that is perpendicular to its face; negative on the edge's side.
-    const Tool& wall(int face) const { return *walls_[face]; }
+    const Tool& wall(int face) const { return *used_walls_[face]; }
+    /// Another edge's that is the same, to be used from now on.
+    void use_wall(int face, const Tool& wall) { used_walls_[face] = &wall; }
     /// The surface of the rolling ball.
     const Tool& ball() const { return *ball_; }
 
@@ -98,18 +113,26 @@ private:
     };
 
     void fit(const std::vector<Vec3>& points);
+    void find_planes(const FeatureLine& line, const SkinPlanes& planes);
     void find_plane(const std::vector<Vec3>& points);
+    void lay_between_planes(const Vec3& first, const Vec3& last);
     Piece arc_through(const Vec3& a, const Vec3& b, const Vec3& c) const;
+    Piece fitted(const Piece& arc, std::span<const Vec3> points) const;
+    bool lie_on_arc(std::span<const Vec3> points) const;
     std::size_t add_piece(const std::vector<Vec3>& points, std::size_t first);
     Vec3 right(const Piece& piece) const { return piece.tangent.cross(normal_3d_); }
     Place place_by(const Piece& piece, const Vec3& x) const;
     Vec3 at(const Piece& piece, double s, const Vec2& p) const;
     void set_faces(const Vec2& normal);
     void find_faces(const Mesh& mesh, const FeatureLine& line);
+    Vec2 along_plane(int side, const Vec2& about) const;
     using SkinNear = std::vector<std::array<Vec3, 3>>;
     SkinNear skin_near(const Mesh& mesh, const std::vector<std::array<Index, 3>>& skin) const;
     double off_face(const SkinNear& near, int side, double s, double part) const;
-    double room_margin() const { return 2 * sag_ + 1e-3 * tangent_length_; }
+    double room_margin(int side) const;
+    [[noreturn]] static void refuse(const std::string& text, const Vec3& near, const char* parameter);
+    [[noreturn]] void refuse_axis(int side, const Vec3& near) const;
+    [[noreturn]] void refuse_room(const SkinNear& near, double begin, double end, int places) const;
     void stop_at_corner(int which, const SkinNear& near);
     void cut_back_at(int which, const Vec3& to_centre);
     void check_room(const SkinNear& near) const;
@@ -117,11 +140,14 @@ private:
     bool closed_ = false, convex_ = true;
     std::vector<Piece> pieces_;
     Vec3 normal_3d_ = Vec3::Zero();
-    double begin_ = 0, end_ = 0, mean_edge_ = 0, sag_ = 0;
+    double begin_ = 0, end_ = 0, mean_edge_ = 0, sag_ = 0, face_slack_ = 0;
+    CoordinateSlack slack_{0};
+    std::array<std::optional<SkinPlanes::Plane>, 2> planes_;  // in which the faces lie, where they are known
     double radius_, tangent_length_ = 0, arc_angle_ = 0;
     std::array<Vec2, 2> along_face_, normal_;
     Vec2 centre_ = Vec2::Zero(), to_first_ = Vec2::Zero(), across_ = Vec2::Zero();
     std::array<std::unique_ptr<Tool>, 2> walls_;
+    std::array<const Tool*, 2> used_walls_{};
     std::unique_ptr<Tool> ball_;
     std::array<LineEnd, 2> ends_{LineEnd::plane, LineEnd::plane};
     std::array<double, 2> cut_back_{0, 0};

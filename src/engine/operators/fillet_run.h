@@ -53,8 +53,10 @@ public:
 
     /// Takes what is across the edge out of the material's skin and borders. Throws QualityError where it cannot.
     void find_sections();
-    /// Finds the tangent lines on the skin, and moves them onto the ball where facets have them off it.
+    /// Finds the tangent lines on the skin.
     void find_rows();
+    /// Moves them onto the ball where facets have them off it. To be called when all edges have found theirs.
+    void put_rows_on_ball();
     /// Into how many parts the arc should be divided.
     int wanted_divisions() const;
     /// Whether the arc is divided in its middle.
@@ -110,7 +112,8 @@ private:
     Section end_section(int which);
     Section end_on_face(int which);
     Vec3 plane_at(int corner) const;
-    double off_plane() const { return 1e-7 * (path_.radius() + path_.length()); }
+    Vec3 plane_of(const std::vector<Triangle>& faces, int node, const Vec3& about) const;
+    double off_plane() const { return 1e-7 * (path_.radius() + path_.length()) + 4 * m_.slack().off(); }
     int skin_part(Section& section, int side, int domain);
     Section end_in_wall(int which);
     Section open_end(int which);
@@ -133,7 +136,6 @@ private:
 
     Row find_row(int side) const;
     void place_in_rows(Section& section) const;
-    void put_rows_on_ball();
 
     double on_plane(const Vec2& p, const Section& section) const;
     void make_arc(Section& section);

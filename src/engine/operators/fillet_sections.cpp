@@ -104,9 +104,13 @@ FilletRun::Section FilletRun::border_at(std::size_t node) {
                 }))
                 border = &b;
         if (!border) m_.refuse("several borders meet there", at(section.corner));
-        const Vec3 normal = m_.normal(border->nodes);
-        if (section.normal.isZero()) set_normal(section, normal);
-        if (std::abs(normal.dot(section.normal)) < 1 - 1e-6)
+        if (section.normal.isZero()) {
+            std::vector<Triangle> faces;
+            faces.reserve(m_.borders.size());
+            for (const Border& b : m_.borders) faces.push_back(b.nodes);
+            set_normal(section, plane_of(faces, section.corner, m_.normal(border->nodes)));
+        }
+        if (!m_.is_parallel(border->nodes, section.normal, FilletMaterial::plane_angle))
             m_.refuse("a border of groups that crosses it is not plane", at(section.corner));
     }
     const double step = path_.mean_edge() / 4;
@@ -154,7 +158,6 @@ void FilletRun::check_strips() const {
 void FilletRun::find_rows() {
     for (const int side : {0, 1}) rows_[side] = find_row(side);
     for (Section& section : sections_) place_in_rows(section);
-    put_rows_on_ball();
 }
 
 /// Where the outlines of what goes of a section leave the skin beside the edge.

@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "operators/coordinate_slack.h"
+
 namespace femscalpel {
 namespace {
 
@@ -16,26 +18,44 @@ namespace {
     throw ToolError(message.str(), "along");
 }
 
-/// The normals of the faces at a node, those of one plane once.
-std::vector<Vec3> planes_at(const Mesh& mesh, Index node, const std::vector<std::array<Index, 3>>& around) {
+/// Of faces at a node: those of one plane once.
+struct Planes {
     std::vector<Vec3> normals;
+    std::vector<double> off;  // by how much they may be off, in radians
+};
+
+Planes planes_at(const Mesh& mesh, Index node, const std::vector<std::array<Index, 3>>& around,
+                 const SkinPlanes* known) {
+    const CoordinateSlack slack(mesh);
+    Planes out;
+    auto& [normals, offs] = out;
     for (const auto& f : around) {
-        const Vec3 n =
-            (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
-        if (std::ranges::none_of(normals, [&](const Vec3& m) { return (m - n).norm() < 1e-3; })) normals.push_back(n);
+        const Vec3 &a = mesh.points[f[0]], &b = mesh.points[f[1]], &c = mesh.points[f[2]];
+        const auto plane = known ? known->of(f) : std::nullopt;
+        const Vec3 n = plane ? plane->normal : (b - a).cross(c - a).normalized();
+        const double off = plane ? 0 : slack.normal(a, b, c);
+        std::size_t k = 0;
+        while (k < normals.size() && (normals[k] - n).norm() >= 1e-3 + off + offs[k]) ++k;
+        if (k == normals.size()) {
+            normals.push_back(n);
+            offs.push_back(off);
+        } else if (off < offs[k]) {
+            normals[k] = n;
+            offs[k] = off;
+        }
         if (normals.size() > 3)
             refuse(mesh.points[node],
                    "where more than three faces do, or one that is not plane; only corners of "
                    "three plane faces are rounded. Round the edges one after the other");
     }
     if (normals.size() < 3) refuse(mesh.points[node], "where there are less than three faces");
-    return normals;
+    return out;
 }
 
 }  // namespace
 
 std::vector<FilletVertex> find_vertices(const Mesh& mesh, std::span<const FeatureLine> lines,
-                                        const std::vector<std::array<Index, 3>>& skin) {
+                                        const std::vector<std::array<Index, 3>>& skin, const SkinPlanes* planes) {
     std::map<Index, std::vector<FilletVertex::Member>> ends;
     for (std::size_t k = 0; k < lines.size(); ++k) {
         if (lines[k].closed) continue;
@@ -47,16 +67,22 @@ std::vector<FilletVertex> find_vertices(const Mesh& mesh, std::span<const Featur
     for (const auto& f : skin)
         for (const Index n : f)
             if (ends.contains(n)) around[n].push_back(f);
+    const CoordinateSlack slack(mesh);
     std::vector<FilletVertex> out;
     for (auto& [node, members] : ends) {
-        const std::vector<Vec3> normals = planes_at(mesh, node, around[node]);
+        const Planes found = planes_at(mesh, node, around[node], planes);
         Eigen::Matrix3d faces;
-        for (int k = 0; k < 3; ++k) faces.row(k) = normals[k];
+        for (int k = 0; k < 3; ++k) faces.row(k) = found.normals[k];
         if (std::abs(faces.determinant()) < 0.1)
             refuse(mesh.points[node], "where the faces are too nearly in one plane for a ball to touch all three");
         if (members.size() > 3) refuse(mesh.points[node], "more than three");
         const Vec3 to_centre = faces.inverse() * Vec3::Ones();
-        const bool right_angled = (faces * faces.transpose()).isIdentity(1e-6);
+        // Planes that are known are off by less than what triangles tell of them.
+        double off = 1e-6;
+        for (const auto& f : around[node])
+            off = std::max(off, 1e-6 + 2 * slack.normal(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]));
+        const bool right_angled =
+            (faces * faces.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= off;
         out.push_back({mesh.points[node], to_centre, std::move(members), right_angled});
     }
     return out;
@@ -83,7 +109,8 @@ void FilletVertex::join(const std::vector<const FilletPath*>& paths) {
         sphere = std::make_shared<Sphere>(centre, first.radius());
         return;
     }
-    if (std::abs(first.arc_angle() - paths[members[1].edge]->arc_angle()) > 1e-6)
+    const FilletPath& second = *paths[members[1].edge];
+    if (std::abs(first.arc_angle() - second.arc_angle()) > 1e-6 + 2 * (first.face_slack() + second.face_slack()))
         refuse(at,
                "between faces at different angles, and the third edge there is not rounded: the two do not meet in "
                "a plane. Round all three, or one after the other");

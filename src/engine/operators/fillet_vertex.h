@@ -37,8 +37,10 @@ struct FilletVertex {
     void join(const std::vector<const FilletPath*>& paths);
 };
 
-/// The corners where several of the lines end. Throws ToolError (parameter "along") where these are of another kind.
+/// The corners where several of the lines end; `planes` where these are known better than from triangles. Throws
+/// ToolError (parameter "along") where these are of another kind.
 std::vector<FilletVertex> find_vertices(const Mesh& mesh, std::span<const FeatureLine> lines,
-                                        const std::vector<std::array<Index, 3>>& skin);
+                                        const std::vector<std::array<Index, 3>>& skin,
+                                        const SkinPlanes* planes = nullptr);
 
 }  // namespace femscalpel
