@@ -5,6 +5,7 @@ shells on each other, the lips of an earlier crack."""
 import contact_cases
 import numpy as np
 import pytest
+from mixed_meshes import FACES
 from test_conversion import deck, largest_error, needs_ccx
 
 import femscalpel as fs
@@ -67,6 +68,34 @@ def test_divisions_that_do_not_match_stay_as_they_are():
     assert 0 < result.report.welded_pairs < 42
 
 
+@pytest.mark.parametrize("kind", ["flat", "flat second", "curved"])
+def test_wall_of_a_hole_through_both(kind):
+    axis = fs.Cylinder((3, 2.5, 0), (0, 0, 1), 1.0)
+    drilled = fs.drill(both(kind), axis, name="HOLE").mesh
+    for motion in ({"onto": fs.Cylinder((3, 2.5, 0), (0, 0, 1), 1.25)}, {"by": (0.3, 0.1, 0)}):
+        result = fs.reshape(drilled, "HOLE_WALL", name="T", **motion)
+        assert contact_cases.check(kind, drilled, result, True) == []
+        assert result.report.quality.after.minimum > 0.4 and result.report.welded_pairs > 80
+
+
+def test_the_contact_itself_moves_on_both_sides():
+    mesh = both()
+    result = fs.reshape(mesh, "CON_A", by=(0, 0, 0.4), name="T")
+    assert contact_cases.check("flat", mesh, result, True) == []
+    for group in ("CON_A", "CON_B"):
+        on = np.isin(result.mesh.node_ids, result.mesh.groups[group, "node"].ids)
+        assert on.any() and np.allclose(result.mesh.points[on, 2], 4.4)
+
+
+@pytest.mark.parametrize("kind", ["flat", "flat second"])
+def test_an_edge_of_both_is_rounded(kind):
+    mesh = both(kind)
+    result = fs.fillet(mesh, (6, 5, 2), 0.8, name="T")
+    assert contact_cases.check(kind, mesh, result, True) == []
+    removed = sum(g.measure_before - g.measure_after for g in result.report.groups if g.name in ("LOW", "UP"))
+    assert removed == pytest.approx((1 - np.pi / 4) * 0.8**2 * 8, rel=0.03)
+
+
 @needs_ccx
 @pytest.mark.parametrize("kind", ["flat", "curved", "flat second", "hexahedra"])
 @pytest.mark.parametrize("operate", [lambda m: fs.crack(m, PLANE), lambda m: fs.refine(m, PLANE, 0.6)])
@@ -105,3 +134,41 @@ def test_equations_between_pairs_follow(tmp_path):
     assert len(pairs) > 60
     assert all(frozenset(p) in related for p in pairs)
     assert not [w for w in result.report.warnings if "relat" in w]
+
+
+def surfaces(mesh):
+    """*SURFACE cards of the two sides of the contact: SURF_A of elements below, SURF_B above."""
+    lines = []
+    for name, sign in (("SURF_A", -1), ("SURF_B", 1)):
+        lines.append(f"*SURFACE, NAME={name}")
+        for e, cell in enumerate(mesh.cells["tetra"]):
+            if sign * (mesh.points[cell][:, 2].mean() - contact_cases.HEIGHT) < 0:
+                continue
+            for k, face in enumerate(FACES["tetra"]):
+                if (mesh.points[cell[list(face)], 2] == contact_cases.HEIGHT).all():
+                    lines.append(f"{e + 1}, S{k + 1}")
+    return lines
+
+
+@pytest.mark.parametrize(
+    "operate",
+    [
+        lambda m: fs.crack(m, PLANE),
+        lambda m: fs.refine(m, PLANE, 0.6),
+        lambda m: fs.crack(m, fs.Plane((3, 2.5, 4.3), (0, 0.1, 1))),
+    ],
+)
+def test_surfaces_of_a_contact_pair_stay_whole(tmp_path, operate):
+    mesh = both()
+    section = "\n".join(["*SOLID SECTION, ELSET=EALL, MATERIAL=M", *surfaces(mesh)])
+    section += "\n*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
+    section += "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nSURF_A, SURF_B"
+    mesh = deck(tmp_path, mesh.points, mesh.cells["tetra"], "C3D4", section)
+    result = operate(mesh)
+    groups = {g.name: g for g in result.report.groups if g.kind == "facet"}
+    assert set(groups) == {"SURF_A", "SURF_B"}
+    for g in groups.values():
+        assert g.measure_before == pytest.approx(30) == g.measure_after
+    assert groups["SURF_A"].count_after == groups["SURF_B"].count_after > groups["SURF_A"].count_before
+    fs.write(result.mesh, tmp_path / "out.inp")
+    assert "SURF_A, SURF_B" in (tmp_path / "out.inp").read_text()

@@ -204,11 +204,9 @@ private:
     /// Has all elements name the first node of each set.
     static void join(Welded& out, const std::vector<Facet>& welded) {
         Mesh& mesh = out.mesh;
-        std::vector<Index> now(mesh.points.size());
-        for (std::size_t n = 0; n < now.size(); ++n) now[n] = static_cast<Index>(n);
+        const std::vector<Index> now = out.single_nodes();
         for (const std::vector<Index>& set : out.sets)
             for (const Index n : set) {
-                now[n] = set.front();
                 mesh.node_families[set.front()] =
                     mesh.families.unite(mesh.node_families[set.front()], mesh.node_families[n]);
             }
@@ -238,6 +236,14 @@ private:
 };
 
 }  // namespace
+
+std::vector<Index> Welded::single_nodes() const {
+    std::vector<Index> out(mesh.points.size());
+    for (std::size_t n = 0; n < out.size(); ++n) out[n] = static_cast<Index>(n);
+    for (const std::vector<Index>& set : sets)
+        for (const Index n : set) out[n] = set.front();
+    return out;
+}
 
 Index Welded::pairs() const {
     Index count = 0;

@@ -20,6 +20,8 @@ struct Welded {
     GroupIndex faces = 0;                  ///< the group `weld_group`, whose faces are to stay where they are
     std::vector<std::vector<Index>> sets;  ///< nodes (indices, ascending) that were made one
 
+    /// The node that stands for each.
+    std::vector<Index> single_nodes() const;
     /// The pairs that they are: one less than the nodes of each set.
     Index pairs() const;
 };

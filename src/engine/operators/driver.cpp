@@ -227,13 +227,8 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
     if (!weld || !(weld.is_near(around(recipe)) || !recipe.zones().empty()))
         return perform_on(recipe, input, options, known, started);
     recipe.start(weld.mesh());
-    const double welding = Stopwatch::since(started);
     Result result = perform_on(recipe, weld.mesh(), options, weld.known(), Stopwatch::now());
-    const Stopwatch::Time done = Stopwatch::now();
-    if (weld.finish(result, options.strict, options.band_only)) {
-        result.report.seconds.insert(result.report.seconds.begin(), {"weld", welding + Stopwatch::since(done)});
-        return result;
-    }
+    if (weld.finish(result, options.strict, options.band_only)) return result;
     recipe.start(input);
     return perform_on(recipe, input, options, known, started);
 }

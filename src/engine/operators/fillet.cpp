@@ -26,6 +26,7 @@
 #include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
 #include "operators/fillet_vertex.h"
+#include "operators/weld_first.h"
 
 namespace femscalpel {
 namespace {
@@ -459,8 +460,11 @@ void check_radius(double radius) {
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
               const Prepared& prepared) {
     check_radius(radius);
-    Fillet recipe(mesh, along, radius, options);
-    Result result = perform(recipe, mesh, options, prepared);
+    WeldFirst weld(mesh, prepared);  // an edge goes on from one part to what it touches
+    Fillet recipe(weld ? weld.mesh() : mesh, along, radius, options);
+    Result result =
+        weld ? perform(recipe, weld.mesh(), options, weld.known()) : perform(recipe, mesh, options, prepared);
+    if (weld) (void)weld.finish(result, options.strict, options.band_only);
     if (mesh.dimension() == 3 && !options.band_only) keep_face_nodes(mesh, skin_of(mesh), result);
     return result;
 }

@@ -239,9 +239,7 @@ Result refine_on(const Mesh& input, const DistanceField& distance, const RefineO
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
     check(options);
     check_extent(input);
-    const Stopwatch::Time started = Stopwatch::now();
     WeldFirst weld(input, {});
-    const double welding = Stopwatch::since(started);
     std::vector<Changes> stages;
     if (!weld) return refine_on(input, distance, options, stages);
     Result result = refine_on(weld.mesh(), distance, options, stages);
@@ -250,9 +248,7 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
         return result;
     }
     std::ranges::move(stages, std::back_inserter(weld.stages()));
-    const Stopwatch::Time done = Stopwatch::now();
     (void)weld.finish(result, options.strict);
-    result.report.seconds.insert(result.report.seconds.begin(), {"weld", welding + Stopwatch::since(done)});
     return result;
 }
 

@@ -215,11 +215,10 @@ Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, 
 }
 
 /// On a mesh whose double nodes, if any, are single.
-Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Naming& naming,
+Result reshape_on(const Mesh& input, Covered covered, const ReshapeOptions& options, const Naming& naming,
                   const Prepared& known) {
     Laps seconds;
     Stopwatch watch(seconds);
-    Covered covered = covered_by(input, find(input, group));
     WallMotion motion = motion_of(options);
     watch.lap("locate");
     Edit edit(input, known);
@@ -264,14 +263,12 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     naming.front = options.name + "_WALL";
     check_name(input, options.name, naming);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
-    const Stopwatch::Time started = Stopwatch::now();
     WeldFirst weld(input, known);
-    if (!weld) return reshape_on(input, group, options, naming, known);
-    const double welding = Stopwatch::since(started);
-    Result result = reshape_on(weld.mesh(), group, options, naming, weld.known());
-    const Stopwatch::Time done = Stopwatch::now();
+    Covered covered = covered_by(input, find(input, group));
+    if (!weld) return reshape_on(input, std::move(covered), options, naming, known);
+    weld.make_single(covered.parts);
+    Result result = reshape_on(weld.mesh(), std::move(covered), options, naming, weld.known());
     (void)weld.finish(result, options.strict);
-    result.report.seconds.insert(result.report.seconds.begin(), {"weld", welding + Stopwatch::since(done)});
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include "deck/fit_cards.h"
 #include "mesh/companion.h"
 #include "mesh/rounding.h"
+#include "mesh/stopwatch.h"
 
 namespace femscalpel {
 namespace {
@@ -52,6 +53,7 @@ std::vector<Index> nodes_of(const NumberIndex& numbers, const std::vector<Index>
 }  // namespace
 
 WeldFirst::WeldFirst(const Mesh& input, const Prepared& known) : input_(input), marks_(known.marks) {
+    const Stopwatch::Time started = Stopwatch::now();
     std::optional<Welded> welded = weld(input, coordinate_rounding(input.points));
     if (!welded) return;
     if (!marks_) {
@@ -60,16 +62,14 @@ WeldFirst::WeldFirst(const Mesh& input, const Prepared& known) : input_(input), 
     }
     welded_ = marks_->mesh ? weld(*marks_->mesh, coordinate_rounding(input.points)) : std::move(welded);
     find_marks();
+    seconds_ = Stopwatch::since(started);
 }
 
 void WeldFirst::find_marks() {
     Mesh& mesh = welded_->mesh;
     if (mesh.companion) mesh.companion = std::make_shared<OtherElements>(mesh.companion->largest_other_element());
     rename_marks(mesh, mark_prefix, other_prefix);
-    std::vector<Index> now(mesh.points.size());
-    for (std::size_t n = 0; n < now.size(); ++n) now[n] = static_cast<Index>(n);
-    for (const std::vector<Index>& set : welded_->sets)
-        for (const Index n : set) now[n] = set.front();
+    const std::vector<Index> now = welded_->single_nodes();
     const auto single = [&](const std::vector<Index>& nodes) {
         std::vector<Index> out;
         for (const Index n : nodes) out.push_back(now[n]);
@@ -83,6 +83,17 @@ void WeldFirst::find_marks() {
     on_welded_.surface_sets = marks_->surface_sets;
     on_welded_.related = single(marks_->related);
     on_welded_.pinned = single(marks_->pinned);
+}
+
+void WeldFirst::make_single(std::vector<std::array<Index, 3>>& parts) const {
+    const std::vector<Index> now = welded_->single_nodes();
+    for (auto& part : parts) {
+        const auto end = part.begin() + (part[2] < 0 ? 2 : 3);
+        std::transform(part.begin(), end, part.begin(), [&](Index n) { return now[n]; });
+        std::sort(part.begin(), end);
+    }
+    std::ranges::sort(parts);
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
 bool WeldFirst::is_near(std::span<const Blade> blades) const {
@@ -175,6 +186,7 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index d
 }
 
 bool WeldFirst::finish(Result& result, bool strict, bool part) {
+    const Stopwatch::Time started = Stopwatch::now();
     Mesh& mesh = result.mesh;
     Changes changes = in_one(stages_);
     const bool opened = !changes.copies.empty();
@@ -187,6 +199,8 @@ bool WeldFirst::finish(Result& result, bool strict, bool part) {
     if (mesh.companion && !part) carry(mesh, changes, strict, result.report);
     remove_marks(mesh);
     report_pairs(mesh, unwelded, static_cast<Index>(changes.copies.size()), result.report);
+    auto& seconds = result.report.seconds;
+    seconds.insert(seconds.begin(), {"weld", seconds_ + Stopwatch::since(started)});
     return true;
 }
 

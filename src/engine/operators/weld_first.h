@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,6 +31,10 @@ public:
 
     const Mesh& mesh() const { return welded_->mesh; }
 
+    /// Has faces and edges of the input, by their nodes (-1: none), name nodes that mesh() has in elements: ascending,
+    /// each once.
+    void make_single(std::vector<std::array<Index, 3>>& parts) const;
+
     /// What an operation on mesh() is to know; see Prepared.
     Prepared known();
 
@@ -54,6 +59,7 @@ private:
     DeckMarks on_welded_;   // what the deck asks of the welded mesh
     DeckMarks on_changed_;  // of that refined or converted
     std::vector<Changes> stages_;
+    double seconds_ = 0;  // that welding took
 };
 
 }  // namespace femscalpel
