@@ -11,7 +11,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -114,5 +114,5 @@ TEST_F(AccountTest, GoesOnFromARefinement) {
     EXPECT_EQ(vain.nodes_moved, 9);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// A cube whose deck has an element set of all elements, and these cards.
 Mesh with_deck(const char* set, const std::vector<std::string>& cards) {
@@ -86,5 +86,5 @@ TEST(AdoptSections, OfNothingIsNothing) {
     EXPECT_EQ(mesh.companion, before);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -14,7 +14,7 @@
 namespace fs = std::filesystem;
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::HasSubstr;
 
@@ -94,5 +94,5 @@ TEST_F(AtomicFileTest, NamesTheTargetItCannotWrite) {
     EXPECT_EQ(files(), 0u);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Mesh beam(const Vec3& from, const Vec3& to) {
     Mesh mesh;
@@ -67,5 +67,5 @@ TEST(MergeReport, KeepsWhatIsKnownOfTheMesh) {
     EXPECT_EQ(records.back().count_after, 2);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

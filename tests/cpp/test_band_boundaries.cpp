@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::number_near;
 using testing::ElementsAre;
@@ -181,5 +181,5 @@ TEST(BandBoundaries, NodesBornOnShortcutsCountAsOnKeptFaces) {
     EXPECT_EQ(count(BandBoundaries(band, mesh, {}, std::vector<Index>{1, 2}), true), (Counts{{{0}, 1}}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -228,5 +228,5 @@ TEST(BandMesh, FacetsOfOtherElementsThanSimplicesAreLeftOutWithThem) {
     EXPECT_EQ(band.facet_edges.size(), 0);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "mesh/rows.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(Quality, InverseCubeRootIsExactToRounding) {
     std::mt19937 random(1);
@@ -73,5 +73,5 @@ TEST(Rows, AreListsOfLists) {
         EXPECT_TRUE(std::ranges::equal(rows[static_cast<int>(r)], plain[r])) << r;
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

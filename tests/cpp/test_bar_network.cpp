@@ -11,7 +11,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::away;
 using checks::node_at;
@@ -71,5 +71,5 @@ TEST_F(BarNetwork, IsStillWhereNothingIsGiven) {
     EXPECT_THAT(out, testing::ElementsAre(Vec3(0, 0, 0), Vec3(0, 0, 0)));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

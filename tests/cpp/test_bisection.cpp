@@ -9,7 +9,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::HasSubstr;
 
@@ -127,5 +127,5 @@ TEST(Bisector, PutsNodesOfCurvedEdgesOnTheirCurves) {
     EXPECT_LT((whole.bisector.middle(1, 3) - quarter).norm(), 1e-15);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

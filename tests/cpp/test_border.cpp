@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::HasSubstr;
@@ -163,5 +163,5 @@ TEST(PartClosedFaces, GivesAFaceOnTheFrontANodeInside) {
     EXPECT_FALSE(part_closed_faces(f, patch)) << "once is enough";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

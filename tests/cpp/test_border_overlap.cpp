@@ -6,7 +6,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// Two plates of two triangles side by side, apart by `gap`.
 Mesh two_plates(double gap) {
@@ -38,5 +38,5 @@ TEST(BorderOverlap, LipsOfACrack) {
     EXPECT_TRUE(border_overlap(checks::whole_workpiece(two_plates(0), checks::away).d));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

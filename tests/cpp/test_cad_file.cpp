@@ -18,7 +18,7 @@
 #include "error.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -68,5 +68,5 @@ TEST_F(CadFile, IsNamedInErrors) {
                 testing::ThrowsMessage<ToolError>(testing::StartsWith("skin: ")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

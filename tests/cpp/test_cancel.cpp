@@ -25,7 +25,7 @@
 namespace fs = std::filesystem;
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 constexpr long never = std::numeric_limits<long>::max();
 
@@ -227,5 +227,5 @@ TEST(CancelTest, WaitingForAThreadEnds) {
     EXPECT_THROW(await(result), Cancelled);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 
@@ -92,5 +92,5 @@ TEST(NumberText, FitsCalculixAndIsNoWholeNumber) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

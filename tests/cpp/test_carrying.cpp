@@ -10,7 +10,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 using deck_testing::node_set;
@@ -182,5 +182,5 @@ TEST_F(CarryingTest, LoadedFacesAreThoseInMarkedGroups) {
     EXPECT_FALSE(smaller.shrank("pressed")) << "S1 is in z = 0";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -67,5 +67,5 @@ TEST_F(Carve, RefusesWhatTakesAllOrNothing) {
     expect_error([&] { carved({{{{&in_x, {"_X"}}, {&in_y, {"_Y"}}}}}); }, "works with a single surface");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "voxel_skin.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.1, 0.1}};
 const std::vector<Triangle> skin = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
@@ -36,5 +36,5 @@ TEST(Cavity, FillingIsChecked) {
     EXPECT_THROW(check_filling(corners, skin, std::vector<Tetra>(2, Tetra{0, 1, 2, 3})), QualityError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

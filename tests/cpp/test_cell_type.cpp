@@ -9,7 +9,7 @@
 #include "error.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(CellTraits, AgreeWithTheNames) {
     ASSERT_EQ(all_cell_types().size(), static_cast<std::size_t>(cell_type_count));
@@ -62,5 +62,5 @@ TEST(CellTraits, NumberTheFacesOfTetrahedraAsCalculixDoes) {
         EXPECT_EQ(std::set<int>(faces[k].begin(), faces[k].begin() + 3), expected[k]) << "S" << k + 1;
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(ChangedQuality, OfWhatWasDividedAndItsParts) {
     Mesh mesh = checks::grid(2, 2, 2);
@@ -24,5 +24,5 @@ TEST(ChangedQuality, OfWhatWasDividedAndItsParts) {
     EXPECT_LT(report.quality_after.minimum, report.quality_before.minimum);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

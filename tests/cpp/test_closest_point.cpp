@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// The right triangle with legs of 4 in z = 0: where the nearest point is, and its barycentric coordinates.
 struct Case {
@@ -31,5 +31,5 @@ TEST(ClosestOnSegment, IsBetweenOrAnEnd) {
     EXPECT_EQ(closest_on_segment(a, a, {9, 7, 0}), a);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

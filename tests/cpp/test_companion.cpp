@@ -9,7 +9,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 struct Numbered : Companion {
     explicit Numbered(Index number) : largest(number) {}
@@ -40,5 +40,5 @@ TEST(Changes, AreEmptyWhenNothingIsNew) {
     EXPECT_FALSE(parted.empty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::bricks;
 using checks::number_near;
@@ -73,5 +73,5 @@ TEST(ElementFaces, OfDegenerateElementsAreWhatIsLeft) {
     EXPECT_EQ(faces[1].number, 3);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

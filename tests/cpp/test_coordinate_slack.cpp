@@ -6,7 +6,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(CoordinateSlack, IsNothingWhereCoordinatesWereNotRounded) {
     const CoordinateSlack slack(checks::grid(3, 3, 3));
@@ -24,5 +24,5 @@ TEST(CoordinateSlack, OfNormalsGoesByTheSmallestHeight) {
     EXPECT_DOUBLE_EQ(slack.normal({0, 0, 0}, {3, 0, 0}, {1, 1e-7, 0}), 0.5);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::HasSubstr;
 
@@ -75,5 +75,5 @@ TEST(Covered, EdgesOfShells) {
     for (const auto& part : out.parts) EXPECT_EQ(part[2], -1);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

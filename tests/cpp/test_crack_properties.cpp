@@ -25,7 +25,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace checks;
 
@@ -699,5 +699,5 @@ TEST(CrackErrors, EmptyMesh) {
     expect_error<ToolError>(nodes_only, sound_plane, {}, "misses");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

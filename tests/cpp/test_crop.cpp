@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 
@@ -48,5 +48,5 @@ TEST(Crop, TakesElementsWithTheirNodesAndFacets) {
     EXPECT_EQ(part.mesh.groups[empty].name, "EMPTY") << "groups stay, also empty ones";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

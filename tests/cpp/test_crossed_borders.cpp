@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 CellLists all_tetras(const Mesh& mesh) {
     CellLists out;
@@ -53,5 +53,5 @@ TEST(CrossedBorders, TheirFacesAreCounted) {
     EXPECT_EQ(found.faces, (std::set<GroupIndex>{*halves.find_group("MIDDLE", GroupKind::element)}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

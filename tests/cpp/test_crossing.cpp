@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// A cube of eight, and a triangle of nodes of its own with these corners.
 std::optional<CellRef> crossed(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -53,5 +53,5 @@ TEST(Crossing, EdgesOfShells) {
     EXPECT_FALSE(with({-1, 0.3, 0}, {-0.1, 1.2, 0}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 double worst_around(const Deformable& d, int node) {
     double worst = 1;
@@ -77,5 +77,5 @@ TEST(CurvedShape, WhatIsSurelySoundIs) {
     EXPECT_GT(folded, 100);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

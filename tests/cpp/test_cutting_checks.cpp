@@ -16,7 +16,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::AllOf;
@@ -124,5 +124,5 @@ TEST(CheckExtent, KnowsWhatDoublesCanTell) {
     EXPECT_NO_THROW(check_extent(Mesh()));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

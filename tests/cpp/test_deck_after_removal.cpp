@@ -11,7 +11,7 @@
 #include "tools/cylinder.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using testing::AllOf;
@@ -202,5 +202,5 @@ TEST_F(DeckAfterRemoval, HolesDoAsSlots) {
     EXPECT_EQ(place(after, node_at(2, 0, 2)), Vec3(2, 0, 2)) << "a loaded node does not move";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

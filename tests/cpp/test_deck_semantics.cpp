@@ -20,7 +20,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using testing::Contains;
@@ -276,5 +276,5 @@ TEST_F(DeckSemantics, StrictRefusesEveryCardThatCannotFollow) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

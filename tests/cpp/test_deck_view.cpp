@@ -4,7 +4,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 
@@ -71,5 +71,5 @@ TEST(DeckCards, AreEqualButForOp) {
     EXPECT_EQ(type_of(typed), "");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -21,7 +21,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 constexpr int cells = 10;
 
@@ -377,5 +377,5 @@ TEST(DeformToTool, RefusesNodesThatNothingCanMove) {
                 testing::ThrowsMessage<QualityError>(testing::HasSubstr("finds no row of nodes")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

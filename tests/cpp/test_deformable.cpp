@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::ElementsAre;
@@ -160,5 +160,5 @@ TEST(Contact, IsASetOfTools) {
     EXPECT_TRUE(both.with(&away).full());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 
@@ -65,5 +65,5 @@ TEST(Deformation, MovesNothingWhereAllIsWell) {
     for (const BandNode& n : f.d.band.nodes) EXPECT_EQ(n.at, n.start);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "tools/sphere.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Eigen::Vector3d;
 using testing::HasSubstr;
@@ -41,5 +41,5 @@ TEST(DistanceTo, TheNearestPoint) {
     EXPECT_THAT([&] { distance_to(bad); }, testing::ThrowsMessage<ToolError>(HasSubstr("near: point 1 has a value")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -201,5 +201,5 @@ TEST(Method, HasAName) {
     EXPECT_THAT([] { method_from_name("cut"); }, testing::ThrowsMessage<ToolError>(HasSubstr("cut")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -105,5 +105,5 @@ TEST(Edit, GoesOnWithTheBandAlone) {
     EXPECT_EQ(edit.numbering().node, 10 + 52) << "new numbers are new in the whole mesh";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -191,5 +191,5 @@ TEST_F(ElementLoadsRule, SinksOfFilmsStayTheOriginals) {
                             "negative side, stays the sink"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

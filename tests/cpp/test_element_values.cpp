@@ -4,7 +4,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -84,5 +84,5 @@ TEST_F(ElementValuesRule, RemovedElementsAreToldAndTheirRecordsGoWhole) {
     EXPECT_THAT(after.warnings, ElementsAre("deck.inp:13: *INITIALCONDITIONS names element 2, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

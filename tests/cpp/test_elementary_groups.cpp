@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -46,5 +46,5 @@ TEST(ElementaryGroups, AreTheClassesOfOverlappingGroups) {
 
 TEST(ElementaryGroups, AreNoneWithoutGroups) { EXPECT_THAT(elementary_groups(checks::grid(1, 1, 1)), IsEmpty()); }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 
@@ -35,5 +35,5 @@ TEST(EntityTable, FindsAllWhenItGrew) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

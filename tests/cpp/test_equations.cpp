@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -91,5 +91,5 @@ TEST_F(EquationsRule, WhatIsNoEquationIsTold) {
                             "kept as it is"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -33,7 +33,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 std::string brep(const TopoDS_Shape& shape) {
     std::ostringstream text;
@@ -289,5 +289,5 @@ TEST(Face, CracksAlongASpline) {
         << "it is cut through";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

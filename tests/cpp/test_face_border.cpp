@@ -19,7 +19,7 @@
 #include "error.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Eigen::Vector3d;
 
@@ -100,5 +100,5 @@ TEST(FaceBorder, RefusesFacesThatMeetAtAnAngle) {
                 testing::ThrowsMessage<ToolError>(testing::HasSubstr("its faces meet at 90 degrees")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

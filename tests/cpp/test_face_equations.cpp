@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -31,5 +31,5 @@ TEST_F(FaceEquationsRule, NumbersOfTermsAreNoElements) {
     EXPECT_THAT(carried("*EQUATIONF\n1\n2, S1, 1, 1.\n", halve_element_1).warnings, IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

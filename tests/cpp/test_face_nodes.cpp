@@ -6,7 +6,7 @@
 #include "operators/feature_line.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// A tetrahedron with a triangle, FACE, on it, and two node groups: of its nodes, and of the skin's node 4.
 Mesh with_groups() {
@@ -51,5 +51,5 @@ TEST(FaceNodes, LeaveGroupsOfTheSkinWhenInside) {
     EXPECT_EQ(group_members(result.mesh, tip).ids, (std::vector<Index>{4}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

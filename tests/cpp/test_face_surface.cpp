@@ -18,7 +18,7 @@
 #include "tools/occ_point.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Eigen::Vector3d;
 
@@ -53,5 +53,5 @@ TEST(FaceSurface, NeedsAFace) {
     EXPECT_THAT([&] { FaceSurface{nothing}; }, testing::Throws<ToolError>());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Vec3 area(const Mesh& mesh, const FacetElement& f) {
     Vec3 sum = Vec3::Zero();
@@ -66,5 +66,5 @@ TEST(FacetElement, OfShellsIsASideOrAnEdge) {
     EXPECT_THAT(std::vector<Index>(edge.nodes.begin(), edge.nodes.begin() + edge.size), testing::ElementsAre(1, 2, 4));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

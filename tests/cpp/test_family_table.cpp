@@ -9,7 +9,7 @@
 #include "groups/family_sets.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -61,5 +61,5 @@ TEST_F(FamilyTableTest, OperationsOfFamilySetsAreTheSame) {
     EXPECT_EQ(sets.minus(none, ab), none);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

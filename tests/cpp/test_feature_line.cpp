@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(FeatureLine, SkinOfABox) { EXPECT_EQ(skin_of(checks::grid(2, 3, 4)).size(), 2u * 2 * (2 * 3 + 3 * 4 + 4 * 2)); }
 
@@ -60,5 +60,5 @@ TEST(FeatureLine, WhatIsNoEdge) {
     EXPECT_THAT(reason({}), testing::HasSubstr("nothing is named"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

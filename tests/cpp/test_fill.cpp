@@ -13,7 +13,7 @@
 #include "voxel_skin.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::voxel_skin;
 using checks::VoxelSkin;
@@ -187,5 +187,5 @@ TEST(Fill, IsSilentInManyThreadsAndGivesTheSameInAll) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

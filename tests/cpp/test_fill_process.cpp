@@ -9,7 +9,7 @@
 #include "voxel_skin.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(FillProcess, ProgramIsThere) { EXPECT_TRUE(std::filesystem::exists(fill_program())); }
 
@@ -23,5 +23,5 @@ TEST(FillProcess, SaysWhyNetgenGivesUp) {
     EXPECT_TRUE(answer.tetras.empty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

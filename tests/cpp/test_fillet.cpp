@@ -17,7 +17,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 double volume(const Mesh& mesh) {
     double sum = 0;
@@ -198,5 +198,5 @@ TEST(Fillet, RadiusMustBeALength) {
         EXPECT_THROW(fillet(mesh, {{}, {}, {{1, 0, 0}}}, radius), ToolError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

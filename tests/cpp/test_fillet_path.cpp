@@ -9,7 +9,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 FilletPath path_near(const Mesh& mesh, const Vec3& near, double radius) {
     return {mesh, find_feature_lines(mesh, {{}, {}, {near}}, 30).at(0), radius, skin_of(mesh)};
@@ -159,5 +159,5 @@ TEST(FilletPath, RadiusTooLargeNamesFaceAndParameter) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 struct Corner {
     std::vector<FilletVertex> vertices;
@@ -105,5 +105,5 @@ TEST(FilletVertex, RoundedCubeHasTheVolumeOfTheFormula) {
         }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

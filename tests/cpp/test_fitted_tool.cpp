@@ -12,7 +12,7 @@
 #include "tools/sphere.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 struct Sample {
     std::vector<Vec3> points, normals;
@@ -62,5 +62,5 @@ TEST(FittedTool, NothingElseAndNotTooFewPoints) {
     EXPECT_FALSE(fitted_tool({}, {}, 1e-8, {}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

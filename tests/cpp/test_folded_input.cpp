@@ -11,7 +11,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::AllOf;
@@ -112,5 +112,5 @@ TEST(FoldedInput, IsNotNewlyFolded) {
     EXPECT_EQ(newly_folded(cube.f, cube.elements()).size(), 6u) << "worse than they were";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include <optional>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 constexpr NodeConstraint on_surface{NodeFreedom::surface, 0, 0}, on_curve{NodeFreedom::curve, 0, 0};
 
@@ -170,5 +170,5 @@ TEST(Foot, OfASecondOrderSegmentIsOnTheArc) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -27,5 +27,5 @@ TEST_F(ForeignResultsRule, ResultsOfTheMeshAsItWasAreTold) {
                     "deck.inp:11: *VIEWFACTOR, READ needs view factors of the mesh as it was; compute them anew"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -78,5 +78,5 @@ TEST(Formats, ReadGivesBackWhatWriteWrote) {
     fs::remove_all(folder);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

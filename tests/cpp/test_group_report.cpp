@@ -9,7 +9,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(FacetMeasure, IsAreaOrLength) {
     Mesh mesh = checks::grid(1, 1, 1);
@@ -93,5 +93,5 @@ TEST_F(GroupReport, ComparesGroups) {
         EXPECT_EQ(r.status, "kept") << r.name;
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "random_groups.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace checks;
 using testing::ElementsAre;
@@ -445,5 +445,5 @@ TEST(BandBoundaries, NodeBornOnALinkingEdgeIsLinked) {
     EXPECT_THAT(boundaries.isolated(), IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -24,7 +24,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace checks;
 using testing::ElementsAre;
@@ -642,5 +642,5 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomGroupsCracked, testing::Range(0, 24));
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

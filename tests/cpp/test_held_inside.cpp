@@ -9,7 +9,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -67,5 +67,5 @@ TEST(HeldInside, SaysWhenTheyAreMany) {
     EXPECT_FALSE(nearly_all(19, 19));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// Across the top of a block of 4 x 4 x 1 cubes, from one place to another.
 struct Block {
@@ -115,5 +115,5 @@ TEST(SurfaceLine, BordersInsideTheMaterialAreNoSurface) {
     EXPECT_EQ(f.d.band.skin.size(), 6 * 8 + 8);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

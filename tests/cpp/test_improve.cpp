@@ -12,7 +12,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 
@@ -100,5 +100,5 @@ TEST(RelaxBand, BringsTheNodesAroundAnInterfaceIntoShape) {
     EXPECT_EQ(alive(f.d.band), 384);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -26,5 +26,5 @@ TEST_F(InitialMotionsRule, RemovedNodesAreTold) {
     EXPECT_THAT(after.warnings, ElementsAre("deck.inp:11: *INITIALCONDITIONS names node 5, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

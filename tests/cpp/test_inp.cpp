@@ -21,7 +21,7 @@
 #include "deck/solver_input.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -1000,5 +1000,5 @@ TEST_F(Inp, CalculixGivesTheSameResultsForWrittenDecks) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -6,7 +6,7 @@
 #include "io/inp_file.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using testing::ElementsAre;
@@ -88,5 +88,5 @@ TEST_F(InpCards, FilesMayBePacked) {
                 testing::ThrowsMessage<WriteError>(HasSubstr("a.inp")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 std::string coordinate(double value) {
     std::string out = "x";
@@ -47,5 +47,5 @@ TEST(AppendInteger, WritesDigits) {
     EXPECT_EQ(out, "1, 0-459223372036854775807");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 using testing::HasSubstr;
@@ -148,5 +148,5 @@ TEST(SetIndex, IsThatOfTheSetOfACard) {
     EXPECT_EQ(set_index(index, card), std::nullopt);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

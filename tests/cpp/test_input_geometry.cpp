@@ -7,7 +7,7 @@
 #include <array>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// Two triangles (0 1 2, 1 3 2); the edge 0-1 is bent by 0.2.
 Mesh two_triangles() {
@@ -58,5 +58,5 @@ TEST_F(InputGeometryTest, CountsMidSideNodesThatWereMended) {
     EXPECT_LT((geometry.middle(0, 1) - Vec3(1, 0.1, 0)).norm(), 1e-15);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

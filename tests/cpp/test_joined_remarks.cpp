@@ -4,7 +4,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 
@@ -71,5 +71,5 @@ TEST_F(JoinedRemarksTest, SetsHaveTheNamesOfTheInput) {
                 ElementsAre("deck.inp:11: *CLOAD names set 'ENDS' and 1 more, each of which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::Each;
 using testing::Eq;
@@ -208,5 +208,5 @@ TEST(KeptGeometry, SheetsThatTouchInANodeAlonePinIt) {
     EXPECT_EQ(g.place_of(0).constraint.freedom, NodeFreedom::fixed);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 struct Found {
     explicit Found(const Mesh& mesh, const ConstraintOptions& options = {})
@@ -107,5 +107,5 @@ TEST(KeptParts, FoldBackAtTheFrontOfACrack) {
     EXPECT_EQ(folds, 1);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -12,7 +12,7 @@
 #include "tools/sphere.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::HasSubstr;
 
@@ -110,5 +110,5 @@ TEST(SpreadLevels, GoesFromEdgeToEdgeWithAndWithoutAdjacency) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -15,7 +15,7 @@
 #include "tools/sphere.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::AllOf;
 using testing::Contains;
@@ -193,5 +193,5 @@ TEST(LostSizeTest, WhatAToolTakesOfFacesIsNotLost) {
     EXPECT_THAT(cut(mesh, Plane({3.3, 3, 2}, {1, 0.3, 0.2}), 1.4).report.warnings, Not(says_lost));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -17,7 +17,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 namespace fs = std::filesystem;
 
@@ -85,5 +85,5 @@ TEST_F(MedFiles, WithNamesTooLongForTheLibraryAreNot) {
     EXPECT_FALSE(is_sound_med(path));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

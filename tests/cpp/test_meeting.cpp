@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 double length(const MeetingLine& line) {
     double sum = 0;
@@ -114,5 +114,5 @@ TEST(FindMeeting, OfTwoSolidsIsTheOutlineOfTheirContact) {
     EXPECT_NEAR(sum, 8, 1e-9);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

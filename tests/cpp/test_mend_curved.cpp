@@ -10,7 +10,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::IsEmpty;
@@ -78,5 +78,5 @@ TEST(MendCurvedLinear, HasNothingToDo) {
     EXPECT_EQ(f.d.band.nodes[0].at, at);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

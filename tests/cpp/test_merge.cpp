@@ -14,7 +14,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Mesh moved(Mesh mesh, const Vec3& by) {
     for (Vec3& x : mesh.points) x += by;
@@ -185,5 +185,5 @@ TEST(Merge, WhatIsApartIsAnError) {
     EXPECT_THROW(merge(checks::grid(2, 2, 1), moved(checks::grid(1, 1, 1), {9, 9, 9}), options), ToolError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -6,7 +6,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Mesh pair_of_triangles(const Vec3& by) {
     Mesh mesh;
@@ -49,5 +49,5 @@ TEST(MergeChecks, GroupsThatBecameEmpty) {
     EXPECT_TRUE(emptied_groups(before, before).empty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

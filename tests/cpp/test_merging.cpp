@@ -7,7 +7,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 
@@ -28,5 +28,5 @@ TEST(Merging, StaysWhereElementsWouldNot) {
     EXPECT_EQ(NodeMerger(f).merge(node_at(f.d.band, {2, 2, 2})), -1) << "a corner of the skin";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -86,5 +86,5 @@ TEST(Mesh, ValidateNamesTheOffender) {
     EXPECT_THROW(mesh.validate(), Error);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -46,5 +46,5 @@ TEST_F(MeshCardsRule, ElementsOutsideTheMeshMustKeepTheirNodes) {
             "Move the tool, or take the element out of the deck")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

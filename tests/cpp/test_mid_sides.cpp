@@ -9,7 +9,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// A triangle (0 1 2) with the edge 0-1 bent by (0, 0.2, 0).
 struct MidSidesTest : testing::Test {
@@ -96,5 +96,5 @@ TEST(CurvedRatio, IsThatOfTheSmallestJacobian) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

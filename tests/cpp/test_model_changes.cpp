@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -27,5 +27,5 @@ TEST_F(ModelChangesRule, RemovedElementsAreTold) {
     EXPECT_THAT(after.warnings, ElementsAre("deck.inp:11: *MODELCHANGE names element 2, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

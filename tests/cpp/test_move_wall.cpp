@@ -8,7 +8,7 @@
 #include "wall_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::WithWall;
 
@@ -77,5 +77,5 @@ TEST(MoveWall, NotThroughTheOtherSide) {
     EXPECT_THROW(push(w, {0, 0, -4.2}), ToolError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

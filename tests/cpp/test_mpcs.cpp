@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -77,5 +77,5 @@ TEST_F(MpcsRule, OtherTypesStayAndAreTold) {
     EXPECT_THAT(removed.warnings, ElementsAre("deck.inp:11: *MPC names node 5, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

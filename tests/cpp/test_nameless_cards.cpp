@@ -3,7 +3,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -75,5 +75,5 @@ TEST_F(NamelessCardsRule, CardsThatCalculixDoesNotHaveAreToldOnce) {
                             "elements is not known, so it is kept as it is; check it"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -115,5 +115,5 @@ TEST(WhyNothingParts, InShells) {
                 HasSubstr("2 shell element(s) lie in the plane, and nothing stands on them"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

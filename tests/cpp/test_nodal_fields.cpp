@@ -3,7 +3,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -54,5 +54,5 @@ TEST_F(NodalFieldsRule, RemovedNodesAreTold) {
     EXPECT_THAT(after.warnings, ElementsAre("deck.inp:11: *TEMPERATURE names node 5, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "tools/sphere.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::number_near;
 using testing::ElementsAre;
@@ -285,5 +285,5 @@ TEST(NodeConstraints, DistanceIsThatToTheShape) {
     EXPECT_FALSE(c.surface_normal(c[held.node({1, 0, 0})], x));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

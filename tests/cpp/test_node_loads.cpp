@@ -3,7 +3,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -99,5 +99,5 @@ TEST_F(NodeLoadsRule, RemovedNodesTakeTheirLoadsWithThem) {
                             "deck.inp:11: *CLOAD names node 5, which was removed, and with it the load"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 
@@ -99,5 +99,5 @@ TEST_F(NodeMembershipTest, AGroupOfCornersAloneHasTheNewCorner) {
     EXPECT_TRUE(membership->groups(split({1, 0, 0}, {2, 0, 0})).empty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -101,5 +101,5 @@ TEST_F(NodeOriginsTest, NothingIsSharedFarOutsideTheElements) {
     EXPECT_THAT(shares(NodeOrigins(before, numbers, after, now, changes), 5), IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

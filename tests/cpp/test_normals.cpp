@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -28,5 +28,5 @@ TEST_F(NormalsRule, ElementsThatLostTheNodeAreTold) {
                 ElementsAre("deck.inp:11: *NORMAL names element 2, which has no longer the node of its normal"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -69,5 +69,5 @@ TEST_F(OpenedAreas, OfHiddenGroupsAreNotTold) {
     EXPECT_THAT(warnings(true), IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::HasSubstr;
@@ -217,5 +217,5 @@ TEST(NodeParts, ThatAllHangOnInTheNodeAloneStayTogether) {
     EXPECT_EQ(parts.goes_with(0), -1);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(Order, ThereAndBackIsTheSame) {
     Mesh mesh = checks::two_halves();
@@ -68,5 +68,5 @@ TEST(Order, FacetsGoWithTheirElements) {
     EXPECT_EQ(second.facets[0].face, 2);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

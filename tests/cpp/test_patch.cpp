@@ -14,7 +14,7 @@
 #include "tools/sphere.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Eigen::Vector3d;
 using testing::HasSubstr;
@@ -127,5 +127,5 @@ TEST(CylinderPart, EndsAlongTheAxisAndAround) {
     expect_error([] { CylinderPart(0, 1, CylinderPart::Angles{0, 360, {1, 0, 0}}); }, "less than 360 degrees");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

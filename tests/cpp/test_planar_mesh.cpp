@@ -7,7 +7,7 @@
 #include <map>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 double area_of(const std::vector<Vec2>& p, const Triangle& t) {
     const Vec2 u = p[t[1]] - p[t[0]], v = p[t[2]] - p[t[0]];
@@ -77,5 +77,5 @@ TEST(PlanarMesh, OutlineThatCrossesItselfIsRefused) {
     EXPECT_THROW(triangulate(std::vector<Vec2>{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}), QualityError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -7,7 +7,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// A cube of 4 x 4 x 4 cells with all nodes in the band, and a plane just above its middle.
 struct PoorTest : testing::Test {
@@ -81,5 +81,5 @@ TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
     EXPECT_THAT(f.warnings, testing::ElementsAre(testing::HasSubstr("held by the skin")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::ElementsAre;
@@ -86,5 +86,5 @@ TEST(DriftGaugeOfShortcuts, MeasuresEdgesThroughTheMaterial) {
     EXPECT_THAT(drifting.drift(band, mesh), ElementsAre(0)) << "groups that drift are for the other gauge";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

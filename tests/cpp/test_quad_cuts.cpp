@@ -7,7 +7,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 CellLists all_cells(const Mesh& mesh) {
     CellLists out;
@@ -58,5 +58,5 @@ TEST(QuadCuts, ADiagonalIsBentAsTheShellIs) {
     EXPECT_EQ(cuts.middle(n[1], n[3]), -1);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -16,7 +16,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::ElementsAre;
@@ -239,5 +239,5 @@ TEST(Rebuild, NumbersMustNotOverflow) {
                                                  "element number 9223372036854775807 leaves no numbers for new ele")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "tools/cylinder.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace checks;
 
@@ -50,5 +50,5 @@ TEST(ReferenceHoles, AreNotDrilledIntoAMeshTooCoarse) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

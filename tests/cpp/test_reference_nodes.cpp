@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -30,5 +30,5 @@ TEST_F(ReferenceNodesRule, DoubledAndRemovedOnesAreTold) {
                 ElementsAre("deck.inp:10: *RIGIDBODY names node 5, which was removed; give another ROT NODE"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -22,7 +22,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace checks;
 
@@ -542,5 +542,5 @@ TEST(Refine, ThenCrackAlongAThinCylinder) {
                 0.04 * whole);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -133,5 +133,5 @@ TEST(RefineFirstTest, TriesInVainWhereElementsCannotBeBisected) {
     EXPECT_THROW(refine_first(mesh, zones, asked), UnsupportedElementError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using testing::AllOf;
@@ -255,5 +255,5 @@ TEST_F(RelateNewNodes, CopiesFollowWhereAllAreDoubled) {
     EXPECT_THAT(out.made[0].nodes, ElementsAre(8, 7));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

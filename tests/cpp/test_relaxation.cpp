@@ -10,7 +10,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::away;
 using checks::node_at;
@@ -86,5 +86,5 @@ TEST(RelaxationOfShells, MovesNodesOfShells) {
     EXPECT_LT((d.band.nodes[middle].at - Vec3(1, 1, 0)).norm(), 1e-3);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

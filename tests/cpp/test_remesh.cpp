@@ -9,7 +9,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 
@@ -63,5 +63,5 @@ TEST(Remesh, MergesWhereEdgesAreShort) {
     EXPECT_FALSE(middle_goes([](const Vec3& x) { return x == Vec3(1, 1, 1); }));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

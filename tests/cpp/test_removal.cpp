@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::ElementsAre;
@@ -214,5 +214,5 @@ TEST(Removal, FindsElementsDeepInside) {
     EXPECT_EQ(deep_inside(mesh, level, bodies).size(), 12u);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::Pair;
@@ -49,5 +49,5 @@ TEST(ForEachRecord, PassesOverHiddenGroups) {
     EXPECT_THAT(seen, ElementsAre(Pair(0, "A"), Pair(2, "B")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

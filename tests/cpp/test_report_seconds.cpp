@@ -14,7 +14,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// Of the time that a call took, measured around it, the part that its report tells of.
 double told(const std::function<Report()>& run) {
@@ -65,5 +65,5 @@ TEST(ReportSecondsTest, HoldAttemptsThatCameToNothing) {
     expect_told("drill", [&] { return drill(mesh, {&tool, 1}, options).report; });
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::HasSubstr;
 
@@ -137,5 +137,5 @@ TEST(Reshape, NotThroughAnotherPart) {
     EXPECT_THAT(refusal(mesh, "END", by(2.2), "by"), HasSubstr("another part of the mesh"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

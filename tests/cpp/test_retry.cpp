@@ -12,7 +12,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::AllOf;
@@ -178,5 +178,5 @@ TEST_F(RetrySecondOrder, GivesUpWhereCornersStayFolded) {
     EXPECT_THROW(cut_soundly(f, cut, mesh.cell_count(), 1), QualityError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -7,7 +7,7 @@
 #include "error.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Eigen::Vector3d;
 
@@ -71,5 +71,5 @@ TEST(Ribbon, RefusesWhatIsNoLine) {
     EXPECT_THROW(Ribbon({{0, 0, 0}, {1, 0, 0}}, {Vector3d::UnitZ()}, false), ToolError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(RootBetween, IsExactInOneStepWhereTheValueIsLinear) {
     int calls = 0;
@@ -28,5 +28,5 @@ TEST(RootBetween, IsCalledLastAtTheRoot) {
     EXPECT_NEAR(t, std::pow(2.0 / 7, 0.2), 1e-12);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

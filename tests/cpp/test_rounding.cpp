@@ -8,7 +8,7 @@
 #include "mesh/rounding.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 std::vector<Vec3> random_points(double size, int count = 500) {
     checks::Random random(3);
@@ -73,5 +73,5 @@ TEST(CoordinateRounding, IsSeenAmongNewNodesInDoublePrecision) {
     EXPECT_DOUBLE_EQ(coordinate_rounding(points), 0.5e-5);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -39,5 +39,5 @@ TEST(Rows, LoseAndChangeEntries) {
     EXPECT_THAT(rows[0], IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -26,7 +26,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 
@@ -86,5 +86,5 @@ TEST(CardRules, SayWhatCanChange) {
     EXPECT_FALSE(MeshCards().can_change(card("*NODE")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Mesh element(CellType type) {
     Mesh mesh;
@@ -53,5 +53,5 @@ TEST(Blends, AddUpByNode) {
     EXPECT_EQ(sum, (Blend{{1, 0.5}, {3, 0.75}}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::bricks;
 using checks::members;
@@ -182,5 +182,5 @@ TEST(Simplify, AnElementInsideOutByItsShapeIsNamed) {
         testing::ThrowsMessage<UnsupportedElementError>(testing::HasSubstr("element 1, a quad")));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

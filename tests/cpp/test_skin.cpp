@@ -30,7 +30,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 std::string brep(const TopoDS_Shape& shape) {
     std::ostringstream text;
@@ -261,5 +261,5 @@ TEST(SkinFromShape, AnotherShapeIsRefused) {
     EXPECT_THROW(CadShape::read("no such file.brep"), ReadError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

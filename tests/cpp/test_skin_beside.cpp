@@ -6,7 +6,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(SkinBeside, WhereAPathLeavesTheMaterial) {
     const Workpiece f = checks::whole_workpiece(checks::grid(4, 4, 4), checks::away);
@@ -35,5 +35,5 @@ TEST(SkinBeside, OfShellsIsTheirBorder) {
     EXPECT_LT((*at - Vec3(4, 1.3, 0)).norm(), 1e-12);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

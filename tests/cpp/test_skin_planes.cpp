@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 
@@ -69,5 +69,5 @@ TEST(SkinPlanes, AreNoneOnCurvedFacesNorWhereNothingWasRounded) {
     EXPECT_FALSE(SkinPlanes(exact, skin_of(exact)).of(skin_of(exact)[0]));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

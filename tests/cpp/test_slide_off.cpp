@@ -6,7 +6,7 @@
 #include "wall_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::WithWall;
 
@@ -57,5 +57,5 @@ TEST(SlideOff, ABorderPastTheEndOfALine) {
     EXPECT_FALSE(pushed(side, {-1.9, 0, 0}));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

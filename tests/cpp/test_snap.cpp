@@ -15,7 +15,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 
@@ -199,5 +199,5 @@ TEST(SnapToTool, CutsAndRelaxes) {
     EXPECT_EQ(f.d.side[f.nodes[0]], 0);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 class SolidPartsOf : public testing::Test {
 protected:
@@ -106,5 +106,5 @@ TEST_F(SolidPartsOf, MiddlesFollowBentEdges) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -5,7 +5,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
 using testing::HasSubstr;
@@ -124,5 +124,5 @@ TEST_F(EvaluateSets, KnowPlaneElements) {
     EXPECT_FALSE(plane[families[1]]);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 const Plane away({100, 0, 0}, {1, 0, 0});
 
@@ -97,5 +97,5 @@ TEST(Star, IsEmptyAtANodeOfSegmentsAlone) {
     EXPECT_TRUE(star.empty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

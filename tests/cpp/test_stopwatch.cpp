@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::Pair;
@@ -36,5 +36,5 @@ TEST(Stopwatch, GivesPartsTheirNames) {
     EXPECT_LT(laps.list()[2].second, 5) << "from the last lap on";
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -13,7 +13,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::AllOf;
@@ -99,5 +99,5 @@ TEST_F(Straighten, DoesNotTakeNodesOffTheirTool) {
     EXPECT_FALSE(straighten_folded(f));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

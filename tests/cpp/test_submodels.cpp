@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -39,5 +39,5 @@ TEST_F(SubmodelsRule, RemovedNodesAreTold) {
     EXPECT_THAT(after.warnings, ElementsAre("deck.inp:12: *SUBMODEL names node 5, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

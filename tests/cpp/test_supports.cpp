@@ -3,7 +3,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -80,5 +80,5 @@ TEST_F(SupportsRule, RemovedNodesAndLinesThatCannotBeReadAreTold) {
                             "deck.inp:12: *BOUNDARY names node 5, which was removed"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -8,7 +8,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Eigen::AlignedBox3d everything(const Mesh& mesh) { return box_around(mesh); }
 
@@ -83,5 +83,5 @@ TEST(SurfaceTree, KnowsHowFarACurvedSurfaceIsOffItsFaces) {
     EXPECT_LT(tree.sag(4), 2 * off);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

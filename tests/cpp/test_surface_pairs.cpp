@@ -2,7 +2,7 @@
 #include "rule_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using namespace rule_testing;
@@ -78,5 +78,5 @@ TEST_F(SurfacePairsRule, EitherSurfaceWithoutMembersIsTold) {
                             "deck.inp:17: *CONTACTPAIR names element surface 'T', which lost all its members"));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

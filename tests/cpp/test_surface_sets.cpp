@@ -10,7 +10,7 @@
 #include "tools/cylinder.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace deck_testing;
 using testing::AllOf;
@@ -220,5 +220,5 @@ TEST_F(SurfaceSets, ShellsBySide) {
     EXPECT_THAT(text_of(after, "SURFACE"), testing::StartsWith("*SURFACE, NAME=P\n_P_SPOS, SPOS\n** "));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

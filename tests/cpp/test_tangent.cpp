@@ -11,7 +11,7 @@
 #include "wall_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Beside beside(const Mesh& mesh, const std::function<bool(const Vec3&)>& chosen) {
     const Workpiece f = checks::whole_workpiece(mesh, checks::away);
@@ -63,5 +63,5 @@ TEST(Tangent, NotAWallThatGoesOnFar) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(TetraFaces, AreFoundOnceEach) {
     const Mesh mesh = checks::grid(1, 1, 1);
@@ -50,5 +50,5 @@ TEST(MarkOuterNodes, FindsTheSkin) {
     for (int v = 0; v < 27; ++v) EXPECT_EQ(marked[v] != 0, band.nodes[v].at != Vec3(1, 1, 1));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 std::shared_ptr<SolverInput> deck_of(const std::vector<std::string>& cards) {
     auto deck = std::make_shared<SolverInput>();
@@ -98,5 +98,5 @@ TEST(Tie, GetsGroupsAndCards) {
     EXPECT_THROW(merge(out.mesh, cube, options), ToolError);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// The plane z = 1.
 struct Ground : Tool {
@@ -24,5 +24,5 @@ TEST(Tool, ProjectsAlongItsNormalAndHasNoBorder) {
     EXPECT_EQ(ground.beyond({1e9, 0, 0}), -std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -11,7 +11,7 @@
 #include "tools/axis_frame.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Eigen::Vector3d;
 using testing::StrEq;
@@ -72,5 +72,5 @@ TEST(AxisFrame, SeesAPointFromAnAxis) {
     EXPECT_EQ(on.outward.z(), 0);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

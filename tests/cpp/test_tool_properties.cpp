@@ -21,7 +21,7 @@
 #include "tools/torus.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using namespace checks;
 
@@ -464,5 +464,5 @@ TEST(HardTools, WhereNodeGroupsHaveShortcuts) {
     EXPECT_GE(session.crack(crack).report.quality_after.minimum, 0.1);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -15,7 +15,7 @@
 #include "tools/torus.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 /// Compares normal() with differences of distance(), and looks at project(), at random points around the origin.
 void expect_consistent(const Tool& tool, double reach) {
@@ -122,5 +122,5 @@ TEST(Tools, ErrorsCarryTheirParameter) {
     EXPECT_EQ(parameter_at_fault([] { throw QualityError("of no parameter"); }), "");
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

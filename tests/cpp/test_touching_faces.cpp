@@ -9,7 +9,7 @@
 #include "simple_meshes.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 Mesh moved(Mesh mesh, const Vec3& by) {
     for (Vec3& x : mesh.points) x += by;
@@ -114,5 +114,5 @@ TEST(TouchingFaces, OfWhatOverlapsAreRefused) {
         EXPECT_FALSE(touching_faces(base, moved(cube(), by), {}).facets[0].empty()) << by.transpose();
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

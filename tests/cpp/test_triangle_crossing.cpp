@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 constexpr double tolerance = 1e-6;
 const TriangleCorners floor_{Vec3(-2, -2, 0), Vec3(4, -2, 0), Vec3(-2, 4, 0)};
@@ -40,5 +40,5 @@ TEST(CrossTriangles, IsNothingForATouchingCornerOneApartOrOneInThePlane) {
     EXPECT_FALSE(cross_triangles(floor_, {Vec3(9, 0, -1), Vec3(9, 1, -1), Vec3(9, 0.5, 1)}, tolerance));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 TEST(UnionFind, StandsForASetByItsSmallest) {
     UnionFind sets(6);
@@ -18,5 +18,5 @@ TEST(UnionFind, StandsForASetByItsSmallest) {
     EXPECT_EQ(sets.find(1), 1);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

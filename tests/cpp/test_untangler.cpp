@@ -6,7 +6,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 double worst_of(const Deformable& d) {
     double worst = 1;
@@ -87,5 +87,5 @@ TEST(Untangler, SaysWhenItIsNoUse) {
     EXPECT_EQ(d.band.nodes[centre].at, Vec3(2.3, 1, 1));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

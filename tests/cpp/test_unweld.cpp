@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
@@ -150,5 +150,5 @@ TEST(Unweld, ACrackAlongTheWeldOpensNothing) {
     EXPECT_EQ(mesh.node_ids, before.node_ids);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -10,7 +10,7 @@
 #include <utility>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using Weight = VertexCut::Weight;
 
@@ -138,5 +138,5 @@ TEST(VertexCut, OfSmallGraphsIsTheLightestOfAll) {
     EXPECT_GT(with_cut, 50);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

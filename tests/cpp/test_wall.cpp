@@ -8,7 +8,7 @@
 #include "wall_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::WithWall;
 
@@ -65,5 +65,5 @@ TEST(Wall, BordersOfShells) {
     EXPECT_EQ(w.f.d.constraints[checks::node_at(w.f.d.band, {3, 3, 0})].freedom, NodeFreedom::curve);
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "wall_testing.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using checks::WithWall;
@@ -58,5 +58,5 @@ TEST(WallMotion, WhatCannotBeReachedNamesTheParameter) {
     }
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -14,7 +14,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::AllOf;
@@ -221,5 +221,5 @@ TEST(WarnOfHeldNodes, WhereTheyAreManyAndElementsPoor) {
     EXPECT_THAT(warnings(g, bare, 0.75, 0.1), IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

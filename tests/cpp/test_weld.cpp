@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 
@@ -93,5 +93,5 @@ TEST(Weld, NothingInOneBody) {
     EXPECT_FALSE(weld(mesh, 0));
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -9,7 +9,7 @@
 #include "tools/plane.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::grid;
 
@@ -58,5 +58,5 @@ TEST(WeldFirst, ACrackAcrossAnEarlierOneMatchesNodeForNode) {
     for (const auto& [x, count] : at) EXPECT_TRUE(count[0] > 0 && count[1] > 0) << x[0] << " " << x[1] << " " << x[2];
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -12,7 +12,7 @@
 #include "whole_workpiece.h"
 
 namespace femscalpel {
-namespace {
+namespace FILE_NAMESPACE {
 
 using checks::node_at;
 using testing::ElementsAre;
@@ -148,5 +148,5 @@ TEST(SplitAtFixedMiddles, HasNothingToDoWithoutSuchNodes) {
     EXPECT_THAT(f.d.band.births, IsEmpty());
 }
 
-}  // namespace
+}  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -222,7 +222,10 @@ def is_on_contact(kind, face):
 
 
 def worst_of(mesh):
-    return min(v.min() for k, v in fs.mean_ratio(mesh).items() if k.startswith(("t", "p", "q", "h", "w")) and len(v))
+    """Of solids, or else of shells."""
+    ratios = {k: v.min() for k, v in fs.mean_ratio(mesh).items() if len(v)}
+    solids = [q for k, q in ratios.items() if k.rstrip("0123456789") in FACES]
+    return min(solids or [q for k, q in ratios.items() if k.startswith(("triangle", "quad"))])
 
 
 def run(kind, cases, first, list_refused):

@@ -123,6 +123,7 @@ private:
             }
             is_single_[w] = 1;
         }
+        std::ranges::stable_partition(others, [&](Index w) { return births_.contains(mesh_.node_ids[w]); });
         nodes_.insert(nodes_.end(), others.begin(), others.end());
     }
 
@@ -299,8 +300,8 @@ private:
                 node = copy(w, input_.node_ids[original]);
             else
                 descend_from(number, input_.node_ids[original]);
-        } else if (!first) {
-            node = sources_.contains(number) ? copy_of_born(w, from, part.label) : birth(w, from, part.label);
+        } else {
+            node = give_born(w, first, from, part.label);
         }
         mesh_.node_families[node] = of_side(family, part.label);
         used_.insert(node);
@@ -312,6 +313,32 @@ private:
             for (Index& v : std::span(b.connectivity).subspan(static_cast<std::size_t>(c.cell) * count, count))
                 if (v == w) v = node;
         }
+    }
+
+    /// The same where w was born, or is a copy of a node born: the first of each side is born, others are its copies.
+    Index give_born(Index w, bool first, const std::vector<Index>& from, const Label& label) {
+        const Index number = mesh_.node_ids[w];
+        const Index like = sources_.contains(number) ? sources_.at(number) : number;
+        Index& owner = owners_[{like, *std::ranges::find_if(label, [](Index n) { return n >= 0; })}];
+        if (first && number == like) {
+            owner = number;
+            return w;
+        }
+        if (first) {
+            if (owner > 0) {
+                descend_from(number, owner);
+                return w;
+            }
+            std::erase_if(changes_.copies, [&](const Changes::Copy& c) { return c.node == number; });
+            add_birth(number, like, from, label);
+            owner = number;
+            return w;
+        }
+        if (owner > 0) return copy(w, owner);
+        owner = next_++;
+        add_birth(owner, like, from, label);
+        const Vec3 at = mesh_.points[w];
+        return mesh_.add_node(at, owner);
     }
 
     /// A node of the input, at the place of w.
@@ -343,36 +370,22 @@ private:
             if (c.node == copy) c.source = source;
     }
 
-    Index birth(Index w, const std::vector<Index>& from, const Label& label) {
+    /// A node is born as the node `like` is, but on the side `label`.
+    void add_birth(Index number, Index like, const std::vector<Index>& from, const Label& label) {
         ++out_.born;
-        const Changes::Born like = changes_.born[births_.at(mesh_.node_ids[w])];
-        const auto on_side = [&](Index number) {
-            const auto n = numbers_.node(number);
+        const Changes::Born model = changes_.born[births_.at(like)];
+        const auto on_side = [&](Index ancestor) {
+            const auto n = numbers_.node(ancestor);
             const auto k = n ? std::ranges::find(from, *n) : from.end();
-            if (k == from.end()) return number;
+            if (k == from.end()) return ancestor;
             const Index there = label[static_cast<std::size_t>(k - from.begin())];
-            return there < 0 ? number : input_.node_ids[there];
+            return there < 0 ? ancestor : input_.node_ids[there];
         };
-        Changes::Born made{next_, {}, {}};
-        for (const Index a : like.ancestors) made.ancestors.push_back(on_side(a));
-        for (const auto& [node, share] : like.shares) made.shares.emplace_back(on_side(node), share);
+        Changes::Born made{number, {}, {}};
+        for (const Index a : model.ancestors) made.ancestors.push_back(on_side(a));
+        for (const auto& [node, share] : model.shares) made.shares.emplace_back(on_side(node), share);
         std::ranges::sort(made.ancestors);
         changes_.born.push_back(std::move(made));
-        const Vec3 at = mesh_.points[w];
-        const Index node = mesh_.add_node(at, next_++);
-        partner_at_[{sources_.contains(mesh_.node_ids[w]) ? sources_.at(mesh_.node_ids[w]) : mesh_.node_ids[w],
-                     label}] = mesh_.node_ids[node];
-        return node;
-    }
-
-    /// A copy of a node born: of its partner, where that is known.
-    Index copy_of_born(Index w, const std::vector<Index>& from, const Label& label) {
-        const Index source = sources_.at(mesh_.node_ids[w]);
-        const auto partner = partner_at_.find({source, label});
-        if (partner != partner_at_.end()) return copy(w, partner->second);
-        // The node itself has no such side any more.
-        births_.emplace(mesh_.node_ids[w], births_.at(source));
-        return birth(w, from, label);
     }
 
     /// Nodes that were single and have another number now, and partners without an element, go.
@@ -427,9 +440,10 @@ private:
     std::unordered_map<Index, Index> place_;  // in the result, of welded nodes of the input
     std::unordered_map<Index, std::vector<CellRef>> cells_;
     std::set<std::vector<Index>> faces_;
-    std::set<Index> claimed_;                              // nodes of the input that a side has
-    std::set<Index> used_;                                 // nodes of the result that elements have
-    std::map<std::pair<Index, Label>, Index> partner_at_;  // number of a partner, by number and side
+    std::set<Index> claimed_;  // nodes of the input that a side has
+    std::set<Index> used_;     // nodes of the result that elements have
+    /// Number of the node that stands for a side of a node born, by that one's number and a node of the side.
+    std::map<std::pair<Index, Index>, Index> owners_;
 };
 
 }  // namespace

@@ -201,20 +201,22 @@ namespace {
 
 /// On a mesh whose double nodes, if any, are single. What changed is added to `stages`.
 Result refine_on(const Mesh& input, const DistanceField& distance, const RefineOptions& options,
-                 std::vector<Changes>& stages) {
+                 std::vector<Changes>& stages, Stopwatch::Time started) {
     Laps seconds;
-    Stopwatch watch(seconds);
+    Stopwatch watch(seconds, started);
     Trace trace;
+    watch.lap("locate");
     const std::optional<Refined> converted = simplify_first(input, distance, options);
-    if (converted) watch.lap("convert");
+    watch.lap(converted ? "convert" : "locate");
     if (auto result = refine_where_needed(converted ? converted->mesh : input, distance, options, trace)) {
         if (converted) stages.push_back(converted->trace.changes);
         stages.push_back(std::move(trace.changes));
         std::ranges::move(warnings_of(trace.deck, options.strict), std::back_inserter(result->report.warnings));
-        if (!converted) return std::move(*result);
-        Refined refined;
-        refined.report = std::move(result->report);
-        result->report = joined(*converted, std::move(refined), options.strict).report;
+        if (converted) {
+            Refined refined;
+            refined.report = std::move(result->report);
+            result->report = joined(*converted, std::move(refined), options.strict).report;
+        }
         Laps all = seconds;
         for (const auto& [step, time] : result->report.seconds) all.add(step, time);
         result->report.seconds = all.list();
@@ -239,10 +241,11 @@ Result refine_on(const Mesh& input, const DistanceField& distance, const RefineO
 Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
     check(options);
     check_extent(input);
+    const Stopwatch::Time started = Stopwatch::now();
     WeldFirst weld(input, {});
     std::vector<Changes> stages;
-    if (!weld) return refine_on(input, distance, options, stages);
-    Result result = refine_on(weld.mesh(), distance, options, stages);
+    if (!weld) return refine_on(input, distance, options, stages, started);
+    Result result = refine_on(weld.mesh(), distance, options, stages, Stopwatch::now());
     if (stages.empty()) {
         result.mesh = input;
         return result;

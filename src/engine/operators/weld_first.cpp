@@ -83,6 +83,35 @@ void WeldFirst::find_marks() {
     on_welded_.surface_sets = marks_->surface_sets;
     on_welded_.related = single(marks_->related);
     on_welded_.pinned = single(marks_->pinned);
+    pin_fronts(now);
+}
+
+/// Where a weld ends inside the material - the front of an earlier crack, the rim of what is glued in part - its nodes
+/// stay: they are those on welded faces that were single before.
+void WeldFirst::pin_fronts(const std::vector<Index>& now) {
+    const Mesh& mesh = welded_->mesh;
+    std::vector<char> is_double(mesh.points.size(), 0);
+    for (const std::vector<Index>& set : welded_->sets) is_double[set.front()] = 1;
+    for (const Facet& f : mesh.facets) {
+        if (!mesh.families.contains(f.family, welded_->faces)) continue;
+        const CellTraits& t = traits(f.type);
+        const auto n = mesh.block(f.type).nodes(f.cell);
+        const auto pin = [&](Index v) {
+            if (!is_double[v]) on_welded_.pinned.push_back(now[v]);
+        };
+        if (t.dimension != 3) {
+            for (const std::int8_t k : t.edges[f.face - 3]) pin(n[k]);
+            continue;
+        }
+        const auto& face = t.faces[f.face - 1];
+        const auto has = [&](int k) { return std::ranges::find(face, k) != face.end(); };
+        for (int k = 0; k < t.corners; ++k)
+            if (has(k)) pin(n[k]);
+        for (std::size_t e = 0; t.quadratic && e < t.edges.size(); ++e)
+            if (has(t.edges[e][0]) && has(t.edges[e][1])) pin(n[t.corners + static_cast<int>(e)]);
+    }
+    std::ranges::sort(on_welded_.pinned);
+    on_welded_.pinned.erase(std::unique(on_welded_.pinned.begin(), on_welded_.pinned.end()), on_welded_.pinned.end());
 }
 
 void WeldFirst::make_single(std::vector<std::array<Index, 3>>& parts) const {
