@@ -226,9 +226,14 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
     WeldFirst weld(input, known);
     if (!weld || !(weld.is_near(around(recipe)) || !recipe.zones().empty()))
         return perform_on(recipe, input, options, known, started);
-    recipe.start(weld.mesh());
-    Result result = perform_on(recipe, weld.mesh(), options, weld.known(), Stopwatch::now());
-    if (weld.finish(result, options.strict, options.band_only)) return result;
+    try {
+        recipe.start(weld.mesh());
+        Result result = perform_on(recipe, weld.mesh(), options, weld.known(), Stopwatch::now());
+        if (weld.finish(result, options.strict, options.band_only)) return result;
+    } catch (const ToolError&) {
+        // Sides that need not agree may find room; where they part, a warning says so.
+    } catch (const QualityError&) {
+    }
     recipe.start(input);
     return perform_on(recipe, input, options, known, started);
 }

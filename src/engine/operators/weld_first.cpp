@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
+#include <map>
 #include <string>
 
 #include "deck/carry_over.h"
@@ -18,6 +18,8 @@ namespace {
 
 /// Welded nodes farther from all tools than so many lengths of their edges are out of reach.
 constexpr double reach = 12;
+/// A front bends where its segments are farther apart than this, in radians.
+constexpr double straight = 1e-6;
 /// The hidden groups of the deck are called so meanwhile: steps on the way remove those that mark_deck() made.
 constexpr std::string_view other_prefix = "*KEPT#";
 
@@ -83,35 +85,53 @@ void WeldFirst::find_marks() {
     on_welded_.surface_sets = marks_->surface_sets;
     on_welded_.related = single(marks_->related);
     on_welded_.pinned = single(marks_->pinned);
-    pin_fronts(now);
+    pin_fronts();
 }
 
 /// Where a weld ends inside the material - the front of an earlier crack, the rim of what is glued in part - its nodes
-/// stay: they are those on welded faces that were single before.
-void WeldFirst::pin_fronts(const std::vector<Index>& now) {
+/// stay where it bends, as those of open lips do; elsewhere they may move along it.
+void WeldFirst::pin_fronts() {
     const Mesh& mesh = welded_->mesh;
-    std::vector<char> is_double(mesh.points.size(), 0);
-    for (const std::vector<Index>& set : welded_->sets) is_double[set.front()] = 1;
+    std::map<std::array<Index, 2>, std::pair<int, Index>> edges;  // how many welded faces are there, mid-side node
+    std::map<Index, int> ends;                                    // the same for nodes of welded edges of plates
     for (const Facet& f : mesh.facets) {
         if (!mesh.families.contains(f.family, welded_->faces)) continue;
         const CellTraits& t = traits(f.type);
         const auto n = mesh.block(f.type).nodes(f.cell);
-        const auto pin = [&](Index v) {
-            if (!is_double[v]) on_welded_.pinned.push_back(now[v]);
-        };
         if (t.dimension != 3) {
-            for (const std::int8_t k : t.edges[f.face - 3]) pin(n[k]);
+            for (const std::int8_t k : t.edges[f.face - 3]) ++ends[n[k]];
             continue;
         }
         const auto& face = t.faces[f.face - 1];
         const auto has = [&](int k) { return std::ranges::find(face, k) != face.end(); };
-        for (int k = 0; k < t.corners; ++k)
-            if (has(k)) pin(n[k]);
-        for (std::size_t e = 0; t.quadratic && e < t.edges.size(); ++e)
-            if (has(t.edges[e][0]) && has(t.edges[e][1])) pin(n[t.corners + static_cast<int>(e)]);
+        for (std::size_t e = 0; e < t.edges.size(); ++e)
+            if (has(t.edges[e][0]) && has(t.edges[e][1])) {
+                const Index a = n[t.edges[e][0]], b = n[t.edges[e][1]];
+                auto& [count, middle] = edges[{std::min(a, b), std::max(a, b)}];
+                ++count;
+                middle = t.quadratic ? n[t.corners + static_cast<int>(e)] : -1;
+            }
     }
-    std::ranges::sort(on_welded_.pinned);
-    on_welded_.pinned.erase(std::unique(on_welded_.pinned.begin(), on_welded_.pinned.end()), on_welded_.pinned.end());
+    std::vector<char> is_double(mesh.points.size(), 0);
+    for (const std::vector<Index>& set : welded_->sets) is_double[set.front()] = 1;
+    std::map<Index, std::vector<Vec3>> ways;  // along the front, by node
+    std::vector<Index>& pinned = on_welded_.pinned;
+    for (const auto& [edge, there] : edges) {
+        const auto& [a, b] = edge;
+        if (there.first != 1 || is_double[a] || is_double[b]) continue;
+        const Vec3 way = mesh.points[b] - mesh.points[a];
+        ways[a].push_back(way.normalized());
+        ways[b].push_back(-way.normalized());
+        if (there.second < 0) continue;
+        const Vec3 off = mesh.points[there.second] - (mesh.points[a] + mesh.points[b]) / 2;
+        if (off.norm() > straight * way.norm()) pinned.insert(pinned.end(), {a, b, there.second});
+    }
+    for (const auto& [node, along] : ways)
+        if (along.size() != 2 || (along[0] + along[1]).norm() > straight) pinned.push_back(node);
+    for (const auto& [node, count] : ends)
+        if (count == 1 && !is_double[node]) pinned.push_back(node);
+    std::ranges::sort(pinned);
+    pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
 }
 
 void WeldFirst::make_single(std::vector<std::array<Index, 3>>& parts) const {
