@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <map>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -11,9 +9,6 @@
 #include "mesh/changes.h"
 
 namespace femscalpel {
-
-/// Changes that came one after the other as one: what is new descends from what was there before the first.
-Changes in_one(std::span<const Changes> stages);
 
 /// What taking welded nodes apart did to a mesh.
 struct Unwelded {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,8 @@ struct Changes {
 
     bool empty() const { return copies.empty() && born.empty() && parts.empty(); }
 };
+
+/// Changes that came one after the other as one: what is new descends from what was there before the first.
+Changes in_one(std::span<const Changes> stages);
 
 }  // namespace femscalpel
