@@ -13,7 +13,7 @@ namespace femscalpel {
 namespace {
 
 /// Less than this part of the shapes' own measure is touching.
-constexpr double touching = 1e-6;
+constexpr double just_touching = 1e-6;
 
 struct Box {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -30,36 +30,37 @@ struct Box {
 /// Whether the segment p-q passes through the inside of the triangle.
 bool passes(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    const double none = touching * normal.norm() * std::sqrt(normal.norm());
+    const double none = just_touching * normal.norm() * std::sqrt(normal.norm());
     const double at_p = normal.dot(p - t[0]), at_q = normal.dot(q - t[0]);
     if (std::abs(at_p) < none || std::abs(at_q) < none || (at_p > 0) == (at_q > 0)) return false;
     const Vec3 x = p + at_p / (at_p - at_q) * (q - p);
     for (int k = 0; k < 3; ++k)
-        if ((t[(k + 1) % 3] - t[k]).cross(x - t[k]).dot(normal) < touching * normal.squaredNorm()) return false;
+        if ((t[(k + 1) % 3] - t[k]).cross(x - t[k]).dot(normal) < just_touching * normal.squaredNorm()) return false;
     return true;
 }
 
 /// Whether two segments of one plane cross in their insides.
 bool cross(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
     const Vec3 u = q - p, v = b - a, n = u.cross(v);
-    const double none = touching * u.norm() * v.norm();
-    if (n.norm() <= none || std::abs(n.normalized().dot(a - p)) > touching * std::max(u.norm(), v.norm())) return false;
+    const double none = just_touching * u.norm() * v.norm();
+    if (n.norm() <= none || std::abs(n.normalized().dot(a - p)) > just_touching * std::max(u.norm(), v.norm()))
+        return false;
     const double s = (a - p).cross(v).dot(n) / n.squaredNorm(), t = (a - p).cross(u).dot(n) / n.squaredNorm();
-    return s > touching && s < 1 - touching && t > touching && t < 1 - touching;
+    return s > just_touching && s < 1 - just_touching && t > just_touching && t < 1 - just_touching;
 }
 
 /// Whether a point is inside a simplex; of a triangle in space, inside it in its plane.
 bool is_inside(const Vec3& x, std::span<const Vec3> corner) {
     const Vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], r = x - corner[0], n = a.cross(b);
     if (corner.size() == 3) {
-        if (std::abs(n.dot(r)) > touching * std::pow(n.squaredNorm(), 0.75)) return false;
+        if (std::abs(n.dot(r)) > just_touching * std::pow(n.squaredNorm(), 0.75)) return false;
         const double u = r.cross(b).dot(n) / n.squaredNorm(), v = a.cross(r).dot(n) / n.squaredNorm();
-        return std::min({u, v, 1 - u - v}) > touching;
+        return std::min({u, v, 1 - u - v}) > just_touching;
     }
     const Vec3 c = corner[3] - corner[0];
     const double all = n.dot(c);
     const double u = r.cross(b).dot(c) / all, v = a.cross(r).dot(c) / all, w = n.dot(r) / all;
-    return std::min({u, v, w, 1 - u - v - w}) > touching;
+    return std::min({u, v, w, 1 - u - v - w}) > just_touching;
 }
 
 /// The parts, in the cells of a grid.

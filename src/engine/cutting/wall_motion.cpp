@@ -20,7 +20,7 @@ namespace {
 /// both differ by as much.
 constexpr double beside_curved = 0.1;
 /// Coordinates off by less than this part of the size have not been rounded.
-constexpr double exact = 1e-11;
+constexpr double exact_fit = 1e-11;
 
 SurfaceSample sample_of(const Workpiece& f, const Wall& wall, const Wall::Patch& patch) {
     const KeptGeometry& g = f.d.constraints.geometry();
@@ -100,7 +100,7 @@ void find_tools(const Workpiece& f, const Wall& wall, WallMotion& motion) {
     }
     if (motion.onto) return;
     const KeptGeometry& g = f.d.constraints.geometry();
-    Fitter fitter{std::max(1e-8 * g.size, g.rounding), motion.carried, g.rounding > exact * g.size, {}};
+    Fitter fitter{std::max(1e-8 * g.size, g.rounding), motion.carried, g.rounding > exact_fit * g.size, {}};
     for (std::size_t k = 0; k < wall.patches.size(); ++k) {
         if (wall.patches[k].follows) continue;
         SurfaceSample sample = sample_of(f, wall, wall.patches[k]);
