@@ -215,7 +215,7 @@ const Integrator& integrator(CellType type) {
 /// Volume of an element with straight edges, exact for its shape functions: by the divergence theorem, as quadrangles,
 /// on which they are bilinear, cut off as much as their two pairs of triangles do on average.
 double straight_volume(const CellTraits& t, auto at) {
-    const Vec3 origin = at(0);
+    const Vec3& origin = at(0);
     double sum = 0;
     for (const auto& face : t.faces) {
         const Vec3 a = at(face[0]) - origin, b = at(face[1]) - origin, c = at(face[2]) - origin;

@@ -85,7 +85,7 @@ Blend ShapeBlend::bulge(const Vec3& x) const {
     const CellTraits& t = traits(type_);
     if (!t.quadratic) return out;
     for (std::size_t e = 0; e < t.edges.size(); ++e) {
-        const int a = t.edges[e][0], b = t.edges[e][1];
+        const std::int8_t a = t.edges[e][0], b = t.edges[e][1];
         const double weight = of_edge(type_, a, b, x);
         if (weight == 0) continue;
         add_term(out, nodes_[static_cast<std::size_t>(t.corners) + e], weight);
