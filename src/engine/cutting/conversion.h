@@ -15,8 +15,10 @@ namespace femscalpel {
 /// Corners of a quadrangular face, ascending: its name.
 using QuadKey = std::array<Index, 4>;
 
+/// The name of a quadrangular face.
 QuadKey quad_key(std::array<Index, 4> corners);
 
+/// For hash tables by quadrangular face.
 struct QuadKeyHash {
     std::size_t operator()(const QuadKey& key) const {
         std::uint64_t h = 0;

@@ -17,6 +17,7 @@ namespace femscalpel {
 /// rounded, as every triangle then tells all.
 class SkinPlanes {
 public:
+    /// The points x with normal . x = offset.
     struct Plane {
         Vec3 normal;  ///< out of the material
         double offset;
