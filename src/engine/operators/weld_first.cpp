@@ -40,6 +40,7 @@ void rename_marks(Mesh& mesh, std::string_view from, std::string_view to) {
 
 std::vector<Index> numbers_of(const Mesh& mesh, const std::vector<Index>& nodes) {
     std::vector<Index> out;
+    out.reserve(nodes.size());
     for (const Index n : nodes) out.push_back(mesh.node_ids[n]);
     return out;
 }
@@ -74,6 +75,7 @@ void WeldFirst::find_marks() {
     const std::vector<Index> now = welded_->single_nodes();
     const auto single = [&](const std::vector<Index>& nodes) {
         std::vector<Index> out;
+        out.reserve(nodes.size());
         for (const Index n : nodes) out.push_back(now[n]);
         std::ranges::sort(out);
         out.erase(std::unique(out.begin(), out.end()), out.end());
