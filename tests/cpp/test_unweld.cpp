@@ -44,6 +44,21 @@ TEST(Unweld, NothingChangedIsTheInput) {
     EXPECT_TRUE(changes.empty());
 }
 
+TEST(Unweld, ASpringBetweenTheTwoStaysSoWhicheverComesFirst) {
+    Mesh before = input();
+    before.add_cell(CellType::line, std::array<Index, 2>{0, 4}, 3);
+    before.add_cell(CellType::line, std::array<Index, 2>{5, 1}, 4);
+    const auto welded = weld(before, 0);
+    ASSERT_TRUE(welded);
+    Mesh mesh = welded->mesh;
+    mesh.points[1] = {1.5, 0, 0};
+    Changes changes;
+    unweld(before, *welded, mesh, changes, 100);
+    EXPECT_EQ(mesh.block(CellType::line).connectivity, before.block(CellType::line).connectivity);
+    EXPECT_EQ(mesh.points[5], Vec3(1.5, 0, 0));
+    EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));
+}
+
 TEST(Unweld, WhatMovesAndIsBornDoesSoOnBothSides) {
     const Mesh before = input();
     const auto welded = weld(before, 0);
@@ -91,17 +106,26 @@ TEST(Unweld, ASideThatIsGoneTakesItsNodesAlong) {
     EXPECT_THAT(mesh.node_ids, ElementsAre(1, 2, 3, 4, 14));  // of the node 14 the operation had to think
 }
 
+/// A crack's copies 101, 102, 103 of the single nodes; the first one's index.
+Index add_copies(Mesh& mesh, Changes& changes) {
+    const Index first = mesh.node_count();
+    for (const Index n : {0, 1, 2}) {
+        mesh.add_node(Vec3(mesh.points[n]), 101 + n);
+        changes.copies.push_back({101 + n, mesh.node_ids[n]});
+    }
+    return first;
+}
+
 TEST(Unweld, ACrackThroughBothDoublesBoth) {
     const Mesh before = input();
     const auto welded = weld(before, 0);
     ASSERT_TRUE(welded);
     // As if tetrahedra 3 and 4 were on the other lip of a crack, at copies of the nodes 1, 2, 3.
     Mesh mesh = welded->mesh;
-    const Index p = mesh.add_node({0, 0, 0}, 101), q = mesh.add_node({2, 0, 0}, 102), r = mesh.add_node({0, 2, 0}, 103);
-    mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, q, r, 3}, 3);
-    mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, r, q, 7}, 4);
     Changes changes;
-    changes.copies = {{101, 1}, {102, 2}, {103, 3}};
+    const Index p = add_copies(mesh, changes);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, p + 1, p + 2, 3}, 3);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, p + 2, p + 1, 7}, 4);
     changes.parts = {{3, 1}, {4, 2}};
     const Unwelded out = unweld(before, *welded, mesh, changes, 104);
     EXPECT_EQ(out.doubled, 3);
@@ -118,10 +142,9 @@ TEST(Unweld, ACrackAlongTheWeldOpensNothing) {
     const auto welded = weld(before, 0);
     ASSERT_TRUE(welded);
     Mesh mesh = welded->mesh;
-    const Index p = mesh.add_node({0, 0, 0}, 101), q = mesh.add_node({2, 0, 0}, 102), r = mesh.add_node({0, 2, 0}, 103);
-    mesh.block(CellType::tetra).connectivity = {p, q, r, 3, 0, 2, 1, 7};
     Changes changes;
-    changes.copies = {{101, 1}, {102, 2}, {103, 3}};
+    const Index p = add_copies(mesh, changes);
+    mesh.block(CellType::tetra).connectivity = {p, p + 1, p + 2, 3, 0, 2, 1, 7};
     unweld(before, *welded, mesh, changes, 104);
     EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));

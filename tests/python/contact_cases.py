@@ -12,14 +12,13 @@ are below 0.1 and below the mesh before, seconds, and what failed.
 """
 
 import collections
-import time
 
 import numpy as np
 
 import femscalpel as fs
-from campaign import case_arguments
+from campaign import Tally, case_arguments
 from meshes import quadratic
-from mixed_meshes import FACES, grid
+from mixed_meshes import FACES, grid, worst_of
 
 TETRA_OF_CUBE = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
 HEIGHT = 4
@@ -221,40 +220,25 @@ def is_on_contact(kind, face):
     return all(abs(p[2] - HEIGHT) < 1e-9 for p in face)
 
 
-def worst_of(mesh):
-    """Of solids, or else of shells."""
-    ratios = {k: v.min() for k, v in fs.mean_ratio(mesh).items() if len(v)}
-    solids = [q for k, q in ratios.items() if k.rstrip("0123456789") in FACES]
-    return min(solids or [q for k, q in ratios.items() if k.startswith(("triangle", "quad"))])
-
-
 def run(kind, cases, first, list_refused):
-    refused, failed, qualities, poor, seconds = collections.Counter(), {}, [], 0, 0.0
+    tally, least, poor = Tally(kind, list_refused), 1.0, 0
     for seed in range(first, first + cases):
         mesh, operate, removes = make(kind, seed)
-        start = time.perf_counter()
-        try:
-            result = operate(mesh)
-        except fs.Error as error:
-            refused[type(error).__name__] += 1
-            if list_refused:
-                print(f"  {kind} {seed}: {error}")
+        result = tally.run(seed, lambda: operate(mesh))
+        if result is None:
             continue
-        seconds += time.perf_counter() - start
         if wrong := check(kind, mesh, result, removes):
-            failed[seed] = wrong
-        qualities.append(worst_of(result.mesh))
-        if qualities[-1] < min(0.1, worst_of(mesh)):
+            tally.failed[seed] = wrong
+        quality = worst_of(result.mesh)
+        least = min(least, quality)
+        if quality < min(0.1, worst_of(mesh)):
             poor += 1
-            if list_refused:
-                print(f"  {kind} {seed}: quality {qualities[-1]:.3f}")
+            tally.tell(seed, f"quality {quality:.3f}")
     print(
-        f"{kind:<14} {cases} cases, refused {dict(refused)}, least quality {min(qualities, default=1):.3f}, "
-        f"poor {poor}, {seconds / max(1, len(qualities)):.3f} s each"
+        f"{kind:<14} {cases} cases, refused {dict(tally.refused)}, least quality {least:.3f}, poor {poor}, "
+        f"{tally.mean_seconds:.3f} s each"
     )
-    for seed, wrong in failed.items():
-        print(f"  FAILED {kind} {seed}: {'; '.join(wrong)}")
-    return not failed
+    return tally.is_sound()
 
 
 KINDS = ("flat", "flat second", "curved", "curved second", "glued", "lips", "hexahedra", "layers", "plates")

@@ -10,14 +10,11 @@ were refused, the smallest and usual quality, how many are poor (below 0.1), and
 --refused those that were refused, too.
 """
 
-import collections
-import time
-
 import numpy as np
 
 import femscalpel as fs
-from campaign import case_arguments
-from mixed_meshes import grid, outer_area, prisms_of, second_order_of_all
+from campaign import Tally, case_arguments
+from mixed_meshes import grid, outer_area, prisms_of, second_order_of_all, worst_of
 
 BENT = 0.15
 
@@ -90,42 +87,32 @@ def check(mesh, result, drilled, flat):
     return found
 
 
-def worst_of(mesh):
-    return min(v.min() for k, v in fs.mean_ratio(mesh).items() if k.startswith(("t", "p", "q", "h", "w")) and len(v))
+def name_of(error):
+    if not isinstance(error, fs.ToolError):
+        return type(error).__name__
+    return "misses" if "miss" in str(error) or "outside" in str(error) else "tool"
 
 
 def run(kind, cases, first, list_refused):
-    refused, failed, qualities, seconds = collections.Counter(), {}, [], 0.0
+    tally, qualities = Tally(kind, list_refused, name_of), []
     for seed in range(first, first + cases):
         mesh, tool, drills, flat = make(kind, seed)
-        start = time.perf_counter()
-        try:
-            result = (fs.drill if drills else fs.crack)(mesh, tool, name="T")
-        except fs.ToolError as error:
-            refused["misses" if "miss" in str(error) or "outside" in str(error) else "tool"] += 1
-            if list_refused:
-                print(f"  {kind} {seed}: {error}")
+        result = tally.run(seed, lambda: (fs.drill if drills else fs.crack)(mesh, tool, name="T"))
+        if result is None:
             continue
-        except fs.Error as error:
-            refused[type(error).__name__] += 1
-            if list_refused:
-                print(f"  {kind} {seed}: {error}")
-            continue
-        seconds += time.perf_counter() - start
-        wrong = check(mesh, result, drills, flat)
-        if wrong:
-            failed[seed] = wrong
+        if wrong := check(mesh, result, drills, flat):
+            tally.failed[seed] = wrong
         qualities.append(min(result.report.quality.after.minimum, worst_of(result.mesh)))
-        if list_refused and qualities[-1] < 0.1:
-            print(f"  {kind} {seed}: quality {qualities[-1]:.3f}, {result.report.quality.before.minimum:.3f} before")
+        if qualities[-1] < 0.1:
+            before = result.report.quality.before.minimum
+            tally.tell(seed, f"quality {qualities[-1]:.3f}, {before:.3f} before")
     q = np.array(qualities or [np.nan])
     print(
-        f"{kind:<11} {cases} cases, refused {dict(refused)}, quality {q.min():.3f} / {np.percentile(q, 10):.3f} / "
-        f"{np.median(q):.3f} (least, of 90 %, usual), poor {(q < 0.1).sum()}, {seconds / max(1, len(q)):.3f} s each"
+        f"{kind:<11} {cases} cases, refused {dict(tally.refused)}, quality {q.min():.3f} / "
+        f"{np.percentile(q, 10):.3f} / {np.median(q):.3f} (least, of 90 %, usual), poor {(q < 0.1).sum()}, "
+        f"{tally.mean_seconds:.3f} s each"
     )
-    for seed, wrong in failed.items():
-        print(f"  FAILED {kind} {seed}: {'; '.join(wrong)}")
-    return not failed
+    return tally.is_sound()
 
 
 def main():

@@ -5,6 +5,8 @@ import collections
 
 import numpy as np
 
+import femscalpel as fs
+
 EDGES = {
     "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
     "hexahedron": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
@@ -96,3 +98,10 @@ def outer_area(mesh):
                 for o in ((0, 1, 2, 3), (0, 2, 1, 3), (0, 1, 3, 2))
             )
     return area
+
+
+def worst_of(mesh):
+    """Of solids, or else of shells."""
+    ratios = {k: v.min() for k, v in fs.mean_ratio(mesh).items() if len(v)}
+    solids = [q for k, q in ratios.items() if k.rstrip("0123456789") in FACES]
+    return min(solids or [q for k, q in ratios.items() if k.startswith(("triangle", "quad"))])

@@ -15,16 +15,10 @@
 namespace femscalpel {
 namespace {
 
-using Key = std::array<Index, 3>;
-
-Key sorted(Key key) {
-    std::ranges::sort(key);
-    return key;
-}
-
 class Finder {
 public:
-    Finder(const Mesh& mesh, const CellLists& taken, const Mesh& other, const std::function<bool(const Key&)>& is_kept)
+    Finder(const Mesh& mesh, const CellLists& taken, const Mesh& other,
+           const std::function<bool(const FaceKey&)>& is_kept)
         : mesh_(mesh), taken_(taken), other_(other), is_kept_(is_kept) {}
 
     CrossedBorders run() {
@@ -44,16 +38,16 @@ private:
                 check();
                 const auto n = b.nodes(c);
                 for (const auto& f : outward_faces)
-                    faces_[sorted({n[f[0]], n[f[1]], n[f[2]]})].push_back(b.families[c]);
+                    faces_[face_key({n[f[0]], n[f[1]], n[f[2]]})].push_back(b.families[c]);
             }
         }
     }
 
-    Vec3 middle(const Key& face) const {
+    Vec3 middle(const FaceKey& face) const {
         return (mesh_.points[face[0]] + mesh_.points[face[1]] + mesh_.points[face[2]]) / 3;
     }
 
-    bool is_outside(const Key& face) {
+    bool is_outside(const FaceKey& face) {
         if (!tree_) {
             skin_ = surface_near(other_, box_around(other_));
             tree_.emplace(other_, skin_);
@@ -66,7 +60,7 @@ private:
             if (!mesh_.groups[g].hidden && !mesh_.families.contains(but, g)) to.insert(g);
     }
 
-    void look_at_border(const Key& face, FamilyIndex one, FamilyIndex two) {
+    void look_at_border(const FaceKey& face, FamilyIndex one, FamilyIndex two) {
         if (one == two) return;
         std::set<GroupIndex> groups;
         add(groups, one, two);
@@ -76,8 +70,8 @@ private:
         out_.at = middle(face);
     }
 
-    void look_at_face(const Key& face, FamilyIndex family) {
-        const auto found = faces_.find(sorted(face));
+    void look_at_face(const FaceKey& face, FamilyIndex family) {
+        const auto found = faces_.find(face_key(face));
         if (found == faces_.end() || found->second.size() < 2 || is_kept_(found->first)) return;
         std::set<GroupIndex> groups;
         add(groups, family, 0);
@@ -108,8 +102,8 @@ private:
     const Mesh& mesh_;
     const CellLists& taken_;
     const Mesh& other_;
-    const std::function<bool(const Key&)>& is_kept_;
-    std::map<Key, std::vector<FamilyIndex>> faces_;  // of the elements that have them
+    const std::function<bool(const FaceKey&)>& is_kept_;
+    std::map<FaceKey, std::vector<FamilyIndex>> faces_;  // of the elements that have them
     std::vector<SurfaceFace> skin_;
     std::optional<SurfaceTree> tree_;
     CrossedBorders out_;

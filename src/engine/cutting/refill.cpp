@@ -18,21 +18,15 @@
 #include "mesh/crop.h"
 #include "mesh/middles.h"
 #include "mesh/stopwatch.h"
+#include "mesh/surface.h"
 #include "mesh/surface_tree.h"
 
 namespace femscalpel {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
-using Key = std::array<Index, 3>;
-
 /// Tetrahedra as near to the other's skin as this, in its edges, are taken out, so that there is room for good ones.
 constexpr double room = 0.6;
-
-Key sorted(Key key) {
-    std::ranges::sort(key);
-    return key;
-}
 
 /// For Eigen's BVIntersect: whether any of the boxes meets one.
 struct Meets {
@@ -76,7 +70,7 @@ public:
              const std::vector<SurfaceFace>& covered, const std::vector<SurfaceFace>& cover)
         : mesh_(mesh), other_(other), partner_(partner), cover_(cover) {
         for (const SurfaceFace& f : covered) {
-            covered_.insert(sorted(f.nodes));
+            covered_.insert(face_key(f.nodes));
             for (const Index n : f.nodes) on_cover_.insert(n);
         }
     }
@@ -85,7 +79,7 @@ public:
         find_taken();
         find_cavity();
         assemble(fill());
-        out_.borders = crossed_borders(mesh_, taken_, other_, [&](const Key& face) { return is_filled(face); });
+        out_.borders = crossed_borders(mesh_, taken_, other_, [&](const FaceKey& face) { return is_filled(face); });
         return std::move(out_);
     }
 
@@ -168,14 +162,14 @@ private:
     /// The cavity's faces: of the taken tetrahedra those that are not between two of them, nor covered; and, turned
     /// round, the part of the other's skin.
     void find_cavity() {
-        std::map<Key, std::pair<Key, int>> faces;  // as they are, and how many tetrahedra have them
+        std::map<FaceKey, std::pair<FaceKey, int>> faces;  // as they are, and how many tetrahedra have them
         for (int type = 0; type < cell_type_count; ++type)
             for (const Index c : taken_[type]) {
                 ++out_.taken;
                 const auto n = mesh_.blocks()[type].nodes(c);
                 for (const auto& f : outward_faces) {
-                    const Key face{n[f[0]], n[f[1]], n[f[2]]};
-                    auto& entry = faces.emplace(sorted(face), std::pair(face, 0)).first->second;
+                    const FaceKey face{n[f[0]], n[f[1]], n[f[2]]};
+                    auto& entry = faces.emplace(face_key(face), std::pair(face, 0)).first->second;
                     ++entry.second;
                 }
             }
@@ -292,7 +286,7 @@ private:
                 const auto n = b.nodes(c);
                 // What lies on taken elements alone is seen to later.
                 const bool is_face = traits(b.type).corners == 3;
-                const Key key = is_face ? sorted({n[0], n[1], n[2]}) : Key{-1, -1, -1};
+                const FaceKey key = is_face ? face_key({n[0], n[1], n[2]}) : FaceKey{-1, -1, -1};
                 const bool gone = std::ranges::any_of(n, [&](Index v) { return in_taken[v] && !left[v]; }) ||
                                   (is_face && (covered_.contains(key) || between_.contains(key)));
                 if (!gone)
@@ -347,7 +341,7 @@ private:
             out_.added.push_back({type, cell});
             for (int f = 0; f < 4; ++f) {
                 const auto& o = outward_faces[f];
-                filled_faces_[sorted({nodes[o[0]], nodes[o[1]], nodes[o[2]]})] = {type, cell};
+                filled_faces_[face_key({nodes[o[0]], nodes[o[1]], nodes[o[2]]})] = {type, cell};
             }
         }
     }
@@ -375,7 +369,7 @@ private:
     /// Whether an edge of the mesh is one of what is left of its skin around the cavity.
     bool is_left_edge(Index a, Index b) {
         if (left_edges_.empty())
-            for (const Key& f : left_)
+            for (const FaceKey& f : left_)
                 for (std::size_t k = 0; k < 3; ++k) left_edges_.insert(std::minmax(f[k], f[(k + 1) % 3]));
         return left_edges_.contains(std::minmax(a, b));
     }
@@ -393,8 +387,8 @@ private:
     }
 
     /// Whether a face of the mesh is one of what was filled in.
-    bool is_filled(const Key& face) const {
-        return filled_faces_.contains(sorted({place_now(face[0]), place_now(face[1]), place_now(face[2])}));
+    bool is_filled(const FaceKey& face) const {
+        return filled_faces_.contains(face_key({place_now(face[0]), place_now(face[1]), place_now(face[2])}));
     }
 
     /// Facets of taken elements, and elements on these, that lie on what is left of the skin.
@@ -405,11 +399,11 @@ private:
             const CellBlock& b = mesh_.block(c.type);
             const CellTraits& t = traits(c.type);
             const auto n = b.nodes(c.cell);
-            if (t.corners == 3 && covered_.contains(sorted({n[0], n[1], n[2]}))) continue;
+            if (t.corners == 3 && covered_.contains(face_key({n[0], n[1], n[2]}))) continue;
             nodes.clear();
             for (int k = 0; k < t.corners; ++k) nodes.push_back(now(n[k]));
             if (std::ranges::any_of(nodes, [](Index v) { return v < 0; })) continue;
-            if (t.corners == 3 && between_.contains(sorted({n[0], n[1], n[2]})) && !is_filled({n[0], n[1], n[2]}))
+            if (t.corners == 3 && between_.contains(face_key({n[0], n[1], n[2]})) && !is_filled({n[0], n[1], n[2]}))
                 continue;
             if (t.quadratic)
                 for (const auto& e : t.edges) nodes.push_back(middle(nodes[e[0]], nodes[e[1]]));
@@ -419,20 +413,21 @@ private:
             if (traits(f.type).dimension < 3 || !is_taken({f.type, f.cell})) continue;
             const auto n = mesh_.block(f.type).nodes(f.cell);
             const auto& face = traits(f.type).faces[f.face - 1];
-            if (covered_.contains(sorted({n[face[0]], n[face[1]], n[face[2]]}))) continue;
-            Key key{now(n[face[0]]), now(n[face[1]]), now(n[face[2]])};
-            const auto found = filled_faces_.find(sorted(key));
+            if (covered_.contains(face_key({n[face[0]], n[face[1]], n[face[2]]}))) continue;
+            FaceKey key{now(n[face[0]]), now(n[face[1]]), now(n[face[2]])};
+            const auto found = filled_faces_.find(face_key(key));
             if (found == filled_faces_.end()) continue;
             out_.mesh.facets.push_back(
-                {found->second.type, face_of(found->second, sorted(key)), f.family, found->second.cell});
+                {found->second.type, face_of(found->second, face_key(key)), f.family, found->second.cell});
         }
     }
 
-    std::int8_t face_of(CellRef cell, const Key& key) const {
+    std::int8_t face_of(CellRef cell, const FaceKey& key) const {
         const auto n = out_.mesh.block(cell.type).nodes(cell.cell);
         const auto faces = traits(cell.type).faces;
         for (std::size_t k = 0; k < faces.size(); ++k)
-            if (sorted({n[faces[k][0]], n[faces[k][1]], n[faces[k][2]]}) == key) return static_cast<std::int8_t>(k + 1);
+            if (face_key({n[faces[k][0]], n[faces[k][1]], n[faces[k][2]]}) == key)
+                return static_cast<std::int8_t>(k + 1);
         return 1;
     }
 
@@ -440,11 +435,11 @@ private:
     const Mesh& other_;
     const std::vector<Index>& partner_;
     const std::vector<SurfaceFace>& cover_;
-    std::set<Key> covered_;
+    std::set<FaceKey> covered_;
     std::set<Index> on_cover_;  // nodes of the covered skin
     CellLists taken_;           // ascending
     std::vector<CellRef> loose_;
-    std::set<Key> left_, between_;  // the cavity's faces that are the mesh's; those between elements that are taken
+    std::set<FaceKey> left_, between_;  // the cavity's faces that are the mesh's; those between elements that are taken
     std::set<std::pair<Index, Index>> left_edges_;
     std::vector<Vec3> points_;
     std::vector<Triangle> triangles_;
@@ -452,7 +447,7 @@ private:
     std::vector<Index> at_;                        // node of the result, by point of the cavity
     std::unordered_map<Index, Index> old_places_;  // nodes of the mesh at the cavity, in the result
     std::unordered_map<std::uint64_t, Index> middles_;
-    std::map<Key, CellRef> filled_faces_;
+    std::map<FaceKey, CellRef> filled_faces_;
     std::map<Index, bool> born_;  // nodes of the result that the mesh has not; whether the changes have them
     Numbering number_;
     Refilled out_;

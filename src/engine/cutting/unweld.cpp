@@ -177,8 +177,9 @@ private:
         for (std::size_t k = 0; k < from.size(); ++k) {
             const auto set = set_of_.find(from[k]);
             if (set == set_of_.end()) continue;
-            for (const Index v : n)
-                if (std::ranges::binary_search(*set->second, v)) {
+            // A spring or gap between two of them kept both, of which the first is the single one.
+            for (const Index v : *set->second)
+                if (std::ranges::find(n, v) != n.end()) {
                     out[k] = v;
                     break;
                 }

@@ -212,10 +212,11 @@ private:
             }
         for (CellBlock& b : mesh.blocks()) {
             const auto count = static_cast<std::size_t>(traits(b.type).nodes);
+            const bool is_line = traits(b.type).dimension == 1;
             for (std::size_t k = 0; k < b.connectivity.size(); k += count) {
                 const auto n = std::span(b.connectivity).subspan(k, count);
                 // A spring or gap of no length stays between the two.
-                if (count == 2 && now[n[0]] == now[n[1]]) continue;
+                if (is_line && now[n[0]] == now[n[1]]) continue;
                 for (Index& v : n) v = now[v];
             }
         }

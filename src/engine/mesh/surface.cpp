@@ -9,13 +9,6 @@
 namespace femscalpel {
 namespace {
 
-using Key = std::array<Index, 3>;
-
-Key sorted(Key key) {
-    std::ranges::sort(key);
-    return key;
-}
-
 /// Calls visit(nodes) for the elements with so many corners, simplices of that dimension, that reach into the box.
 void for_each_in(const Mesh& mesh, int corners, const Eigen::AlignedBox3d& box, auto visit) {
     for (const CellBlock& b : mesh.blocks()) {
@@ -34,11 +27,11 @@ void for_each_in(const Mesh& mesh, int corners, const Eigen::AlignedBox3d& box, 
 
 std::vector<SurfaceFace> surface_near(const Mesh& mesh, const Eigen::AlignedBox3d& box) {
     // A face that reaches into the box has only neighbours that do.
-    std::vector<std::pair<Key, Key>> faces;
+    std::vector<std::pair<FaceKey, FaceKey>> faces;
     for_each_in(mesh, 4, box, [&](const Index* n) {
         for (const auto& f : outward_faces) {
-            const Key face{n[f[0]], n[f[1]], n[f[2]]};
-            faces.push_back({sorted(face), face});
+            const FaceKey face{n[f[0]], n[f[1]], n[f[2]]};
+            faces.push_back({face_key(face), face});
         }
     });
     std::ranges::sort(faces);
@@ -52,11 +45,16 @@ std::vector<SurfaceFace> surface_near(const Mesh& mesh, const Eigen::AlignedBox3
         k = end;
     }
     for_each_in(mesh, 3, box, [&](const Index* n) {
-        const Key face{n[0], n[1], n[2]}, key = sorted(face);
-        const auto found = std::ranges::lower_bound(faces, key, {}, &std::pair<Key, Key>::first);
+        const FaceKey face{n[0], n[1], n[2]}, key = face_key(face);
+        const auto found = std::ranges::lower_bound(faces, key, {}, &std::pair<FaceKey, FaceKey>::first);
         if (found == faces.end() || found->first != key) out.push_back({face, true});
     });
     return out;
+}
+
+FaceKey face_key(FaceKey face) {
+    std::ranges::sort(face);
+    return face;
 }
 
 Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {

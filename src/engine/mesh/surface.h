@@ -15,6 +15,10 @@ struct SurfaceFace {
     bool shell;                  ///< an element of its own, not the face of a tetrahedron
 };
 
+/// Nodes of a triangular face, ascending: its name, whichever element it is looked at from.
+using FaceKey = std::array<Index, 3>;
+FaceKey face_key(FaceKey face);
+
 /// The faces of a mesh's surface that reach into a box: faces that only one tetrahedron has, and triangles that are no
 /// face of a tetrahedron. Elements that are no simplices have none. One pass over the elements.
 std::vector<SurfaceFace> surface_near(const Mesh& mesh, const Eigen::AlignedBox3d& box);

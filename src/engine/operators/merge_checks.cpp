@@ -22,18 +22,12 @@
 namespace femscalpel {
 namespace {
 
-using Key = std::array<Index, 3>;
 using Box = Eigen::AlignedBox3d;
 
 /// What is as near as this part of a mesh's size to the other is near it.
 constexpr double close = 1e-2;
 /// A crossing is farther than this from the edges of both triangles, in their size.
 constexpr double inside = 1e-6;
-
-Key sorted(Key key) {
-    std::ranges::sort(key);
-    return key;
-}
 
 Vec3 centre_of(const Mesh& mesh, CellRef cell) {
     Vec3 out = Vec3::Zero();
@@ -44,13 +38,13 @@ Vec3 centre_of(const Mesh& mesh, CellRef cell) {
 }
 
 /// Faces of tetrahedra that one of the group and one of the others have.
-std::set<Key> faces_between(const Mesh& mesh, GroupIndex added) {
+std::set<FaceKey> faces_between(const Mesh& mesh, GroupIndex added) {
     std::vector<char> in_added(mesh.points.size(), 0);
     for (const CellBlock& b : mesh.blocks())
         for (Index c = 0; c < b.size(); ++c)
             if (mesh.families.contains(b.families[c], added))
                 for (const Index n : b.nodes(c)) in_added[n] = 1;
-    std::map<Key, std::array<bool, 2>> sides;
+    std::map<FaceKey, std::array<bool, 2>> sides;
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
         if (t.linear != CellType::tetra) continue;
@@ -58,10 +52,10 @@ std::set<Key> faces_between(const Mesh& mesh, GroupIndex added) {
             const auto n = b.nodes(c);
             if (std::count_if(n.begin(), n.begin() + 4, [&](Index v) { return in_added[v] != 0; }) < 3) continue;
             const bool side = mesh.families.contains(b.families[c], added);
-            for (const auto& f : t.faces) sides[sorted({n[f[0]], n[f[1]], n[f[2]]})][side ? 1 : 0] = true;
+            for (const auto& f : t.faces) sides[face_key({n[f[0]], n[f[1]], n[f[2]]})][side ? 1 : 0] = true;
         }
     }
-    std::set<Key> out;
+    std::set<FaceKey> out;
     for (const auto& [face, side] : sides)
         if (side[0] && side[1]) out.insert(face);
     return out;
@@ -83,13 +77,13 @@ Counts faces_in_groups(const Mesh& mesh, auto holds) {
         if (t.linear != CellType::tetra) continue;
         const auto n = mesh.block(f.type).nodes(f.cell);
         const auto& face = t.faces[f.face - 1];
-        if (holds(sorted({n[face[0]], n[face[1]], n[face[2]]}))) count(out, mesh, f.family);
+        if (holds(face_key({n[face[0]], n[face[1]], n[face[2]]}))) count(out, mesh, f.family);
     }
     for (const CellBlock& b : mesh.blocks()) {
         if (traits(b.type).linear != CellType::triangle) continue;
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
-            if (holds(sorted({n[0], n[1], n[2]}))) count(out, mesh, b.families[c]);
+            if (holds(face_key({n[0], n[1], n[2]}))) count(out, mesh, b.families[c]);
         }
     }
     return out;
@@ -116,18 +110,18 @@ bool is_inside(const Vec3& x, const TriangleCorners& t) {
 
 /// Where two triangles without a common node cross within both; crossed_element() does not see that where edges meet
 /// nothing but edges.
-std::optional<Vec3> crossing_of(const Mesh& mesh, const std::vector<Key>& triangles) {
+std::optional<Vec3> crossing_of(const Mesh& mesh, const std::vector<FaceKey>& triangles) {
     std::vector<Box> boxes;
-    for (const Key& t : triangles) {
+    for (const FaceKey& t : triangles) {
         Box& box = boxes.emplace_back();
         for (const Index n : t) box.extend(mesh.points[n]);
     }
     SparseCheck check(256);
     for (const auto& [i, j] : near_boxes(boxes, boxes)) {
         check();
-        const Key &s = triangles[i], &t = triangles[j];
+        const FaceKey &s = triangles[i], &t = triangles[j];
         if (i >= j || std::ranges::any_of(s, [&](Index n) { return std::ranges::find(t, n) != t.end(); })) continue;
-        const auto corners = [&](const Key& k) {
+        const auto corners = [&](const FaceKey& k) {
             return TriangleCorners{mesh.points[k[0]], mesh.points[k[1]], mesh.points[k[2]]};
         };
         const TriangleCorners first = corners(s), second = corners(t);
@@ -156,7 +150,7 @@ std::string extents_text(const Mesh& mesh, const Mesh& addition) {
 }
 
 void check_itself(const Mesh& addition) {
-    std::vector<Key> parts;
+    std::vector<FaceKey> parts;
     for (const SurfaceFace& f : surface_near(addition, box_around(addition))) parts.push_back(f.nodes);
     std::optional<Vec3> at;
     if (const auto crossed = crossed_element(addition, parts)) at = centre_of(addition, *crossed);
@@ -229,11 +223,11 @@ void check_other_elements(const Mesh& mesh, const Mesh& addition) {
 }
 
 void warn_of_buried(const Mesh& result, const std::string& added, Report& report) {
-    const std::set<Key> between = faces_between(result, *result.find_group(added, GroupKind::element));
+    const std::set<FaceKey> between = faces_between(result, *result.find_group(added, GroupKind::element));
     if (between.empty()) return;
-    const Counts buried = faces_in_groups(result, [&](const Key& key) { return between.contains(key); });
+    const Counts buried = faces_in_groups(result, [&](const FaceKey& key) { return between.contains(key); });
     if (buried.empty()) return;
-    const Counts all = faces_in_groups(result, [](const Key&) { return true; });
+    const Counts all = faces_in_groups(result, [](const FaceKey&) { return true; });
     for (const auto& [group, faces] : buried)
         report.warnings.push_back(std::to_string(faces) + " of the " + std::to_string(all.at(group)) + " faces of '" +
                                   result.groups[group].name +
