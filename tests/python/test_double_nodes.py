@@ -66,6 +66,22 @@ def test_sides_that_find_no_room_together_are_parted_with_a_warning():
     assert any("no longer match node for node" in w for w in result.report.warnings)
 
 
+def test_a_group_whose_nodes_a_hole_takes_becomes_empty():
+    """Of the two nodes at each place one has no element while they are single."""
+    mesh = both()
+    tool = fs.Cylinder((3, 2.5, 0), (0, 0, 1), 1.6)
+    gone = {g: mesh.groups[g, "node"].ids for g in ("CON_A", "CON_B")}
+    for name, ids in gone.items():
+        x = mesh.points[np.isin(mesh.node_ids, ids)]
+        mesh.add_group("IN_" + name, "node", ids[np.hypot(x[:, 0] - 3, x[:, 1] - 2.5) < 1])
+    result = fs.drill(mesh, tool)
+    records = {g.name: g for g in result.report.groups}
+    for name in ("IN_CON_A", "IN_CON_B"):
+        assert len(mesh.groups[name, "node"].ids) > 0 == len(result.mesh.groups[name, "node"].ids)
+        assert (records[name].status, records[name].count_after) == ("became empty", 0)
+        assert any(f"'{name}' loses all" in w for w in result.report.warnings)
+
+
 def test_divisions_that_do_not_match_stay_as_they_are():
     low, high = both().points, both(seed=2).points
     mesh = both()

@@ -239,11 +239,15 @@ void warn_of_held_nodes(const Workpiece& f, const Mesh& before, Report& report) 
     report.warnings.push_back(message.str());
 }
 
+std::string emptied_text(const GroupRecord& r) {
+    return std::string(to_string(r.kind)) + " group '" + r.name + "' loses all its " + std::to_string(r.count_before) +
+           " member(s); it stays, empty";
+}
+
 void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaningless, Report& report) {
     for_each_record(before, report, [&](std::size_t g, const GroupRecord& r) {
         if (r.status == "became empty" && (meaningless.empty() || !meaningless[g]))
-            report.warnings.push_back(std::string(to_string(r.kind)) + " group '" + r.name + "' loses all its " +
-                                      std::to_string(r.count_before) + " member(s); it stays, empty");
+            report.warnings.push_back(emptied_text(r));
     });
 }
 

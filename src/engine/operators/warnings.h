@@ -24,6 +24,9 @@ void warn_of_parted_lips(Workpiece& f);
 void warn_of_changed_size(const Mesh& whole, const Mesh& before, const FamilyTotals& totals, const FamilyTotals& after,
                           const Workpiece& f, const std::vector<bool>& unjudged, Report& report);
 
+/// That a group lost all its members.
+std::string emptied_text(const GroupRecord& record);
+
 /// Groups that lost all their members, as the records say; but for element groups that follow surfaces, the
 /// `meaningless` ones.
 void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaningless, Report& report);

@@ -12,6 +12,7 @@
 #include "mesh/companion.h"
 #include "mesh/rounding.h"
 #include "mesh/stopwatch.h"
+#include "operators/warnings.h"
 
 namespace femscalpel {
 namespace {
@@ -233,6 +234,11 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index d
         if (!g) continue;
         r.count_before = before[*g];
         r.count_after = after[*g];
+        if (r.count_after == 0 && r.count_before > 0 && r.status != "became empty") {
+            r.status = "became empty";
+            report.warnings.push_back(emptied_text(r));
+        }
+        if (r.status == "untouched" && r.count_after != r.count_before) r.status = "kept";
     }
 }
 
