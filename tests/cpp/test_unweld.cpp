@@ -29,13 +29,19 @@ std::vector<Index> numbers(const Mesh& mesh, Index cell) {
     return out;
 }
 
+/// The pieces of the welded face, by elements above.
+void set_welded(Mesh& mesh, const Welded& welded, std::vector<Index> elements) {
+    std::vector<Index> faces(elements.size(), 1);
+    set_group_members(mesh, welded.faces, {GroupKind::facet, std::move(elements), std::move(faces)});
+}
+
 TEST(Unweld, NothingChangedIsTheInput) {
     const Mesh before = input();
     const auto welded = weld(before, 0);
     ASSERT_TRUE(welded);
     Mesh mesh = welded->mesh;
     Changes changes;
-    const Unwelded out = unweld(before, *welded, mesh, changes, 100);
+    const Unwelded out = unweld(before, *welded, mesh, changes, {100, 50});
     EXPECT_EQ(out.moved + out.born + out.doubled, 0);
     EXPECT_EQ(mesh.points, before.points);
     EXPECT_EQ(mesh.node_ids, before.node_ids);
@@ -53,7 +59,7 @@ TEST(Unweld, ASpringBetweenTheTwoStaysSoWhicheverComesFirst) {
     Mesh mesh = welded->mesh;
     mesh.points[1] = {1.5, 0, 0};
     Changes changes;
-    unweld(before, *welded, mesh, changes, 100);
+    unweld(before, *welded, mesh, changes, {100, 50});
     EXPECT_EQ(mesh.block(CellType::line).connectivity, before.block(CellType::line).connectivity);
     EXPECT_EQ(mesh.points[5], Vec3(1.5, 0, 0));
     EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));
@@ -70,10 +76,11 @@ TEST(Unweld, WhatMovesAndIsBornDoesSoOnBothSides) {
     mesh.block(CellType::tetra).connectivity = {0, born, 2, 3, 0, 2, born, 7};
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{born, 1, 2, 3}, 3);
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{born, 2, 1, 7}, 4);
+    set_welded(mesh, *welded, {1, 3});
     Changes changes;
     changes.born.push_back({100, {1, 2}, {{1, 0.5}, {2, 0.5}}});
     changes.parts = {{3, 1}, {4, 2}};
-    const Unwelded out = unweld(before, *welded, mesh, changes, 101);
+    const Unwelded out = unweld(before, *welded, mesh, changes, {101, 50});
     EXPECT_EQ(out.moved, 1);
     EXPECT_EQ(out.born, 1);
     EXPECT_EQ(out.doubled, 0);
@@ -101,7 +108,7 @@ TEST(Unweld, ASideThatIsGoneTakesItsNodesAlong) {
     block.ids.resize(1);
     block.families.resize(1);
     Changes changes;
-    unweld(before, *welded, mesh, changes, 100);
+    unweld(before, *welded, mesh, changes, {100, 50});
     EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(mesh.node_ids, ElementsAre(1, 2, 3, 4, 14));  // of the node 14 the operation had to think
 }
@@ -126,8 +133,9 @@ TEST(Unweld, ACrackThroughBothDoublesBoth) {
     const Index p = add_copies(mesh, changes);
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, p + 1, p + 2, 3}, 3);
     mesh.add_cell(CellType::tetra, std::array<Index, 4>{p, p + 2, p + 1, 7}, 4);
+    set_welded(mesh, *welded, {1, 3});
     changes.parts = {{3, 1}, {4, 2}};
-    const Unwelded out = unweld(before, *welded, mesh, changes, 104);
+    const Unwelded out = unweld(before, *welded, mesh, changes, {104, 50});
     EXPECT_EQ(out.doubled, 3);
     EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));
@@ -145,7 +153,7 @@ TEST(Unweld, ACrackAlongTheWeldOpensNothing) {
     Changes changes;
     const Index p = add_copies(mesh, changes);
     mesh.block(CellType::tetra).connectivity = {p, p + 1, p + 2, 3, 0, 2, 1, 7};
-    unweld(before, *welded, mesh, changes, 104);
+    unweld(before, *welded, mesh, changes, {104, 50});
     EXPECT_THAT(numbers(mesh, 0), ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(numbers(mesh, 1), ElementsAre(11, 13, 12, 14));
     EXPECT_TRUE(changes.copies.empty());

@@ -41,6 +41,16 @@ TEST(Weld, FacesThatLieOnEachOther) {
     EXPECT_TRUE(welded->mesh.groups[welded->faces].hidden);
 }
 
+TEST(Weld, NodesThatAreNotDoubleAreTheRim) {
+    Mesh mesh = two_tetrahedra();
+    mesh.block(CellType::tetra).connectivity[4] = 0;
+    const auto welded = weld(mesh, 0);
+    ASSERT_TRUE(welded);
+    EXPECT_EQ(welded->pairs(), 2);
+    EXPECT_THAT(group_members(welded->mesh, welded->rim).ids, ElementsAre(10));
+    EXPECT_TRUE(welded->mesh.groups[welded->rim].hidden);
+}
+
 TEST(Weld, WithinRoundingOnly) {
     EXPECT_FALSE(weld(two_tetrahedra(1e-6), 0));
     EXPECT_TRUE(weld(two_tetrahedra(1e-6), 1e-6));

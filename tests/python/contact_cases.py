@@ -3,25 +3,32 @@
 
     PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 tests/python/contact_cases.py --cases 300
 
-Each kind: planes and spheres that crack, cylinders that drill, slots, refinement; on tetrahedra with a flat or a
-curved contact in first or second order, partly glued, hexahedra, the lips of an earlier crack, two shells on each
-other, plates side by side. A result is checked: nodes and faces on the contact are on both sides at the same places,
-volumes are positive, each body has its measure where nothing is removed, elements of one body name nothing of the
-other, the groups of both sides count their members. Printed: how many were refused, the smallest quality and how many
-are below 0.1 and below the mesh before, seconds, and what failed.
+Each kind: planes and spheres that crack, cylinders that drill, slots, refinement, a crack through a crack or a slot; on
+tetrahedra with a flat or a curved contact in first or second order, turned in space, partly glued, three bodies,
+hexahedra, the lips of an earlier crack, two shells on each other, plates side by side. A result is checked: nodes and
+faces on the contact are on both sides at the same places, volumes are positive, each body has its measure where nothing
+is removed, the bodies are joined where they were and nowhere else and inside them nothing is open but the lips, the
+groups of both sides count their members. Printed: how many were refused, in how many
+pairs came apart with a warning, the smallest quality and how many are below
+0.1 and below the mesh before, seconds, and what failed.
 """
 
 import collections
+import itertools
 
 import numpy as np
 
 import femscalpel as fs
 from campaign import Tally, case_arguments
 from meshes import quadratic
-from mixed_meshes import FACES, grid, worst_of
+from mixed_meshes import EDGES, FACES, grid, worst_of
 
 TETRA_OF_CUBE = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
 HEIGHT = 4
+BODIES = ("LOW", "UP", "RIGHT")  # of which the last is there in some kinds only
+#: For the kind "turned": what a body along the axes becomes.
+TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+MADE = ("T_", "U_")  # how the groups that operations make begin
 
 
 def curved(points):
@@ -50,21 +57,28 @@ def bodies(kind, rng):
     points[inner & (points[:, 2] != HEIGHT)] += rng.uniform(-0.2, 0.2, (np.sum(inner & (points[:, 2] != HEIGHT)), 3))
     flat = inner & (points[:, 2] == HEIGHT)
     points[flat, :2] += rng.uniform(-0.2, 0.2, (flat.sum(), 2))
-    upper = points[cubes].mean(axis=1)[:, 2] > HEIGHT
+    middles = points[cubes].mean(axis=1)
     cells, name = cubes, "hexahedron"
     if kind != "hexahedra":
         cells, name = cubes[:, TETRA_OF_CUBE].reshape(-1, 4), "tetra"
-        upper = np.repeat(upper, 6)
+        middles = np.repeat(middles, 6, axis=0)
+    upper = middles[:, 2] > HEIGHT
     shared = np.nonzero(points[:, 0] < 3)[0] if kind == "glued" else []
     if kind.startswith("curved"):
         points = curved(points)
+    right = upper & (middles[:, 0] > 3) if kind == "three" else np.zeros(len(upper), bool)
     points, cells = apart(points, cells, upper, shared)
+    if kind == "three":
+        points, cells = apart(points, cells, right, [])
+    if kind == "turned":
+        points = points @ TURN
     mesh = fs.Mesh(points, {name: cells})
     if kind.endswith("second"):
         mesh = quadratic(mesh)
     ((name, _),) = mesh.cells.items()
-    for group, chosen in (("LOW", ~upper), ("UP", upper)):
-        mesh.add_group(group, "element", mesh.cell_ids[name][chosen])
+    for group, chosen in zip(BODIES, (~upper, upper & ~right, right)):
+        if chosen.any():
+            mesh.add_group(group, "element", mesh.cell_ids[name][chosen])
     return mesh
 
 
@@ -125,20 +139,25 @@ def make(kind, seed):
         ).mesh
         mesh = sided(merged)
     add_contact(mesh)
-    size = mesh.points.max(axis=0)
-    at = size * rng.uniform(0.2, 0.8, 3)
-    if kind not in ("layers", "plates"):
+    plane = kind in ("layers", "plates")
+    at = np.array((10, 8, 0) if plane else (6, 5, 0)) * rng.uniform(0.2, 0.8, 3)
+    if not plane:
         at[2] = HEIGHT + rng.uniform(-1.2, 1.2)
-    direction = rng.normal(size=3)
-    if kind in ("layers", "plates"):
-        direction[2] *= 0.2
-    what = rng.integers(5)
+    direction, other = rng.normal(size=(2, 3)) * (1, 1, 0.2 if plane else 1)
+    if kind == "turned":
+        at, direction, other = at @ TURN, direction @ TURN, other @ TURN
+    what = rng.integers(7)
+    if what >= 5:
+        first, second = fs.Plane(at, direction), fs.Plane(at + rng.uniform(-0.3, 0.3, 3), other)
+        if what == 5:
+            return mesh, lambda m: fs.crack(fs.crack(m, first, name="T").mesh, second, name="U"), False
+        return mesh, lambda m: fs.crack(fs.cut(m, first, width=0.3, name="T").mesh, second, name="U"), True
     if what == 0:
         return mesh, lambda m: fs.crack(m, fs.Plane(at, direction), name="T"), False
     if what == 1:
         return mesh, lambda m: fs.crack(m, fs.Sphere(at, rng.uniform(1.5, 2.5)), name="T"), False
     if what == 2:
-        axis = (0.1, 0.2, 1) if kind in ("layers", "plates") else direction
+        axis = (0.1, 0.2, 1) if plane else direction
         radius = rng.uniform(0.8, 1.6)
         return mesh, lambda m: fs.drill(m, fs.Cylinder(at, axis, radius), name="T"), True
     if what == 3:
@@ -177,14 +196,11 @@ def check(kind, mesh, result, removes):
     made = set(map(tuple, after.points[np.isin(after.node_ids, wall(after))]))
     if removes:  # of an element above and one below, one may have gone
         places = [side - made for side in places]
-    if places[0] != places[1]:
+    parted = any("no longer match" in w for w in result.report.warnings)
+    if places[0] != places[1] and not parted:
         found.append(f"pairs: {len(places[0] - places[1])} / {len(places[1] - places[0])} alone")
-    low, high = members(after, "LOW"), members(after, "UP")
-    alone = set(after.node_ids[np.intersect1d(low, high)])
-    was = set(mesh.node_ids[np.intersect1d(members(mesh, "LOW"), members(mesh, "UP"))])
-    if not was and alone:
-        found.append(f"{len(alone)} nodes join the bodies")
-    if kind not in ("layers", "plates", "lips", "glued"):
+    found += check_sides(mesh, after)
+    if kind not in ("layers", "plates", "lips", "glued") and not parted:
         middle = [{f for f in skin(after, g)} for g in ("LOW", "UP")]
         on = [{f for f in side if all(p in at_contact for p in f)} for side in middle]
         # A wall may have all its corners there, too, but is on one side alone.
@@ -192,8 +208,13 @@ def check(kind, mesh, result, removes):
         if odd:
             found.append(f"{len(odd)} faces on one side alone")
     groups = {(g.name, g.kind): g for g in result.report.groups}
-    bodies = np.array([(g.measure_before, g.measure_after) for g in (groups[n, "element"] for n in ("LOW", "UP"))])
-    if kind == "lips":  # the border beyond them is not plane
+    bodies = np.array(
+        [
+            (g.measure_before, g.measure_after)
+            for g in (groups[n, "element"] for n in BODIES if (n, "element") in groups)
+        ]
+    )
+    if kind in ("lips", "three"):  # the border beyond them, that of the third, is not plane
         bodies = bodies.sum(axis=0, keepdims=True)
     if not removes and not kind.startswith("curved") and np.ptp(bodies, axis=1).max() > 1e-9 * bodies.max():
         found.append(f"measures {bodies.tolist()}")
@@ -204,16 +225,85 @@ def check(kind, mesh, result, removes):
     return found
 
 
+def sides_of(mesh):
+    """Faces of solids, or edges of shells where there are none, by their corners: the elements that have them as
+    (body, number)."""
+    found, groups = collections.defaultdict(list), [g for g in BODIES if (g, "element") in mesh.groups]
+    solid = any(k.rstrip("0123456789") in FACES for k in mesh.cells)
+    for kind, cells in mesh.cells.items():
+        for side in (FACES if solid else {"triangle": EDGES["triangle"]}).get(kind.rstrip("0123456789"), ()):
+            body = [np.isin(mesh.cell_ids[kind], mesh.groups[g, "element"].ids) for g in groups]
+            for nodes, b, number in zip(np.sort(cells[:, side], axis=1), np.argmax(body, axis=0), mesh.cell_ids[kind]):
+                found[tuple(nodes)].append((int(b), number))
+    return found
+
+
+def common_sides(mesh, sides, joined):
+    """Faces (edges), as corners in space, that both bodies have, or that are there once for each, at one place."""
+    if joined:
+        return [mesh.points[list(f)] for f, owners in sides.items() if len({b for b, _ in owners}) > 1]
+    at = collections.defaultdict(dict)
+    for f, owners in sides.items():
+        if len(owners) == 1:
+            at[frozenset(map(tuple, mesh.points[list(f)]))][owners[0][0]] = f
+    return [mesh.points[list(f)] for there in at.values() if len(there) > 1 for f in [next(iter(there.values()))]]
+
+
+def is_in(points, sides):
+    """Whether points (n, 3) lie on one of these triangles or edges (m, 3 or 2, 3)."""
+    out = np.zeros(len(points), bool)
+    for corners in sides:
+        edges = (corners[1:] - corners[0]).T
+        shares = np.linalg.lstsq(edges, (points - corners[0]).T, rcond=None)[0]
+        off = np.abs((points - corners[0]).T - edges @ shares).max(axis=0)
+        out |= (off < 1e-6) & (shares.min(axis=0) > -1e-6) & (shares.sum(axis=0) < 1 + 1e-6)
+    return out
+
+
+def check_sides(mesh, after):
+    """Bodies are joined where they were and nowhere else, and nothing is open inside them but lips."""
+    found, before, sides = [], sides_of(mesh), sides_of(after)
+    glued, touching = common_sides(mesh, before, True), common_sides(mesh, before, False)
+    joined = [f.mean(axis=0) for f in common_sides(after, sides, True)]
+    if joined and (odd := np.count_nonzero(is_in(np.array(joined), touching)) if glued else len(joined)):
+        found.append(f"{odd} faces join the bodies")
+    of_bodies = [members(after, g) for g in BODIES if (g, "element") in after.groups]
+    common = np.unique(np.concatenate([np.intersect1d(a, b) for a, b in itertools.combinations(of_bodies, 2)]))
+    x = after.points[common]
+    if len(x) and (odd := np.count_nonzero(is_in(x, touching) & ~is_in(x, glued)) if glued else len(x)):
+        found.append(f"{odd} nodes join the bodies")
+    lips = set()
+    for g in after.groups.all():
+        if g.kind == "element" and g.name.startswith(MADE):
+            for kind, cells in after.cells.items():
+                if count := {"triangle": 3, "line": 2}.get(kind.rstrip("0123456789")):
+                    chosen = cells[np.isin(after.cell_ids[kind], g.ids), :count]
+                    lips |= {tuple(sorted(c)) for c in chosen.tolist()}
+    at = collections.defaultdict(list)
+    for f, owners in sides.items():
+        if len(owners) == 1 and f not in lips:
+            at[frozenset(map(tuple, after.points[list(f)]))].append(owners[0][0])
+    between = [np.mean(list(f), axis=0) for f, bodies in at.items() if len(set(bodies)) > 1]
+    torn = sum(len(set(bodies)) < len(bodies) for bodies in at.values())
+    if between and glued:
+        torn += np.count_nonzero(~is_in(np.array(between), touching))
+    if torn:
+        found.append(f"{torn} faces came apart")
+    return found
+
+
 def wall(mesh):
     """Numbers of the nodes on what a tool made."""
     found = [mesh.node_ids[:0]]
     for g in mesh.groups.all():
-        if g.name.startswith("T_"):
+        if g.name.startswith(MADE):
             found.append(g.ids if g.kind == "node" else mesh.node_ids[members(mesh, g.name)])
     return np.concatenate(found)
 
 
 def is_on_contact(kind, face):
+    if kind == "turned":
+        return all(abs((TURN @ p)[2] - HEIGHT) < 1e-9 for p in face)
     middle = np.mean(list(face), axis=0)
     if kind.startswith("curved"):
         return abs(middle[2] - HEIGHT - 0.5 * np.sin(middle[0] / 2.5) * np.cos(middle[1] / 3)) < 0.05
@@ -221,12 +311,15 @@ def is_on_contact(kind, face):
 
 
 def run(kind, cases, first, list_refused):
-    tally, least, poor = Tally(kind, list_refused), 1.0, 0
+    tally, least, poor, parted = Tally(kind, list_refused), 1.0, 0, 0
     for seed in range(first, first + cases):
         mesh, operate, removes = make(kind, seed)
         result = tally.run(seed, lambda: operate(mesh))
         if result is None:
             continue
+        if any("no longer match" in w for w in result.report.warnings):
+            parted += 1
+            tally.tell(seed, "pairs came apart")
         if wrong := check(kind, mesh, result, removes):
             tally.failed[seed] = wrong
         quality = worst_of(result.mesh)
@@ -235,13 +328,26 @@ def run(kind, cases, first, list_refused):
             poor += 1
             tally.tell(seed, f"quality {quality:.3f}")
     print(
-        f"{kind:<14} {cases} cases, refused {dict(tally.refused)}, least quality {least:.3f}, poor {poor}, "
+        f"{kind:<14} {cases} cases, refused {dict(tally.refused)}, pairs apart {parted}, least quality {least:.3f}, "
+        f"poor {poor}, "
         f"{tally.mean_seconds:.3f} s each"
     )
     return tally.is_sound()
 
 
-KINDS = ("flat", "flat second", "curved", "curved second", "glued", "lips", "hexahedra", "layers", "plates")
+KINDS = (
+    "flat",
+    "flat second",
+    "curved",
+    "curved second",
+    "turned",
+    "glued",
+    "three",
+    "lips",
+    "hexahedra",
+    "layers",
+    "plates",
+)
 
 
 def main():

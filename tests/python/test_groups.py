@@ -7,6 +7,7 @@ import pytest
 
 import femscalpel as fs
 from meshes import box_with_groups, grid_box
+from mixed_meshes import grid
 
 
 def rows(array):
@@ -293,3 +294,21 @@ def test_a_volume_that_faces_or_edges_no_longer_enclose_is_warned_of(with_edges)
     after = fs.virtual_boundary(result.mesh, "SHELL")
     warned = any("group 'SHELL' covers" in w and "covers less than before" in w for w in result.report.warnings)
     assert len(after.enclosed) == 0 and warned
+
+
+def test_faces_on_edges_of_shells_stay_where_elements_are_merged_away():
+    """Cracks that leave slivers at a plate's border: what has the edge may be another element then."""
+    points, squares = grid((10, 8), 0.2)
+    cells = np.concatenate([squares[:, [0, 1, 2]], squares[:, [0, 2, 3]]])
+    rng = np.random.default_rng(5)
+    for _ in range(60):
+        mesh = fs.Mesh(points, {"triangle": cells})
+        lower = points[cells][:, :, 1] == 0  # by corner: edge k runs from corner k to the next
+        rows, k = np.nonzero(lower & np.roll(lower, -1, axis=1))
+        mesh.add_group("EDGE", "facet", np.stack([mesh.cell_ids["triangle"][rows], k + 3], axis=1))
+        for name in "AB":
+            at, turn = (rng.uniform(2, 8), 0.2, 0), rng.uniform(-1.5, 1.5)
+            result = fs.crack(mesh, fs.Plane(at, (np.cos(turn), np.sin(turn), 0)), name=name)
+            (record,) = [g for g in result.report.groups if g.name == "EDGE"]
+            assert record.measure_after == pytest.approx(10, abs=1e-9)
+            mesh = result.mesh

@@ -2,6 +2,7 @@
 #include "cutting/rebuild.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 
 #include "cancel.h"
@@ -329,6 +330,21 @@ private:
             }
     }
 
+    /// The facet on an edge of its own triangle or, where merging took that away, of another in the same groups.
+    std::optional<Facet> facet_on(const std::array<int, 2>& edge, const Facet& parent) const {
+        std::optional<Facet> other;
+        for (const int t : band_.triangles.around(edge[0]))
+            for (int k = 0; k < 3; ++k) {
+                if (band_.triangles[t][k] != edge[0] || band_.triangles[t][(k + 1) % 3] != edge[1]) continue;
+                const CellRef& cell = band_.triangle_cells[band_.triangles.origin(t)];
+                const Facet found{cell.type, static_cast<std::int8_t>(k + 3), parent.family, triangle_cell_[t]};
+                if (cell == CellRef{parent.type, parent.cell}) return found;
+                if (input_.block(cell.type).families[cell.cell] == input_.block(parent.type).families[parent.cell])
+                    other = found;
+            }
+        return other;
+    }
+
     void write_facets() {
         if (band_.facet_faces.size() == 0 && band_.facet_edges.size() == 0 && band_.facet_sides.empty()) return;
         Mesh& mesh = out_.mesh;
@@ -355,14 +371,7 @@ private:
             const Facet& parent = mesh.facets[band_.facet_edges.tag(s)];
             replaced[band_.facet_edges.tag(s)] = 1;
             if (!band_.facet_edges.alive(s)) continue;
-            const auto& v = band_.facet_edges[s];
-            for (const int t : band_.triangles.around(v[0])) {
-                const CellRef& cell = band_.triangle_cells[band_.triangles.origin(t)];
-                if (cell.type != parent.type || cell.cell != parent.cell) continue;
-                for (int k = 0; k < 3; ++k)
-                    if (band_.triangles[t][k] == v[0] && band_.triangles[t][(k + 1) % 3] == v[1])
-                        fresh.push_back({cell.type, static_cast<std::int8_t>(k + 3), parent.family, triangle_cell_[t]});
-            }
+            if (const auto facet = facet_on(band_.facet_edges[s], parent)) fresh.push_back(*facet);
         }
         for (const auto& [slot, tag] : band_.facet_sides) {
             const Facet& parent = mesh.facets[tag];

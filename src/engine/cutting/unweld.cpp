@@ -4,279 +4,70 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 
-#include "cancel.h"
-#include "mesh/union_find.h"
+#include "cutting/weld_sides.h"
 
 namespace femscalpel {
 namespace {
 
-/// Which of each set of welded nodes an element has, by ancestor of the node looked at; -1: none, or not welded.
-using Label = std::vector<Index>;
-
-bool is_known(const Label& label) {
-    return std::ranges::any_of(label, [](Index n) { return n >= 0; });
-}
-
-bool go_together(const Label& a, const Label& b) {
-    bool common = false;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        if (a[k] < 0 || b[k] < 0) continue;
-        if (a[k] != b[k]) return false;
-        common = true;
-    }
-    return common;
-}
-
-/// The elements at a node that are on one side.
-struct Part {
-    Label label;
-    std::vector<CellRef> cells;
-};
-
 class Unwelder {
 public:
-    Unwelder(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Index number)
-        : input_(input), welded_(welded), mesh_(mesh), changes_(changes), next_(number), numbers_(input) {
-        for (const auto& set : welded.sets)
-            for (const Index n : set) set_of_[n] = &set;
-        find_bodies();
-        for (const Changes::Part& p : changes.parts) parents_.emplace(p.element, p.parent);
-        for (const Changes::Copy& c : changes.copies) sources_.emplace(c.node, c.source);
+    Unwelder(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Numbering next)
+        : input_(input), mesh_(mesh), changes_(changes), next_(next), sides_(input, welded, mesh, changes) {
+        place_ = sides_.places();
         for (std::size_t k = 0; k < changes.born.size(); ++k) births_.emplace(changes.born[k].node, k);
     }
 
     Unwelded run() {
-        find_nodes();
-        find_cells();
-        find_faces();
-        for (const Index w : nodes_) take_apart(w);
+        out_.joined = sides_.joined();
+        const std::vector<WeldSides::Guest> guests = sides_.guests();
+        for (std::size_t k = 0; k < sides_.nodes().size(); ++k) take_apart(sides_.nodes()[k], sides_.sides()[k]);
+        for (const WeldSides::Guest& g : guests) place(g);
         finish_nodes();
         return std::move(out_);
     }
 
 private:
-    /// Welded nodes that elements of the input join are on one side.
-    void find_bodies() {
-        body_.assign(input_.points.size(), -1);
-        UnionFind bodies(input_.points.size());
-        for (const CellBlock& b : input_.blocks()) {
-            if (traits(b.type).dimension < 2) continue;
-            SparseCheck check;
-            for (Index c = 0; c < b.size(); ++c) {
-                check();
-                Index first = -1;
-                for (const Index n : b.nodes(c)) {
-                    if (!set_of_.contains(n)) continue;
-                    if (first < 0) first = n;
-                    bodies.unite(static_cast<int>(first), static_cast<int>(n));
-                }
-            }
-        }
-        for (const auto& [n, set] : set_of_) body_[n] = bodies.find(static_cast<int>(n));
-        for (const auto& set : welded_.sets)  // such as lips around the crack's front: no two sides
-            for (const Index n : set)
-                for (const Index m : set)
-                    if (n != m && body_[n] == body_[m]) mixed_.insert(body_[n]);
-    }
-
-    /// The body of an element by any welded node it had; -1 if it had none, or that tells no side.
-    Index body_of(const CellRef& cell) const {
-        const auto old = root(cell);
-        if (!old) return -1;
-        for (const Index n : input_.block(old->type).nodes(old->cell))
-            if (set_of_.contains(n)) return mixed_.contains(body_[n]) ? -1 : body_[n];
-        return -1;
-    }
-
-    /// Nodes of the input (indices) that a node of the result comes from.
-    std::vector<Index> ancestors(Index number) const {
-        if (const auto source = sources_.find(number); source != sources_.end()) number = source->second;
-        if (const auto birth = births_.find(number); birth != births_.end()) {
-            std::vector<Index> out;
-            for (const Index a : changes_.born[birth->second].ancestors)
-                if (const auto n = numbers_.node(a)) out.push_back(*n);
-            return out;
-        }
-        if (const auto n = numbers_.node(number)) return {*n};
-        return {};
-    }
-
-    /// Single nodes of the result, those that kept their number first, and where partners are that have no element.
-    void find_nodes() {
-        is_single_.assign(mesh_.points.size(), 0);
-        std::vector<Index> others;
-        SparseCheck check;
-        for (Index w = 0; w < mesh_.node_count(); ++w) {
-            check();
-            const Index number = mesh_.node_ids[w];
-            const bool is_new = sources_.contains(number) || births_.contains(number);
-            if (!is_new) {
-                const auto n = numbers_.node(number);
-                if (!n || !set_of_.contains(*n)) continue;
-                place_[*n] = w;
-                if (set_of_.at(*n)->front() != *n) continue;
-                nodes_.push_back(w);
-            } else {
-                if (std::ranges::none_of(ancestors(number), [&](Index n) { return set_of_.contains(n); })) continue;
-                others.push_back(w);
-            }
-            is_single_[w] = 1;
-        }
-        std::ranges::stable_partition(others, [&](Index w) { return births_.contains(mesh_.node_ids[w]); });
-        nodes_.insert(nodes_.end(), others.begin(), others.end());
-    }
-
-    void find_cells() {
-        // Solids first, as what lies on their faces goes with them.
-        for (int dimension = 3; dimension >= 0; --dimension)
-            for (const CellBlock& b : mesh_.blocks()) {
-                if (traits(b.type).dimension != dimension) continue;
-                SparseCheck check;
-                for (Index c = 0; c < b.size(); ++c) {
-                    check();
-                    const auto n = b.nodes(c);
-                    // A spring or gap of no length kept its two nodes.
-                    for (const Index v : n)
-                        if (is_single_[v] && std::ranges::find(cells_[v], CellRef{b.type, c}) == cells_[v].end())
-                            cells_[v].push_back({b.type, c});
-                }
-            }
-    }
-
-    /// Corners of the faces that were welded.
-    void find_faces() {
-        for (const Facet& f : mesh_.facets) {
-            if (!mesh_.families.contains(f.family, welded_.faces)) continue;
-            const CellTraits& t = traits(f.type);
-            const auto n = mesh_.block(f.type).nodes(f.cell);
-            std::vector<Index> corners;
-            if (t.dimension == 3)
-                for (const std::int8_t k : t.faces[f.face - 1]) {
-                    if (k >= 0) corners.push_back(n[k]);
-                }
-            else if (f.face >= 3)
-                for (const std::int8_t k : t.edges[f.face - 3]) corners.push_back(n[k]);
-            std::ranges::sort(corners);
-            faces_.insert(std::move(corners));
-        }
-    }
-
-    std::optional<CellRef> root(const CellRef& cell) const {
-        Index number = mesh_.block(cell.type).ids[cell.cell];
-        if (const auto parent = parents_.find(number); parent != parents_.end()) number = parent->second;
-        return numbers_.cell(number);
-    }
-
-    Label label_of(const CellRef& cell, const std::vector<Index>& from) const {
-        Label out(from.size(), -1);
-        const auto old = root(cell);
-        if (!old) return out;
-        const auto n = input_.block(old->type).nodes(old->cell);
-        for (std::size_t k = 0; k < from.size(); ++k) {
-            const auto set = set_of_.find(from[k]);
-            if (set == set_of_.end()) continue;
-            // A spring or gap between two of them kept both, of which the first is the single one.
-            for (const Index v : *set->second)
-                if (std::ranges::find(n, v) != n.end()) {
-                    out[k] = v;
-                    break;
-                }
-        }
-        return out;
-    }
-
-    std::vector<Index> common_corners(const CellRef& a, const CellRef& b) const {
-        std::vector<Index> out;
-        const auto m = corners(b);
-        for (const Index v : corners(a))
-            if (std::ranges::find(m, v) != m.end()) out.push_back(v);
-        std::ranges::sort(out);
-        return out;
-    }
-
-    std::span<const Index> corners(const CellRef& c) const {
-        return mesh_.block(c.type).nodes(c.cell).first(static_cast<std::size_t>(traits(c.type).corners));
-    }
-
-    /// Puts an element that had none of these nodes with those of its body.
-    bool put_by_body(const CellRef& cell, const std::vector<Index>& from, std::vector<Part>& parts) const {
-        const Index body = body_of(cell);
-        if (body < 0) return false;
-        Label label(from.size(), -1);
-        for (std::size_t k = 0; k < from.size(); ++k)
-            if (const auto set = set_of_.find(from[k]); set != set_of_.end())
-                for (const Index n : *set->second)
-                    if (body_[n] == body) label[k] = n;
-        if (!is_known(label)) return false;
-        const auto part = std::ranges::find_if(parts, [&](const Part& p) { return go_together(p.label, label); });
-        if (part == parts.end())
-            parts.push_back({std::move(label), {cell}});
-        else
-            part->cells.push_back(cell);
-        return true;
-    }
-
-    /// What an element of which nothing was at the weld goes with: the one with which it has most corners in common,
-    /// not across a welded face.
-    Part* beside(const CellRef& cell, std::vector<Part>& parts) const {
-        Part* best = nullptr;
-        std::size_t most = 1;
-        for (Part& p : parts)
-            for (const CellRef& other : p.cells) {
-                const std::vector<Index> common = common_corners(cell, other);
-                if (common.size() <= most || faces_.contains(common)) continue;
-                most = common.size();
-                best = &p;
-            }
-        return best;
-    }
-
-    void take_apart(Index w) {
-        const Index number = mesh_.node_ids[w];
-        const std::vector<Index> from = ancestors(number);
-        std::vector<Part> parts;
-        std::vector<CellRef> rest;
-        for (const CellRef& cell : cells_[w]) {
-            Label label = label_of(cell, from);
-            if (!is_known(label)) {
-                rest.push_back(cell);
-                continue;
-            }
-            const auto part = std::ranges::find_if(parts, [&](const Part& p) { return go_together(p.label, label); });
-            if (part == parts.end()) {
-                parts.push_back({std::move(label), {cell}});
-            } else {
-                for (std::size_t k = 0; k < label.size(); ++k) part->label[k] = std::max(part->label[k], label[k]);
-                part->cells.push_back(cell);
-            }
-        }
-        std::erase_if(rest, [&](const CellRef& cell) { return put_by_body(cell, from, parts); });
-        // Some may be known only by others of them.
-        while (!rest.empty()) {
-            const std::size_t before = rest.size();
-            std::erase_if(rest, [&](const CellRef& cell) {
-                Part* part = beside(cell, parts);
-                if (part) part->cells.push_back(cell);
-                return part != nullptr;
-            });
-            if (rest.size() < before) continue;
-            if (!parts.empty()) parts.front().cells.insert(parts.front().cells.end(), rest.begin(), rest.end());
-            break;
-        }
-        // The side of the first nodes keeps a node that is new.
-        std::ranges::stable_sort(parts, {}, [&](const Part& p) { return is_first_side(p.label) ? 0 : 1; });
+    void take_apart(Index w, const std::vector<WeldSide>& sides) {
+        const std::vector<Index> from = sides_.ancestors(mesh_.node_ids[w]);
         const FamilyIndex family = mesh_.node_families[w];
-        for (std::size_t k = 0; k < parts.size(); ++k) give(w, k == 0, family, from, parts[k]);
+        // The side of the first nodes keeps a node that is new.
+        for (std::size_t k = 0; k < sides.size(); ++k) give(w, k == 0, family, from, sides[k]);
     }
 
-    bool is_first_side(const Label& label) const {
-        return std::ranges::all_of(label, [&](Index n) { return n < 0 || set_of_.at(n)->front() == n; });
+    /// An element on others has the nodes of those on its side. What the operation made on shells, a lip, all shells
+    /// on each other get for themselves.
+    void place(const WeldSides::Guest& guest) {
+        const auto [type, cell] = guest.cell;
+        const auto count = static_cast<std::size_t>(traits(type).nodes);
+        const auto own = mesh_.block(type).nodes(cell);
+        const std::vector<Index> before(own.begin(), own.end());
+        std::vector<std::vector<Index>> images;  // the best first
+        int most = 0;
+        for (const auto& [host, at] : guest.hosts) {
+            const auto n = mesh_.block(host.type).nodes(host.cell);
+            std::vector<Index> image;
+            int votes = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                image.push_back(n[at[k]]);
+                if (const auto label = labels_.find(image[k]); label != labels_.end())
+                    votes += sides_.votes(guest.cell, mesh_.node_ids[before[k]], label->second);
+            }
+            if (std::ranges::find(images, image) != images.end()) continue;
+            const bool best = images.empty() || votes > most;
+            images.insert(best ? images.begin() : images.end(), std::move(image));
+            if (best) most = votes;
+        }
+        std::ranges::copy(images.front(), mesh_.block(type).connectivity.begin() + cell * static_cast<Index>(count));
+        if (sides_.is_old(guest.cell) || traits(guest.hosts.front().first.type).dimension != 2) return;
+        for (std::size_t k = 1; k < images.size(); ++k) {
+            const Index made = mesh_.add_cell(type, images[k], next_.cell++, mesh_.block(type).families[cell]);
+            out_.segments.push_back({type, made});
+        }
     }
 
     /// The groups of `family` that those of this side are in; groups of the operation stay.
-    FamilyIndex of_side(FamilyIndex family, const Label& label) {
+    FamilyIndex of_side(FamilyIndex family, const WeldLabel& label) {
         std::vector<GroupIndex> out;
         for (const GroupIndex g : mesh_.families.groups(family)) {
             const bool old = g < static_cast<GroupIndex>(input_.groups.size());
@@ -289,27 +80,26 @@ private:
     }
 
     /// Gives the elements of a side of node w their own node.
-    void give(Index w, bool first, FamilyIndex family, const std::vector<Index>& from, const Part& part) {
+    void give(Index w, bool first, FamilyIndex family, const std::vector<Index>& from, const WeldSide& side) {
         const Index number = mesh_.node_ids[w];
-        const bool born =
-            births_.contains(number) || (sources_.contains(number) && births_.contains(sources_.at(number)));
         Index node = w;
-        if (!born) {
-            const Index original = part.label.front();
+        if (!sides_.is_born(number)) {
+            const Index original = side.label.front();
             if (claimed_.insert(original).second)
                 node = node_of(original, w);
-            else if (!first || number == input_.node_ids[set_of_.at(original)->front()])
+            else if (!first || number == input_.node_ids[sides_.set_of(original)->front()])
                 node = copy(w, input_.node_ids[original]);
             else
                 descend_from(number, input_.node_ids[original]);
         } else {
-            node = give_born(w, first, from, part.label);
+            node = give_born(w, first, from, side.label);
         }
-        mesh_.node_families[node] = of_side(family, part.label);
+        mesh_.node_families[node] = of_side(family, side.label);
         used_.insert(node);
+        labels_[node] = side.label;
         if (node == w) return;
         out_.partners[number].push_back(mesh_.node_ids[node]);
-        for (const CellRef& c : part.cells) {
+        for (const CellRef& c : side.cells) {
             CellBlock& b = mesh_.block(c.type);
             const auto count = static_cast<std::size_t>(traits(c.type).nodes);
             for (Index& v : std::span(b.connectivity).subspan(static_cast<std::size_t>(c.cell) * count, count))
@@ -318,9 +108,9 @@ private:
     }
 
     /// The same where w was born, or is a copy of a node born: the first of each side is born, others are its copies.
-    Index give_born(Index w, bool first, const std::vector<Index>& from, const Label& label) {
+    Index give_born(Index w, bool first, const std::vector<Index>& from, const WeldLabel& label) {
         const Index number = mesh_.node_ids[w];
-        const Index like = sources_.contains(number) ? sources_.at(number) : number;
+        const Index like = sides_.source(number);
         Index& owner = owners_[{like, *std::ranges::find_if(label, [](Index n) { return n >= 0; })}];
         if (first && number == like) {
             owner = number;
@@ -337,7 +127,7 @@ private:
             return w;
         }
         if (owner > 0) return copy(w, owner);
-        owner = next_++;
+        owner = next_.node++;
         add_birth(owner, like, from, label);
         const Vec3 at = mesh_.points[w];
         return mesh_.add_node(at, owner);
@@ -361,9 +151,9 @@ private:
 
     Index copy(Index w, Index source) {
         ++out_.doubled;
-        changes_.copies.push_back({next_, source});
+        changes_.copies.push_back({next_.node, source});
         const Vec3 at = mesh_.points[w];
-        return mesh_.add_node(at, next_++);
+        return mesh_.add_node(at, next_.node++);
     }
 
     /// A copy is that of another side's node.
@@ -373,12 +163,11 @@ private:
     }
 
     /// A node is born as the node `like` is, but on the side `label`.
-    void add_birth(Index number, Index like, const std::vector<Index>& from, const Label& label) {
+    void add_birth(Index number, Index like, const std::vector<Index>& from, const WeldLabel& label) {
         ++out_.born;
         const Changes::Born model = changes_.born[births_.at(like)];
         const auto on_side = [&](Index ancestor) {
-            const auto n = numbers_.node(ancestor);
-            const auto k = n ? std::ranges::find(from, *n) : from.end();
+            const auto k = std::ranges::find_if(from, [&](Index n) { return input_.node_ids[n] == ancestor; });
             if (k == from.end()) return ancestor;
             const Index there = label[static_cast<std::size_t>(k - from.begin())];
             return there < 0 ? ancestor : input_.node_ids[there];
@@ -399,7 +188,7 @@ private:
             gone[n] = 1;
             any = true;
         };
-        for (const Index w : nodes_) drop(w);
+        for (const Index w : sides_.nodes()) drop(w);
         for (const auto& [original, place] : place_) drop(place);
         for (const CellBlock& b : mesh_.blocks())
             for (const Index n : b.connectivity) gone[n] = 0;
@@ -410,6 +199,7 @@ private:
         for (std::size_t n = 0; n < gone.size(); ++n) {
             if (gone[n]) {
                 numbers.insert(mesh_.node_ids[n]);
+                out_.removed += sides_.is_of_input(mesh_.node_ids[n]);
                 continue;
             }
             mesh_.points[kept] = mesh_.points[n];
@@ -426,32 +216,24 @@ private:
     }
 
     const Mesh& input_;
-    const Welded& welded_;
     Mesh& mesh_;
     Changes& changes_;
-    Index next_;
-    NumberIndex numbers_;
+    Numbering next_;
+    WeldSides sides_;
     Unwelded out_;
-    std::unordered_map<Index, const std::vector<Index>*> set_of_;  // by node of the input
-    std::vector<Index> body_;  // of welded nodes of the input: the first of those on their side
-    std::set<Index> mixed_;    // bodies that are on both sides of a weld
-    std::unordered_map<Index, Index> parents_, sources_;  // numbers
-    std::unordered_map<Index, std::size_t> births_;       // in changes_.born, by number
-    std::vector<char> is_single_;
-    std::vector<Index> nodes_;                // of the result, that may have to be taken apart
-    std::unordered_map<Index, Index> place_;  // in the result, of welded nodes of the input
-    std::unordered_map<Index, std::vector<CellRef>> cells_;
-    std::set<std::vector<Index>> faces_;
-    std::set<Index> claimed_;  // nodes of the input that a side has
-    std::set<Index> used_;     // nodes of the result that elements have
+    std::unordered_map<Index, std::size_t> births_;  // in changes_.born, by number
+    std::unordered_map<Index, Index> place_;         // in the result, of welded nodes of the input
+    std::unordered_map<Index, WeldLabel> labels_;    // of the side that a node of the result was given to
+    std::set<Index> claimed_;                        // nodes of the input that a side has
+    std::set<Index> used_;                           // nodes of the result that elements have
     /// Number of the node that stands for a side of a node born, by that one's number and a node of the side.
     std::map<std::pair<Index, Index>, Index> owners_;
 };
 
 }  // namespace
 
-Unwelded unweld(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Index number) {
-    return Unwelder(input, welded, mesh, changes, number).run();
+Unwelded unweld(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Numbering next) {
+    return Unwelder(input, welded, mesh, changes, next).run();
 }
 
 }  // namespace femscalpel

@@ -17,13 +17,17 @@ struct Unwelded {
     Index moved = 0;    ///< partners that are the input's, and lie elsewhere now
     Index born = 0;     ///< new ones of nodes born meanwhile
     Index doubled = 0;  ///< new ones of nodes doubled meanwhile
+    Index removed = 0;  ///< nodes of the input that no element has any more, that of the operation were not
+    Index joined = 0;   ///< welded faces that could not be taken apart: the result is of no use then
+    std::vector<CellRef>
+        segments;  ///< copies of segments that the operation made on shells, for those on the other side
 };
 
 /// Makes double what weld() made single in what an operation made of Welded::mesh: each element goes to the side that
 /// the element of `input` it descends from was on. The input's nodes have their numbers and groups again, at the places
 /// they moved to; a node born meanwhile gets a partner, in the node groups that all its ancestors of that side are in,
-/// as does a node doubled by a crack, in its groups. Partners that no element has any more go. New nodes are numbered
-/// from `number` on and added to `changes`, which are those between `input` and `mesh` (in_one()).
-Unwelded unweld(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Index number);
+/// as does a node doubled by a crack, in its groups. Partners that no element has any more go. New nodes and elements
+/// are numbered from `next` on, nodes added to `changes`, which are those between `input` and `mesh` (in_one()).
+Unwelded unweld(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Numbering next);
 
 }  // namespace femscalpel

@@ -109,7 +109,7 @@ public:
             if (double_[n]) sets[sets_.find(static_cast<int>(n))].push_back(n);
         std::erase_if(sets, [](const auto& s) { return s.second.size() < 2; });
         if (sets.empty()) return {};
-        Welded out{mesh_, 0, {}};
+        Welded out{mesh_, 0, 0, {}};
         for (auto& [root, set] : sets) out.sets.push_back(std::move(set));
         join(out, welded);
         return out;
@@ -227,6 +227,21 @@ private:
             members.faces.push_back(f.face);
         }
         set_group_members(mesh, out.faces, members);
+        std::vector<char> is_double(mesh.points.size(), 0);
+        for (const std::vector<Index>& set : out.sets) is_double[set.front()] = 1;
+        out.rim = mesh.add_group(std::string(weld_rim_group), GroupKind::node, true);
+        for (const Facet& f : welded) {
+            const auto n = mesh.block(f.type).nodes(f.cell);
+            const CellTraits& t = traits(f.type);
+            const auto add = [&](std::int8_t k) {
+                if (k < 0 || is_double[n[k]]) return;
+                mesh.node_families[n[k]] = mesh.families.with(mesh.node_families[n[k]], out.rim);
+            };
+            if (t.dimension == 3)
+                std::ranges::for_each(t.faces[f.face - 1], add);
+            else
+                std::ranges::for_each(t.edges[f.face - 3], add);
+        }
     }
 
     const Mesh& mesh_;

@@ -11,13 +11,16 @@ namespace femscalpel {
 
 /// Name of the hidden facet group that holds welded faces: one side of each.
 inline constexpr std::string_view weld_group = "*WELD#";
+/// Name of the hidden node group of the nodes where a weld ends inside the material.
+inline constexpr std::string_view weld_rim_group = "*WELDRIM#";
 
 /// A mesh whose double nodes are single for the time of an operation.
 struct Welded {
     /// All nodes are there, at the same indices, but elements name only the first of each set. It is in the node groups
     /// of all of its set.
     Mesh mesh;
-    GroupIndex faces = 0;                  ///< the group `weld_group`, whose faces are to stay where they are
+    GroupIndex faces = 0;  ///< the group `weld_group`, whose faces are to stay where they are
+    GroupIndex rim = 0;    ///< the group `weld_rim_group`: a face with all nodes in it could not be taken apart
     std::vector<std::vector<Index>> sets;  ///< nodes (indices, ascending) that were made one
 
     /// The node that stands for each.

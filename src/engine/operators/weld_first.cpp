@@ -10,6 +10,7 @@
 #include "deck/carry_over.h"
 #include "deck/fit_cards.h"
 #include "mesh/companion.h"
+#include "mesh/quality.h"
 #include "mesh/rounding.h"
 #include "mesh/stopwatch.h"
 #include "operators/warnings.h"
@@ -213,12 +214,24 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index d
     report.nodes_split += unwelded.born;
     report.nodes_doubled = doubled;
     report.nodes_moved += unwelded.moved;
+    report.nodes_removed += unwelded.removed;
+    report.elements_added += static_cast<Index>(unwelded.segments.size());
     for (auto& [name, numbers] : report.node_sets) {
         const std::vector<Index> single = numbers;
         for (const Index n : single)
             if (const auto partners = unwelded.partners.find(n); partners != unwelded.partners.end())
                 numbers.insert(numbers.end(), partners->second.begin(), partners->second.end());
         std::ranges::sort(numbers);
+    }
+    for (const CellRef& line : unwelded.segments) {
+        const CellBlock& block = mesh.block(line.type);
+        const double length = cell_measure(mesh, line.type, line.cell);
+        for (const GroupIndex g : mesh.families.groups(block.families[line.cell]))
+            for (GroupRecord& r : report.groups)
+                if (r.kind == GroupKind::element && r.name == mesh.groups[g].name) {
+                    ++r.count_after;
+                    r.measure_after += length;
+                }
     }
     // Node groups were those of all that was single.
     std::vector<Index> before(mesh.groups.size(), 0), after(mesh.groups.size(), 0);
@@ -247,10 +260,14 @@ bool WeldFirst::finish(Result& result, bool strict, bool part) {
     Mesh& mesh = result.mesh;
     Changes changes = in_one(stages_);
     const bool opened = !changes.copies.empty();
-    const Index number = std::max(next_numbers(marked()).node, mesh.largest_node_id() + 1);
-    const Unwelded unwelded = unweld(marked(), *welded_, mesh, changes, number);
-    if (opened && changes.copies.empty()) return false;
-    remove_group(mesh, welded_->faces);
+    Numbering next = next_numbers(marked());
+    next.node = std::max(next.node, mesh.largest_node_id() + 1);
+    next.cell = std::max(next.cell, mesh.largest_cell_id() + 1);
+    const Unwelded unwelded = unweld(marked(), *welded_, mesh, changes, next);
+    if (unwelded.joined > 0 || (opened && changes.copies.empty())) return false;
+    std::vector<bool> gone(mesh.groups.size(), false);
+    gone[welded_->faces] = gone[welded_->rim] = true;
+    remove_groups(mesh, gone);
     rename_marks(mesh, other_prefix, mark_prefix);
     mesh.companion = input_.companion;
     if (mesh.companion && !part) carry(mesh, changes, strict, result.report);
