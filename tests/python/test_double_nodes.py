@@ -2,12 +2,15 @@
 """What touches with double nodes stays in pairs (paper, 2.2 and Figure 3.f): bodies in contact,
 shells on each other, the lips of an earlier crack."""
 
+import itertools
+
 import contact_cases
 import numpy as np
 import pytest
 from meshes import grid_box
 from mixed_meshes import FACES, worst_of
-from test_conversion import deck, largest_error, needs_ccx
+from calculix_runs import solve
+from test_conversion import GRADIENT, deck, largest_error, needs_ccx
 
 import femscalpel as fs
 
@@ -136,30 +139,74 @@ def test_linear_field_across_the_contact(tmp_path, kind, operate):
     assert largest_error(tmp_path, result.mesh, (6, 5, 8), (0, 1, 2)) < 1e-7
 
 
-def test_equations_between_pairs_follow(tmp_path):
-    """Each pair is glued by equations, so is each new one."""
-    mesh = both()
+def glued_deck(tmp_path, kind, seed):
+    """A mesh where each pair is glued by equations, and an operation on it."""
+    mesh, operate, removes = contact_cases.make(kind, seed)
     a, b = (mesh.groups[g, "node"].ids for g in ("CON_A", "CON_B"))
-    ((_, cells),) = mesh.cells.items()
+    ((name, cells),) = mesh.cells.items()
     lines = [f"2\n{m}, {k}, 1., {n}, {k}, -1." for n, m in zip(a, b) for k in (1, 2, 3)]
-    section = "\n".join(["*EQUATION", *lines, "*SOLID SECTION, ELSET=EALL, MATERIAL=M"])
-    mesh = deck(tmp_path, mesh.points, cells, "C3D4", section)
-    result = fs.refine(mesh, PLANE, 0.6)
-    fs.write(result.mesh, tmp_path / "out.inp")
-    text = (tmp_path / "out.inp").read_text().split("*EQUATION")[1:]
-    related = set()
-    for card in text:
-        rows = card.split("*")[0].replace("\n", ",").split(",")
-        numbers = [r.strip() for r in rows if r.strip()]
-        for k in range(0, len(numbers), 7):
-            related.add(frozenset((int(numbers[k + 1]), int(numbers[k + 4]))))
-    places = {}
-    for n, x in zip(result.mesh.node_ids, result.mesh.points):
-        places.setdefault(tuple(x), []).append(int(n))
-    pairs = [p for p in places.values() if len(p) == 2]
-    assert len(pairs) > 60
-    assert all(frozenset(p) in related for p in pairs)
-    assert not [w for w in result.report.warnings if "relat" in w]
+    upper = mesh.cell_ids[name][np.isin(mesh.cell_ids[name], mesh.groups["UP", "element"].ids)]
+    sets = ["*ELSET, ELSET=UP", *map(str, upper), "*ELSET, ELSET=LOW"]
+    sets += map(str, np.setdiff1d(mesh.cell_ids[name], upper))
+    section = "\n".join(["*EQUATION", *lines, *sets, "*SOLID SECTION, ELSET=EALL, MATERIAL=M"])
+    label = {"tetra": "C3D4", "tetra10": "C3D10", "hexahedron": "C3D8"}[name]
+    return deck(tmp_path, mesh.points, cells, label, section), operate
+
+
+def equations(text):
+    """First and second node with the degree of freedom, of all."""
+    found = []
+    for card in text.split("*EQUATION")[1:]:
+        numbers = [r for r in card.split("*")[0].replace("\n", ",").split(",") if r.strip()]
+        found += [(int(numbers[k + 1]), int(numbers[k + 4]), int(numbers[k + 2])) for k in range(0, len(numbers), 7)]
+    return found
+
+
+def facing(mesh):
+    """Nodes of either body that lie on each other with faces."""
+    at, pairs = {}, set()
+    sides = contact_cases.sides_of(mesh)
+    for face, owners in sides.items():
+        if len(owners) == 1:
+            key = frozenset(map(tuple, mesh.points[list(face)]))
+            at.setdefault(key, {}).setdefault(owners[0][0], []).append(face)
+    for bodies in at.values():
+        for one, other in itertools.product(bodies.get(0, []), bodies.get(1, [])):
+            place = {tuple(mesh.points[n]): n for n in other}
+            pairs |= {(n, place[tuple(mesh.points[n])]) for n in one}
+    return {(int(mesh.node_ids[n]), int(mesh.node_ids[m])) for n, m in pairs}
+
+
+@needs_ccx
+@pytest.mark.parametrize("kind", ["flat", "flat second", "hexahedra", "curved"])
+def test_equations_between_pairs_follow(tmp_path, kind):
+    """Each pair is glued by equations, so is each new one, and the solver takes them."""
+    for seed in range(24):
+        mesh, operate = glued_deck(tmp_path, kind, seed)
+        result = operate(mesh)
+        if any("no longer match" in w for w in result.report.warnings):
+            continue
+        after = result.mesh
+        fs.write(after, tmp_path / "out.inp")
+        text = (tmp_path / "out.inp").read_text()
+        found = equations(text)
+        related = {frozenset(e[:2]) for e in found}
+        assert all(frozenset(p) in related for p in facing(after)), seed
+        assert len({(first, dof) for first, _, dof in found}) == len(found), seed
+        assert not [w for w in result.report.warnings if "relat" in w], seed
+        tied = {n for e in found for n in e[:2]}
+        held = [n for n in np.unique(np.concatenate([c.ravel() for c in after.cells.values()]))]
+        held = [n for n in held if int(after.node_ids[n]) not in tied]
+        rows = [
+            f"{after.node_ids[n]}, {k + 1}, {k + 1}, {GRADIENT[k] @ after.points[n]:.14e}"
+            for n in held
+            for k in range(3)
+        ]
+        step = ["*NSET, NSET=TIED", *map(str, sorted(tied)), "*STEP", "*STATIC", "*BOUNDARY", *rows]
+        step += ["*NODE PRINT, NSET=TIED", "U", "*END STEP", ""]
+        (tmp_path / "all.inp").write_text(text + "\n".join(step))
+        fs.write(fs.read(tmp_path / "all.inp"), tmp_path / "all.inp")
+        solve(tmp_path, (tmp_path / "all.inp").read_text())
 
 
 def surfaces(mesh):

@@ -15,24 +15,31 @@ public:
     Unwelder(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Numbering next)
         : input_(input), mesh_(mesh), changes_(changes), next_(next), sides_(input, welded, mesh, changes) {
         place_ = sides_.places();
+        births_of_single_ = changes.born;
         for (std::size_t k = 0; k < changes.born.size(); ++k) births_.emplace(changes.born[k].node, k);
     }
 
     Unwelded run() {
         out_.joined = sides_.joined();
         const std::vector<WeldSides::Guest> guests = sides_.guests();
-        for (std::size_t k = 0; k < sides_.nodes().size(); ++k) take_apart(sides_.nodes()[k], sides_.sides()[k]);
+        for (std::size_t k = 0; k < sides_.nodes().size(); ++k) take_apart(k);
         for (const WeldSides::Guest& g : guests) place(g);
         finish_nodes();
         return std::move(out_);
     }
 
 private:
-    void take_apart(Index w, const std::vector<WeldSide>& sides) {
+    void take_apart(std::size_t k) {
+        const Index w = sides_.nodes()[k];
         const std::vector<Index> from = sides_.ancestors(mesh_.node_ids[w]);
         const FamilyIndex family = mesh_.node_families[w];
+        std::vector<Index> numbers;
         // The side of the first nodes keeps a node that is new.
-        for (std::size_t k = 0; k < sides.size(); ++k) give(w, k == 0, family, from, sides[k]);
+        for (const WeldSide& side : sides_.sides()[k])
+            numbers.push_back(mesh_.node_ids[give(w, numbers.empty(), family, from, side)]);
+        for (const auto& [one, other] : sides_.facing()[k])
+            changes_.facing.push_back(
+                {numbers[static_cast<std::size_t>(one)], numbers[static_cast<std::size_t>(other)]});
     }
 
     /// An element on others has the nodes of those on its side. What the operation made on shells, a lip, all shells
@@ -80,7 +87,7 @@ private:
     }
 
     /// Gives the elements of a side of node w their own node.
-    void give(Index w, bool first, FamilyIndex family, const std::vector<Index>& from, const WeldSide& side) {
+    Index give(Index w, bool first, FamilyIndex family, const std::vector<Index>& from, const WeldSide& side) {
         const Index number = mesh_.node_ids[w];
         Index node = w;
         if (!sides_.is_born(number)) {
@@ -97,7 +104,7 @@ private:
         mesh_.node_families[node] = of_side(family, side.label);
         used_.insert(node);
         labels_[node] = side.label;
-        if (node == w) return;
+        if (node == w) return node;
         out_.partners[number].push_back(mesh_.node_ids[node]);
         for (const CellRef& c : side.cells) {
             CellBlock& b = mesh_.block(c.type);
@@ -105,15 +112,18 @@ private:
             for (Index& v : std::span(b.connectivity).subspan(static_cast<std::size_t>(c.cell) * count, count))
                 if (v == w) v = node;
         }
+        return node;
     }
 
     /// The same where w was born, or is a copy of a node born: the first of each side is born, others are its copies.
     Index give_born(Index w, bool first, const std::vector<Index>& from, const WeldLabel& label) {
         const Index number = mesh_.node_ids[w];
         const Index like = sides_.source(number);
-        Index& owner = owners_[{like, *std::ranges::find_if(label, [](Index n) { return n >= 0; })}];
+        Index& owner = owners_[{like, label}];
         if (first && number == like) {
             owner = number;
+            Changes::Born& born = changes_.born[births_.at(number)];
+            born = on_side(born, number, from, label);
             return w;
         }
         if (first) {
@@ -165,18 +175,22 @@ private:
     /// A node is born as the node `like` is, but on the side `label`.
     void add_birth(Index number, Index like, const std::vector<Index>& from, const WeldLabel& label) {
         ++out_.born;
-        const Changes::Born model = changes_.born[births_.at(like)];
-        const auto on_side = [&](Index ancestor) {
+        changes_.born.push_back(on_side(births_of_single_[births_.at(like)], number, from, label));
+    }
+
+    Changes::Born on_side(const Changes::Born& like, Index number, const std::vector<Index>& from,
+                          const WeldLabel& label) const {
+        const auto own = [&](Index ancestor) {
             const auto k = std::ranges::find_if(from, [&](Index n) { return input_.node_ids[n] == ancestor; });
             if (k == from.end()) return ancestor;
             const Index there = label[static_cast<std::size_t>(k - from.begin())];
             return there < 0 ? ancestor : input_.node_ids[there];
         };
         Changes::Born made{number, {}, {}};
-        for (const Index a : model.ancestors) made.ancestors.push_back(on_side(a));
-        for (const auto& [node, share] : model.shares) made.shares.emplace_back(on_side(node), share);
+        for (const Index a : like.ancestors) made.ancestors.push_back(own(a));
+        for (const auto& [node, share] : like.shares) made.shares.emplace_back(own(node), share);
         std::ranges::sort(made.ancestors);
-        changes_.born.push_back(std::move(made));
+        return made;
     }
 
     /// Nodes that were single and have another number now, and partners without an element, go.
@@ -221,13 +235,14 @@ private:
     Numbering next_;
     WeldSides sides_;
     Unwelded out_;
-    std::unordered_map<Index, std::size_t> births_;  // in changes_.born, by number
+    std::vector<Changes::Born> births_of_single_;    // of the nodes before they were taken apart
+    std::unordered_map<Index, std::size_t> births_;  // places there and in changes_.born, by number
     std::unordered_map<Index, Index> place_;         // in the result, of welded nodes of the input
     std::unordered_map<Index, WeldLabel> labels_;    // of the side that a node of the result was given to
     std::set<Index> claimed_;                        // nodes of the input that a side has
     std::set<Index> used_;                           // nodes of the result that elements have
-    /// Number of the node that stands for a side of a node born, by that one's number and a node of the side.
-    std::map<std::pair<Index, Index>, Index> owners_;
+    /// Number of the node that stands for a side of a node born, by that one's number and the side.
+    std::map<std::pair<Index, WeldLabel>, Index> owners_;
 };
 
 }  // namespace

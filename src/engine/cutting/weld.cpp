@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cancel.h"
+#include "mesh/rounding.h"
 #include "mesh/union_find.h"
 
 namespace femscalpel {
@@ -47,11 +48,8 @@ private:
 
 /// Of each node the first one at its place; empty if no two are at one place.
 std::vector<Index> first_at_place(const Mesh& mesh, double rounding) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& x : mesh.points) box.extend(x);
     if (mesh.points.empty()) return {};
-    const double size = std::max(box.diagonal().norm(), box.min().cwiseAbs().maxCoeff());
-    const double close = std::max(2 * rounding, 1e-13 * size), cell = 16 * close;
+    const double close = same_place(mesh.points, rounding), cell = 16 * close;
     Grid grid(mesh.points.size(), cell);
     std::vector<Index> next(mesh.points.size(), -1), first(mesh.points.size());
     bool any = false;
@@ -109,7 +107,9 @@ public:
             if (double_[n]) sets[sets_.find(static_cast<int>(n))].push_back(n);
         std::erase_if(sets, [](const auto& s) { return s.second.size() < 2; });
         if (sets.empty()) return {};
-        Welded out{mesh_, 0, 0, {}};
+        std::ranges::sort(facing_);
+        facing_.erase(std::unique(facing_.begin(), facing_.end()), facing_.end());
+        Welded out{mesh_, 0, 0, {}, std::move(facing_)};
         for (auto& [root, set] : sets) out.sets.push_back(std::move(set));
         join(out, welded);
         return out;
@@ -195,7 +195,10 @@ private:
             if (a.nodes == b.nodes || (a.owners > 1 && b.owners > 1)) continue;
             for (const Index n : a.nodes)
                 for (const Index m : b.nodes)
-                    if (n != m && first_[n] == first_[m]) sets_.unite(static_cast<int>(n), static_cast<int>(m));
+                    if (n != m && first_[n] == first_[m]) {
+                        sets_.unite(static_cast<int>(n), static_cast<int>(m));
+                        facing_.push_back({std::min(n, m), std::max(n, m)});
+                    }
             any = true;
         }
         return any;
@@ -248,6 +251,7 @@ private:
     std::vector<Index> first_;
     std::vector<char> double_;
     UnionFind sets_;
+    std::vector<std::array<Index, 2>> facing_;
     std::map<std::vector<Index>, std::vector<Side>> sides_;  // by the places of their nodes
 };
 

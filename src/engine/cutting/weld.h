@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ struct Welded {
     Mesh mesh;
     GroupIndex faces = 0;  ///< the group `weld_group`, whose faces are to stay where they are
     GroupIndex rim = 0;    ///< the group `weld_rim_group`: a face with all nodes in it could not be taken apart
-    std::vector<std::vector<Index>> sets;  ///< nodes (indices, ascending) that were made one
+    std::vector<std::vector<Index>> sets;      ///< nodes (indices, ascending) that were made one
+    std::vector<std::array<Index, 2>> facing;  ///< of them, those on either side of a face: ascending, each pair once
 
     /// The node that stands for each.
     std::vector<Index> single_nodes() const;

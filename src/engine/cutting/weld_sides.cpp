@@ -2,6 +2,7 @@
 #include "cutting/weld_sides.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cancel.h"
 #include "mesh/union_find.h"
@@ -81,6 +82,8 @@ void WeldSides::find_bodies() {
                 if (!set_of_.contains(n)) continue;
                 if (first < 0) first = n;
                 bodies.unite(static_cast<int>(first), static_cast<int>(n));
+                for (const Index m : b.nodes(c))
+                    if (m != n && set_of_.contains(m)) linked_[n].insert(m);
             }
         }
     }
@@ -210,15 +213,15 @@ std::vector<std::vector<Index>> WeldSides::faces_at(const CellRef& c, Index node
     return out;
 }
 
+bool WeldSides::are_layers(const CellRef& a, const CellRef& b) const {
+    return std::ranges::is_permutation(corners(a), corners(b));
+}
+
 /// Elements at a node in parts that are joined by faces (shells: edges), but for welded ones; and the part of each.
 std::vector<WeldSide> WeldSides::by_faces(std::span<const CellRef> cells, const AtFace& at_face,
                                           const std::vector<Index>& from, std::vector<int>& part_of) const {
     std::vector<WeldLabel> labels;
     for (const CellRef& c : cells) labels.push_back(label_of(c, from));
-    // Of shells on each other, what is on one side is only known from what they were.
-    const auto are_layers = [&](int a, int b) {
-        return std::ranges::is_permutation(corners(cells[a]), corners(cells[b]));
-    };
     const auto were_together = [&](int a, int b) {
         if (conflict(labels[a], labels[b])) return false;
         if (go_together(labels[a], labels[b])) return true;
@@ -228,7 +231,8 @@ std::vector<WeldSide> WeldSides::by_faces(std::span<const CellRef> cells, const 
     UnionFind joined(cells.size());
     for (const auto& [face, there] : at_face) {
         if (faces_.contains(face)) continue;
-        const bool alone = there.size() == 2 && !are_layers(there[0], there[1]);
+        // Of shells on each other, what is on one side is only known from what they were.
+        const bool alone = there.size() == 2 && !are_layers(cells[there[0]], cells[there[1]]);
         for (const int a : there)
             for (const int b : there)
                 if (a < b && (alone || were_together(a, b))) joined.unite(a, b);
@@ -270,14 +274,14 @@ WeldLabel WeldSides::usual_label(const std::vector<CellRef>& cells, const std::v
 }
 
 void WeldSides::find_sides() {
-    for (const Index n : nodes_) sides_.push_back(at(n));
+    for (const Index n : nodes_) sides_.push_back(at(n, facing_.emplace_back()));
     for (const std::vector<Index>& face : faces_) {
         const bool reached = std::ranges::any_of(face, [&](Index n) { return is_single_[n] != 0; });
         joined_ += !reached || (met_.contains(face) && !parted_.contains(face));
     }
 }
 
-std::vector<WeldSide> WeldSides::at(Index node) {
+std::vector<WeldSide> WeldSides::at(Index node, std::set<std::pair<int, int>>& facing) {
     if (!cells_.contains(node)) return {};
     const std::vector<Index> from = ancestors(mesh_.node_ids[node]);
     const std::vector<CellRef>& all = cells_.at(node);
@@ -315,17 +319,32 @@ std::vector<WeldSide> WeldSides::at(Index node) {
         for (std::size_t i = 0; i < from.size(); ++i)
             if (sides[at].label[i] < 0) sides[at].label[i] = part.label[i];
     }
+    std::vector<std::pair<int, int>> opposite;
     for (const auto& [face, there] : at_face) {
-        if (!faces_.contains(face) || there.size() < 2) continue;
-        met_.insert(face);
-        if (std::ranges::any_of(there, [&](int c) { return side_of[part_of[c]] != side_of[part_of[there[0]]]; }))
-            parted_.insert(face);
+        const bool welded = faces_.contains(face);
+        if (welded && there.size() > 1) met_.insert(face);
+        for (const int a : there)
+            for (const int b : there) {
+                const int one = side_of[part_of[a]], other = side_of[part_of[b]];
+                if (one == other || !(welded || are_layers(cells[a], cells[b]))) continue;
+                opposite.emplace_back(one, other);
+                if (welded) parted_.insert(face);
+            }
     }
-    complete(sides, from);
+    complete(sides, from, opposite);
     for (auto cell = lower; cell != all.end(); ++cell)
         if (guest(*cell, all).hosts.empty()) add_lone(*cell, from, sides);
-    std::ranges::stable_sort(sides, {}, [&](const WeldSide& s) { return is_first(s.label) ? 0 : 1; });
-    return sides;
+    std::vector<int> order(sides.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](int s) { return is_first(sides[s].label) ? 0 : 1; });
+    std::vector<WeldSide> out;
+    std::vector<int> place(order.size());
+    for (const int s : order) {
+        place[s] = static_cast<int>(out.size());
+        out.push_back(std::move(sides[s]));
+    }
+    for (const auto& [one, other] : opposite) facing.insert(std::minmax(place[one], place[other]));
+    return out;
 }
 
 WeldSides::Guest WeldSides::guest(const CellRef& cell, std::span<const CellRef> others) const {
@@ -366,18 +385,44 @@ int WeldSides::votes(const CellRef& cell, Index number, const WeldLabel& label) 
     return out;
 }
 
-/// Each side gets nodes of its own: those that no element tells, or that another side has, from what is left.
-void WeldSides::complete(std::vector<WeldSide>& sides, const std::vector<Index>& from) const {
+/// How many nodes of a side share elements with a node of the input.
+int WeldSides::ties(const WeldLabel& label, Index node) const {
+    const auto linked = linked_.find(node);
+    if (linked == linked_.end()) return 0;
+    return static_cast<int>(std::ranges::count_if(label, [&](Index n) { return linked->second.contains(n); }));
+}
+
+/// Each side gets nodes of its own: those that no element tells, or that another side has, from what is left. Of that,
+/// what faced the nodes of the side opposite, then what was most with its other nodes.
+void WeldSides::complete(std::vector<WeldSide>& sides, const std::vector<Index>& from,
+                         const std::vector<std::pair<int, int>>& opposite) const {
     for (std::size_t i = 0; i < from.size(); ++i) {
         const std::vector<Index>* set = set_of(from[i]);
         if (!set) continue;
         std::set<Index> taken;
         for (WeldSide& s : sides)
             if (s.label[i] >= 0 && !taken.insert(s.label[i]).second) s.label[i] = -1;
-        for (WeldSide& s : sides) {
-            if (s.label[i] >= 0) continue;
-            const auto left = std::ranges::find_if(*set, [&](Index n) { return !taken.contains(n); });
-            if (left != set->end()) taken.insert(s.label[i] = *left);
+        const auto rank = [&](int side, Index n) {
+            const bool faces = std::ranges::any_of(opposite, [&](const auto& pair) {
+                if (pair.first != side) return false;
+                const Index other = sides[static_cast<std::size_t>(pair.second)].label[i];
+                return std::ranges::binary_search(welded_.facing, std::array{std::min(n, other), std::max(n, other)});
+            });
+            return std::pair(faces, ties(sides[static_cast<std::size_t>(side)].label, n));
+        };
+        for (;;) {
+            std::pair<bool, int> most{false, -1};
+            int best = -1;
+            Index node = -1;
+            for (int s = 0; s < static_cast<int>(sides.size()); ++s)
+                for (const Index n : *set)
+                    if (sides[static_cast<std::size_t>(s)].label[i] < 0 && !taken.contains(n) && rank(s, n) > most) {
+                        most = rank(s, n);
+                        best = s;
+                        node = n;
+                    }
+            if (best < 0) break;
+            taken.insert(sides[static_cast<std::size_t>(best)].label[i] = node);
         }
     }
     for (WeldSide& s : sides)

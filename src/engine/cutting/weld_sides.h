@@ -42,6 +42,9 @@ public:
     /// The sides at each of nodes(), that of the first nodes first. Their labels are by ancestors().
     const std::vector<std::vector<WeldSide>>& sides() const { return sides_; }
 
+    /// The sides (places in sides()) at each of nodes() that lie on each other there, each pair once.
+    const std::vector<std::set<std::pair<int, int>>>& facing() const { return facing_; }
+
     /// Welded faces that have the same nodes on both sides, as all are where the weld ends: they would be joined.
     Index joined() const { return joined_; }
 
@@ -82,17 +85,20 @@ private:
     void find_cells();
     void find_faces();
     void find_sides();
-    std::vector<WeldSide> at(Index node);
+    std::vector<WeldSide> at(Index node, std::set<std::pair<int, int>>& facing);
     std::optional<CellRef> root(const CellRef& cell) const;
     Index body_of(const CellRef& cell) const;
     WeldLabel label_of(const CellRef& cell, const std::vector<Index>& from) const;
     std::span<const Index> corners(const CellRef& cell) const;
+    bool are_layers(const CellRef& a, const CellRef& b) const;
     std::vector<std::vector<Index>> faces_at(const CellRef& cell, Index node) const;
     using AtFace = std::map<std::vector<Index>, std::vector<int>>;  // elements by corners of the faces they have
     std::vector<WeldSide> by_faces(std::span<const CellRef> cells, const AtFace& at_face,
                                    const std::vector<Index>& from, std::vector<int>& part_of) const;
     WeldLabel usual_label(const std::vector<CellRef>& cells, const std::vector<Index>& from) const;
-    void complete(std::vector<WeldSide>& sides, const std::vector<Index>& from) const;
+    void complete(std::vector<WeldSide>& sides, const std::vector<Index>& from,
+                  const std::vector<std::pair<int, int>>& opposite) const;
+    int ties(const WeldLabel& label, Index node) const;
     void add_lone(const CellRef& cell, const std::vector<Index>& from, std::vector<WeldSide>& sides) const;
     Guest guest(const CellRef& cell, std::span<const CellRef> others) const;
     bool is_first(const WeldLabel& label) const;
@@ -104,6 +110,7 @@ private:
     std::unordered_map<Index, const std::vector<Index>*> set_of_;  // by node of the input
     std::vector<Index> body_;  // of welded nodes of the input: the first of those on their side
     std::set<Index> mixed_;    // bodies that are on both sides of a weld
+    std::unordered_map<Index, std::set<Index>> linked_;     // welded nodes of the input that share elements
     std::unordered_map<Index, Index> parents_, sources_;    // numbers
     std::unordered_map<Index, std::vector<Index>> births_;  // ancestors of nodes born, numbers
     std::vector<char> is_single_;
@@ -113,6 +120,7 @@ private:
     std::set<std::vector<Index>> faces_;         // corners of welded ones
     std::set<std::vector<Index>> met_, parted_;  // of these, those of two elements, and of elements on two sides
     std::vector<std::vector<WeldSide>> sides_;   // at each of nodes_
+    std::vector<std::set<std::pair<int, int>>> facing_;
     Index joined_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ struct DeckMarks {
     std::vector<Index> related;  ///< of them, those related by equations: nodes born between two of them on the skin
                                  ///< must not move either
     std::vector<Index> pinned;   ///< nodes (indices, ascending) that must not move: a force, a term of an equation
+    /// Of `pinned`, those that may after all move, each with others, as all that they are in are equations with nodes
+    /// at the same place.
+    std::map<Index, std::vector<Index>> together;
 };
 
 /// First letters of the names of all hidden groups of mark_deck().

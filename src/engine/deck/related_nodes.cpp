@@ -7,6 +7,8 @@
 #include <set>
 #include <unordered_set>
 
+#include "mesh/rounding.h"
+
 namespace femscalpel {
 namespace {
 
@@ -46,20 +48,105 @@ public:
             for (const NodeOrigins::Share& s : origins.shares(k)) between_at_[s.node].push_back(k);
         }
         out_.copies_follow.assign(equations.size(), 0);
+        find_pairs(changes);
     }
 
     RelatedNodes run() {
+        for (const auto& [node, other] : facing_) relate_pair(node, other);
         for (const std::size_t k : between_) relate(k);
         relate_copies();
         return std::move(out_);
     }
 
 private:
+    /// Where double nodes are followed: which equations are those of two nodes that were one of their pairs.
+    void find_pairs(const Changes& changes) {
+        of_pair_.assign(equations_.size(), 0);
+        if (changes.facing.empty()) return;
+        same_place_ = same_place(before_.points, coordinate_rounding(before_.points));
+        std::unordered_map<Index, std::vector<Index>> from;
+        for (const Changes::Born& b : changes.born) from.emplace(b.node, b.ancestors);
+        for (const Changes::Copy& c : changes.copies) {
+            const auto birth = from.find(c.source);
+            from.emplace(c.node, birth == from.end() ? std::vector<Index>{c.source} : birth->second);
+        }
+        const auto ancestors = [&](Index n) {
+            const auto found = from.find(n);
+            return found == from.end() ? std::vector<Index>{n} : found->second;
+        };
+        std::set<std::pair<Index, Index>> could;
+        for (const Changes::Facing& f : changes.facing) {
+            const std::vector<Index> of_one = ancestors(f.node), of_other = ancestors(f.other);
+            for (const Index a : of_one)
+                for (const Index b : of_other) could.insert(std::minmax(a, b));
+            if (from.contains(f.node) || from.contains(f.other))
+                facing_.push_back({{f.node, of_one}, {f.other, of_other}});
+        }
+        for (std::size_t e = 0; e < equations_.size(); ++e) {
+            if (equations_[e].terms.size() != 2) continue;
+            const std::pair<Index, Index> nodes = std::minmax(equations_[e].terms[0].node, equations_[e].terms[1].node);
+            if (!could.contains(nodes) || !is_one_place(nodes.first, nodes.second)) continue;
+            of_pair_[e] = 1;
+            of_nodes_[nodes].push_back(e);
+        }
+    }
+
+    bool is_one_place(Index a, Index b) const {
+        const auto n = numbers_.node(a), m = numbers_.node(b);
+        if (!n || !m) return false;
+        return (before_.points[*n] - before_.points[*m]).norm() <= same_place_;
+    }
+
+    struct Side {
+        Index node;
+        std::vector<Index> ancestors;
+    };
+
+    /// The shapes, with the term of the first side, that all pairs have which two nodes come from, and equations that
+    /// have them.
+    std::map<Role, std::size_t> common_shapes(const Side& one, const Side& other, bool& any) const {
+        std::map<Role, std::size_t> out;
+        bool first = true;
+        for (const Index a : one.ancestors) {
+            if (std::ranges::find(other.ancestors, a) != other.ancestors.end()) continue;  // not double
+            std::map<Role, std::size_t> here;
+            for (const Index b : other.ancestors) {
+                const auto found = of_nodes_.find(std::minmax(a, b));
+                if (found == of_nodes_.end()) continue;
+                for (const std::size_t e : found->second) {
+                    Role role;
+                    for (const NodeEquation::Term& t : equations_[e].terms) role.shape.emplace_back(t.dof, t.factor);
+                    role.term = equations_[e].terms[0].node == a ? 0 : 1;
+                    here.emplace(std::move(role), e);
+                }
+            }
+            any = any || !here.empty();
+            if (!first) std::erase_if(out, [&](const auto& r) { return !here.contains(r.first); });
+            if (first) out = std::move(here);
+            first = false;
+        }
+        return out;
+    }
+
+    void relate_pair(const Side& one, const Side& other) {
+        bool any = false;
+        const auto shapes = common_shapes(one, other, any);
+        for (const auto& [role, e] : shapes)
+            add(e, role.term == 0 ? std::vector{one.node, other.node} : std::vector{other.node, one.node});
+        if (!any || !shapes.empty()) return;
+        for (const Index a : one.ancestors)
+            if (const auto there = roles_.find(a); there != roles_.end()) {
+                out_.missed.push_back({there->second.begin()->second.front(), one.node});
+                return;
+            }
+    }
+
     void relate(std::size_t k) {
         const NodeOrigins::Node& node = origins_.nodes()[k];
         const auto& of_first = roles_.at(node.ancestors.front());
         bool any_shape = false;
         for (const auto& [role, first] : of_first) {
+            if (std::ranges::all_of(first, [&](std::size_t e) { return of_pair_[e] != 0; })) return;
             if (!std::ranges::all_of(node.ancestors, [&](Index a) { return roles_.at(a).contains(role); })) continue;
             any_shape = true;
             if (!relate_in(role, k)) out_.missed.push_back({first.front(), node.number});
@@ -164,12 +251,17 @@ private:
     void relate_copies() {
         const std::size_t born = out_.made.size();
         for (std::size_t e = 0; e < equations_.size(); ++e) {
+            if (of_pair_[e]) {
+                out_.copies_follow[e] = 1;
+                continue;
+            }
             std::vector<Index> nodes;
             for (const NodeEquation::Term& t : equations_[e].terms) nodes.push_back(t.node);
             out_.copies_follow[e] = relate_copies_of(e, nodes);
         }
         for (std::size_t k = 0; k < born; ++k) {
             const RelatedNodes::Made made = out_.made[k];
+            if (of_pair_[made.like]) continue;
             if (!relate_copies_of(made.like, made.nodes)) out_.one_sided.push_back({made.like, made.nodes.front()});
         }
     }
@@ -210,6 +302,10 @@ private:
     std::map<Index, std::vector<std::size_t>> between_at_;  // the same by old node that has a share
     std::set<std::pair<std::vector<std::pair<Index, double>>, std::vector<Index>>> known_;
     std::vector<char> in_elements_;
+    std::vector<std::pair<Side, Side>> facing_;  // with a new node
+    double same_place_ = 0;
+    std::vector<char> of_pair_;  // by equation: that of two double nodes that are followed
+    std::map<std::pair<Index, Index>, std::vector<std::size_t>> of_nodes_;  // these equations
     RelatedNodes out_;
 };
 

@@ -46,6 +46,9 @@ struct RelatedNodes {
 /// nodes of an equation are doubled, but for reference nodes that no element has, their copies get it too: those on the
 /// positive side of a crack.
 ///
+/// Double nodes that follow each other (Changes::facing) are the exception: each two that lie on each other get the
+/// equations of the two pairs (or that pair) they come from, however many there are on either side.
+///
 /// Missed are nodes born between nodes whose equations have no shape in common, or whose partners have no new node at
 /// that place.
 RelatedNodes relate_new_nodes(const std::vector<NodeEquation>& equations, const Mesh& before,

@@ -31,9 +31,16 @@ struct Changes {
         Index parent;  ///< element of the input; may itself have kept its number, or be gone
     };
 
+    /// Nodes at one place on either side of faces (edges, shells) that lie on each other with double nodes.
+    struct Facing {
+        Index node;
+        Index other;
+    };
+
     std::vector<Copy> copies;
     std::vector<Born> born;
     std::vector<Part> parts;
+    std::vector<Facing> facing;  ///< each pair once; only where double nodes are followed (unweld())
 
     bool empty() const { return copies.empty() && born.empty() && parts.empty(); }
 };

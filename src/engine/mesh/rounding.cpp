@@ -99,4 +99,12 @@ double coordinate_rounding(std::span<const Vec3> points) {
     return std::min(rounding, coarsest * size);
 }
 
+double same_place(std::span<const Vec3> points, double rounding) {
+    if (points.empty()) return 0;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : points) box.extend(x);
+    const double size = std::max(box.diagonal().norm(), box.min().cwiseAbs().maxCoeff());
+    return std::max(2 * rounding, 1e-13 * size);
+}
+
 }  // namespace femscalpel

@@ -14,4 +14,7 @@ namespace femscalpel {
 /// among old rounded ones, as a second operation meets them, do not hide these. Looks at some thousand coordinates.
 double coordinate_rounding(std::span<const Vec3> points);
 
+/// Nodes that are no farther apart are at one place, where coordinates are `rounding` off.
+double same_place(std::span<const Vec3> points, double rounding);
+
 }  // namespace femscalpel

@@ -87,9 +87,29 @@ void WeldFirst::find_marks() {
     on_welded_.kept.resize(mesh.groups.size(), false);
     on_welded_.kept[welded_->faces] = true;
     on_welded_.surface_sets = marks_->surface_sets;
-    on_welded_.related = single(marks_->related);
-    on_welded_.pinned = single(marks_->pinned);
+    const std::vector<char> free = free_together();
+    const auto held = [&](std::vector<Index> nodes) {
+        std::erase_if(nodes, [&](Index n) { return free[n] != 0; });
+        return single(nodes);
+    };
+    on_welded_.related = held(marks_->related);
+    on_welded_.pinned = held(marks_->pinned);
     pin_fronts();
+}
+
+/// Which nodes of the input are held only so that they stay with others that are one with them now.
+std::vector<char> WeldFirst::free_together() const {
+    std::vector<char> out(input_.points.size(), 0);
+    const std::vector<Index> now = welded_->single_nodes();
+    bool all = true;
+    for (const auto& [node, partners] : marks_->together) {
+        const bool one = std::ranges::all_of(partners, [&](Index n) { return now[n] == now[node]; });
+        out[node] = one && !partners.empty();
+        all = all && one;
+    }
+    if (all)  // ends of edges whose mid-side nodes are
+        for (const auto& [node, partners] : marks_->together) out[node] = 1;
+    return out;
 }
 
 /// Where a weld ends inside the material - the front of an earlier crack, the rim of what is glued in part - its nodes

@@ -49,6 +49,7 @@ public:
 private:
     const Mesh& marked() const { return marks_->mesh ? *marks_->mesh : input_; }
     void find_marks();
+    std::vector<char> free_together() const;
     void pin_fronts();
     void carry(Mesh& mesh, const Changes& changes, bool strict, Report& report) const;
     void report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index doubled, Report& report) const;

@@ -2,6 +2,7 @@
 #include "deck/rules/equations.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "deck/rules/carrying.h"
@@ -89,7 +90,12 @@ std::optional<NodeEquation> Equations::of_nodes(const Equation& equation) {
 void Equations::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
     if (removes(card)) return;
     const DeckView& deck = marking.deck();
-    for (const Equation& equation : read(card).equations)
+    for (const Equation& equation : read(card).equations) {
+        if (const auto nodes = of_nodes(equation);
+            nodes && nodes->terms.size() == 2 && marking.is_one_place(nodes->terms[0].node, nodes->terms[1].node)) {
+            marking.pin_pair(nodes->terms[0].node, nodes->terms[1].node);
+            continue;
+        }
         for (const Entry& entry : equation.entries) {
             if (!entry.what) continue;
             if (entry.what->is_number())
@@ -97,6 +103,7 @@ void Equations::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
             else if (const auto group = deck.group(DeckSetType::nset, entry.what->set))
                 for (const Index node : deck.members(*group)) marking.pin(node);
         }
+    }
 }
 
 void Equations::begin_carrying(Carrying& carrying) {
@@ -120,13 +127,28 @@ void Equations::begin_carrying(Carrying& carrying) {
 void Equations::relate(const std::vector<NodeEquation>& equations, Carrying& carrying) {
     related_ = relate_new_nodes(equations, carrying.before(), carrying.old().numbers(), carrying.origins(),
                                 carrying.changes());
+    std::set<std::pair<Index, Index>> dependent;  // node and degree of freedom
+    for (const NodeEquation& e : equations) dependent.emplace(e.terms.front().node, e.terms.front().dof);
     for (const RelatedNodes::Made& made : related_.made) {
         if (!std::ranges::all_of(made.nodes, [&](Index n) { return carrying.new_numbers().node(n).has_value(); }))
             continue;
         const NodeEquation& like = equations[made.like];
+        // The solver eliminates the first term, which no other equation may do.
+        std::vector<std::size_t> order(made.nodes.size());
+        std::iota(order.begin(), order.end(), 0);
+        const auto eliminated = [&](std::size_t k) { return std::pair(made.nodes[k], like.terms[k].dof); };
+        const auto first =
+            std::ranges::find_if(order, [&](std::size_t k) { return !dependent.contains(eliminated(k)); });
+        if (first == order.end()) {
+            related_.missed.push_back({made.like, made.nodes.front()});
+            continue;
+        }
+        std::rotate(order.begin(), first, first + 1);
+        dependent.insert(eliminated(order.front()));
         std::string text = std::to_string(made.nodes.size());
-        for (std::size_t k = 0; k < made.nodes.size(); ++k)  // CalculiX reads four terms per line
-            text += (k % 4 == 0 ? "\n" : ", ") + std::to_string(made.nodes[k]) + ", " + like.terms[k].written;
+        for (std::size_t k = 0; k < order.size(); ++k)  // CalculiX reads four terms per line
+            text +=
+                (k % 4 == 0 ? "\n" : ", ") + std::to_string(made.nodes[order[k]]) + ", " + like.terms[order[k]].written;
         const auto& [c, last] = places_[made.like];
         carrying.edits(c).add_after(last, text);
     }

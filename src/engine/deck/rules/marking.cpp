@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mesh/rounding.h"
+
 namespace femscalpel {
 namespace {
 
@@ -24,6 +26,21 @@ void Marking::pin_related(Index number) {
     if (const auto node = deck_.numbers().node(number)) related_.insert(*node);
 }
 
+bool Marking::is_one_place(Index number, Index other) {
+    const auto node = deck_.numbers().node(number), partner = deck_.numbers().node(other);
+    if (!node || !partner) return false;
+    const std::vector<Vec3>& points = deck_.mesh().points;
+    if (same_place_ < 0) same_place_ = same_place(points, coordinate_rounding(points));
+    return (points[*node] - points[*partner]).norm() <= same_place_;
+}
+
+void Marking::pin_pair(Index number, Index other) {
+    const auto node = deck_.numbers().node(number), partner = deck_.numbers().node(other);
+    if (!node || !partner) return;
+    pairs_[*node].push_back(*partner);
+    pairs_[*partner].push_back(*node);
+}
+
 void Marking::mark_node(const std::string& group, Index number) {
     if (const auto node = deck_.numbers().node(number)) nodes_[group].push_back(*node);
 }
@@ -37,28 +54,37 @@ void Marking::mark_face(const std::string& group, Index element, int face) {
 }
 
 DeckMarks Marking::result() {
-    pin_ends_of_mid_nodes();
     DeckMarks out;
     out.surface_sets = surface_sets(deck_.mesh());
-    out.pinned.assign(pinned_.begin(), pinned_.end());
+    const std::set<Index> for_other_reasons = with_ends_of_middles(pinned_);
+    for (const auto& [node, partners] : pairs_) {
+        pinned_.insert(node);
+        related_.insert(node);
+        if (!for_other_reasons.contains(node)) out.together.emplace(node, partners);
+    }
+    const std::set<Index> all = with_ends_of_middles(pinned_);
+    for (const Index n : all)
+        if (!for_other_reasons.contains(n)) out.together.try_emplace(n);
+    out.pinned.assign(all.begin(), all.end());
     out.related.assign(related_.begin(), related_.end());
     if (!nodes_.empty() || !cells_.empty() || !faces_.empty()) out.mesh = marked(out.kept);
     return out;
 }
 
 /// A mid-side node follows the ends of its edge.
-void Marking::pin_ends_of_mid_nodes() {
-    if (pinned_.empty()) return;
+std::set<Index> Marking::with_ends_of_middles(std::set<Index> pinned) const {
+    if (pinned.empty()) return pinned;
     for (const CellBlock& block : deck_.mesh().blocks()) {
         const CellTraits& t = traits(block.type);
         if (!t.quadratic) continue;
         for (Index c = 0; c < block.size(); ++c) {
             const auto n = block.nodes(c);
             for (std::size_t e = 0; e < t.edges.size(); ++e)
-                if (pinned_.contains(n[static_cast<std::size_t>(t.corners) + e]))
-                    pinned_.insert({n[t.edges[e][0]], n[t.edges[e][1]]});
+                if (pinned.contains(n[static_cast<std::size_t>(t.corners) + e]))
+                    pinned.insert({n[t.edges[e][0]], n[t.edges[e][1]]});
         }
     }
+    return pinned;
 }
 
 Mesh Marking::marked(std::vector<bool>& kept) const {

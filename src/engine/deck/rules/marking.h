@@ -25,6 +25,10 @@ public:
     void pin(Index number);
     /// Nor must this one, and nodes born on the skin between two such neither.
     void pin_related(Index number);
+    /// Whether both are in the mesh, as double nodes.
+    bool is_one_place(Index number, Index other);
+    /// The same as pin_related() for two that are to stay at one place, unless they move together.
+    void pin_pair(Index number, Index other);
     /// Group `group` of nodes must keep its shape, and node `number`, if the mesh has it, is in it.
     void mark_node(const std::string& group, Index number);
     /// The same for elements.
@@ -36,12 +40,14 @@ public:
     DeckMarks result();
 
 private:
-    void pin_ends_of_mid_nodes();
+    std::set<Index> with_ends_of_middles(std::set<Index> pinned) const;
     Mesh marked(std::vector<bool>& kept) const;
     void mark_facets(Mesh& mesh) const;
 
     DeckView deck_;
     std::set<Index> pinned_, related_;
+    double same_place_ = -1;                     // as far as double nodes are apart, once it is known
+    std::map<Index, std::vector<Index>> pairs_;  // by node: those it is to stay with
     // By name of the group to be.
     std::map<std::string, std::vector<Index>> nodes_;
     std::map<std::string, std::vector<CellRef>> cells_;
