@@ -57,6 +57,7 @@ TEST(Unweld, ASpringBetweenTheTwoStaysSoWhicheverComesFirst) {
     const auto welded = weld(before, 0);
     ASSERT_TRUE(welded);
     Mesh mesh = welded->mesh;
+    EXPECT_EQ(mesh.block(CellType::line).size(), 0);
     mesh.points[1] = {1.5, 0, 0};
     Changes changes;
     unweld(before, *welded, mesh, changes, {100, 50});

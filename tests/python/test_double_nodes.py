@@ -173,7 +173,7 @@ def facing(mesh):
     for bodies in at.values():
         for one, other in itertools.product(bodies.get(0, []), bodies.get(1, [])):
             place = {tuple(mesh.points[n]): n for n in other}
-            pairs |= {(n, place[tuple(mesh.points[n])]) for n in one}
+            pairs |= {(n, place[tuple(mesh.points[n])]) for n in one if n != place[tuple(mesh.points[n])]}
     return {(int(mesh.node_ids[n]), int(mesh.node_ids[m])) for n, m in pairs}
 
 
@@ -207,6 +207,65 @@ def test_equations_between_pairs_follow(tmp_path, kind):
         (tmp_path / "all.inp").write_text(text + "\n".join(step))
         fs.write(fs.read(tmp_path / "all.inp"), tmp_path / "all.inp")
         solve(tmp_path, (tmp_path / "all.inp").read_text())
+
+
+def with_springs(mesh):
+    """A spring without length in each pair, in the group SPRINGS."""
+    ends = [np.searchsorted(mesh.node_ids, mesh.groups[g, "node"].ids) for g in ("CON_A", "CON_B")]
+    out = fs.Mesh(mesh.points, {**mesh.cells, "line": np.stack(ends, axis=1)})
+    for name in ("CON_A", "CON_B"):
+        out.add_group(name, "node", mesh.groups[name, "node"].ids)
+    for name in ("LOW", "UP"):
+        out.add_group(name, "element", mesh.groups[name, "element"].ids)
+    out.add_group("SPRINGS", "element", out.cell_ids["line"])
+    return out
+
+
+@pytest.mark.parametrize("kind", ["flat", "flat second", "hexahedra", "glued"])
+def test_springs_between_pairs_follow(kind):
+    for seed in range(12):
+        mesh, operate, _ = contact_cases.make(kind, seed)
+        mesh = with_springs(mesh)
+        result = operate(mesh)
+        after = result.mesh
+        springs = after.node_ids[after.cells["line"][np.isin(after.cell_ids["line"], after.groups["SPRINGS"].ids)]]
+        pairs = set(map(tuple, springs.tolist()))
+        at = dict(zip(after.node_ids.tolist(), map(tuple, after.points)))
+        assert facing(after) <= pairs and all(at[n] == at[m] for n, m in pairs), seed
+        assert "second" in kind or facing(after) == pairs, seed
+        (record,) = [g for g in result.report.groups if g.name == "SPRINGS"]
+        assert record.count_after == len(springs)
+
+
+def test_a_contact_with_springs_moves():
+    mesh = with_springs(both())
+    result = fs.reshape(mesh, "CON_A", by=(0, 0, 0.4), name="T")
+    assert (result.mesh.cells["line"] == mesh.cells["line"]).all() and not result.report.warnings
+    lengths = np.ptp(result.mesh.points[result.mesh.cells["line"]], axis=1)
+    assert (lengths == 0).all()
+
+
+@needs_ccx
+def test_the_solver_takes_new_springs(tmp_path):
+    mesh = both()
+    ((_, cells),) = mesh.cells.items()
+    a, b = (mesh.groups[g, "node"].ids for g in ("CON_A", "CON_B"))
+    parts = ["*SOLID SECTION, ELSET=EALL, MATERIAL=M"]
+    for dof in (1, 2, 3):
+        parts += [f"*ELEMENT, TYPE=SPRING2, ELSET=S{dof}"]
+        parts += [f"{dof * 10000 + k}, {n}, {m}" for k, (n, m) in enumerate(zip(a, b))]
+        parts += [f"*SPRING, ELSET=S{dof}", f"{dof}, {dof}", "1.e6"]
+    mesh = deck(tmp_path, mesh.points, cells, "C3D4", "\n".join(parts))
+    result = fs.crack(mesh, PLANE, name="T")
+    after = result.mesh
+    assert all(len(after.groups[f"S{d}", "element"].ids) > len(a) for d in (1, 2, 3))
+    assert any("are new, between new double nodes" in w for w in result.report.warnings)
+    fs.write(after, tmp_path / "out.inp")
+    ends = [after.node_ids[after.points[:, 2] == z] for z in (0, 8)]
+    step = ["*NSET, NSET=ENDS", *map(str, ends[1]), "*STEP", "*STATIC", "*BOUNDARY"]
+    step += [f"{n}, 1, 3" for n in ends[0]] + [f"{n}, 3, 3, 0.01" for n in ends[1]]
+    step += ["*NODE PRINT, NSET=ENDS", "U", "*END STEP", ""]
+    solve(tmp_path, (tmp_path / "out.inp").read_text() + "\n".join(step))
 
 
 def surfaces(mesh):

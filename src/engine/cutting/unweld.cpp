@@ -13,7 +13,12 @@ namespace {
 class Unwelder {
 public:
     Unwelder(const Mesh& input, const Welded& welded, Mesh& mesh, Changes& changes, Numbering next)
-        : input_(input), mesh_(mesh), changes_(changes), next_(next), sides_(input, welded, mesh, changes) {
+        : input_(input),
+          welded_(welded),
+          mesh_(mesh),
+          changes_(changes),
+          next_(next),
+          sides_(input, welded, mesh, changes) {
         place_ = sides_.places();
         births_of_single_ = changes.born;
         for (std::size_t k = 0; k < changes.born.size(); ++k) births_.emplace(changes.born[k].node, k);
@@ -25,6 +30,7 @@ public:
         for (std::size_t k = 0; k < sides_.nodes().size(); ++k) take_apart(k);
         for (const WeldSides::Guest& g : guests) place(g);
         finish_nodes();
+        out_.springs = put_back_springs(input_, welded_, pairs_, mesh_, changes_, next_.cell);
         return std::move(out_);
     }
 
@@ -33,13 +39,17 @@ private:
         const Index w = sides_.nodes()[k];
         const std::vector<Index> from = sides_.ancestors(mesh_.node_ids[w]);
         const FamilyIndex family = mesh_.node_families[w];
+        const std::vector<WeldSide>& sides = sides_.sides()[k];
         std::vector<Index> numbers;
         // The side of the first nodes keeps a node that is new.
-        for (const WeldSide& side : sides_.sides()[k])
+        for (const WeldSide& side : sides)
             numbers.push_back(mesh_.node_ids[give(w, numbers.empty(), family, from, side)]);
-        for (const auto& [one, other] : sides_.facing()[k])
-            changes_.facing.push_back(
-                {numbers[static_cast<std::size_t>(one)], numbers[static_cast<std::size_t>(other)]});
+        for (const auto& [a, b] : sides_.facing()[k]) {
+            const auto one = static_cast<std::size_t>(a), other = static_cast<std::size_t>(b);
+            changes_.facing.push_back({numbers[one], numbers[other]});
+            if (!welded_.aside.empty())
+                pairs_.push_back({numbers[one], numbers[other], sides[one].label, sides[other].label});
+        }
     }
 
     /// An element on others has the nodes of those on its side. What the operation made on shells, a lip, all shells
@@ -68,8 +78,8 @@ private:
         std::ranges::copy(images.front(), mesh_.block(type).connectivity.begin() + cell * static_cast<Index>(count));
         if (sides_.is_old(guest.cell) || traits(guest.hosts.front().first.type).dimension != 2) return;
         for (std::size_t k = 1; k < images.size(); ++k) {
-            const Index made = mesh_.add_cell(type, images[k], next_.cell++, mesh_.block(type).families[cell]);
-            out_.segments.push_back({type, made});
+            out_.segments.push_back(next_.cell);
+            mesh_.add_cell(type, images[k], next_.cell++, mesh_.block(type).families[cell]);
         }
     }
 
@@ -230,9 +240,11 @@ private:
     }
 
     const Mesh& input_;
+    const Welded& welded_;
     Mesh& mesh_;
     Changes& changes_;
     Numbering next_;
+    std::vector<WeldPair> pairs_;
     WeldSides sides_;
     Unwelded out_;
     std::vector<Changes::Born> births_of_single_;    // of the nodes before they were taken apart

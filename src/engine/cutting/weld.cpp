@@ -109,7 +109,7 @@ public:
         if (sets.empty()) return {};
         std::ranges::sort(facing_);
         facing_.erase(std::unique(facing_.begin(), facing_.end()), facing_.end());
-        Welded out{mesh_, 0, 0, {}, std::move(facing_)};
+        Welded out{.mesh = mesh_, .sets = {}, .aside = {}, .facing = std::move(facing_)};
         for (auto& [root, set] : sets) out.sets.push_back(std::move(set));
         join(out, welded);
         return out;
@@ -216,12 +216,20 @@ private:
         for (CellBlock& b : mesh.blocks()) {
             const auto count = static_cast<std::size_t>(traits(b.type).nodes);
             const bool is_line = traits(b.type).dimension == 1;
-            for (std::size_t k = 0; k < b.connectivity.size(); k += count) {
-                const auto n = std::span(b.connectivity).subspan(k, count);
-                // A spring or gap of no length stays between the two.
-                if (is_line && now[n[0]] == now[n[1]]) continue;
-                for (Index& v : n) v = now[v];
+            std::size_t kept = 0;
+            for (std::size_t c = 0; c < b.ids.size(); ++c) {
+                const auto n = std::span(b.connectivity).subspan(c * count, count);
+                if (is_line && now[n[0]] == now[n[1]]) {
+                    out.aside.push_back({b.type, static_cast<Index>(c)});
+                    continue;
+                }
+                for (std::size_t k = 0; k < count; ++k) b.connectivity[kept * count + k] = now[n[k]];
+                b.ids[kept] = b.ids[c];
+                b.families[kept++] = b.families[c];
             }
+            b.connectivity.resize(kept * count);
+            b.ids.resize(kept);
+            b.families.resize(kept);
         }
         out.faces = mesh.add_group(std::string(weld_group), GroupKind::facet, true);
         GroupMembers members{GroupKind::facet, {}, {}};

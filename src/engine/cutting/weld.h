@@ -18,11 +18,12 @@ inline constexpr std::string_view weld_rim_group = "*WELDRIM#";
 /// A mesh whose double nodes are single for the time of an operation.
 struct Welded {
     /// All nodes are there, at the same indices, but elements name only the first of each set. It is in the node groups
-    /// of all of its set.
+    /// of all of its set. Without `aside`.
     Mesh mesh;
     GroupIndex faces = 0;  ///< the group `weld_group`, whose faces are to stay where they are
     GroupIndex rim = 0;    ///< the group `weld_rim_group`: a face with all nodes in it could not be taken apart
-    std::vector<std::vector<Index>> sets;      ///< nodes (indices, ascending) that were made one
+    std::vector<std::vector<Index>> sets;  ///< nodes (indices, ascending) that were made one
+    std::vector<CellRef> aside;            ///< segments between double nodes (springs, gaps of no length), of the input
     std::vector<std::array<Index, 2>> facing;  ///< of them, those on either side of a face: ascending, each pair once
 
     /// The node that stands for each.

@@ -126,7 +126,6 @@ void WeldSides::find_cells() {
             SparseCheck check;
             for (Index c = 0; c < b.size(); ++c) {
                 check();
-                // A spring or gap of no length kept its two nodes.
                 for (const Index v : b.nodes(c))
                     if (is_single_[v] && std::ranges::find(cells_[v], CellRef{b.type, c}) == cells_[v].end())
                         cells_[v].push_back({b.type, c});
@@ -176,7 +175,6 @@ WeldLabel WeldSides::label_of(const CellRef& cell, const std::vector<Index>& fro
     for (std::size_t k = 0; k < from.size(); ++k) {
         const std::vector<Index>* set = set_of(from[k]);
         if (!set) continue;
-        // A spring or gap between two of them kept both, of which the first is the single one.
         const auto own = std::ranges::find_if(*set, [&](Index v) { return std::ranges::find(n, v) != n.end(); });
         if (own != set->end()) out[k] = *own;
     }

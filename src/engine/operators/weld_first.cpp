@@ -72,7 +72,9 @@ WeldFirst::WeldFirst(const Mesh& input, const Prepared& known) : input_(input), 
 
 void WeldFirst::find_marks() {
     Mesh& mesh = welded_->mesh;
-    if (mesh.companion) mesh.companion = std::make_shared<OtherElements>(mesh.companion->largest_other_element());
+    Index largest = mesh.companion ? mesh.companion->largest_other_element() : 0;
+    for (const CellRef& c : welded_->aside) largest = std::max(largest, input_.block(c.type).ids[c.cell]);
+    if (mesh.companion || !welded_->aside.empty()) mesh.companion = std::make_shared<OtherElements>(largest);
     rename_marks(mesh, mark_prefix, other_prefix);
     const std::vector<Index> now = welded_->single_nodes();
     const auto single = [&](const std::vector<Index>& nodes) {
@@ -235,7 +237,6 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index d
     report.nodes_doubled = doubled;
     report.nodes_moved += unwelded.moved;
     report.nodes_removed += unwelded.removed;
-    report.elements_added += static_cast<Index>(unwelded.segments.size());
     for (auto& [name, numbers] : report.node_sets) {
         const std::vector<Index> single = numbers;
         for (const Index n : single)
@@ -243,16 +244,7 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index d
                 numbers.insert(numbers.end(), partners->second.begin(), partners->second.end());
         std::ranges::sort(numbers);
     }
-    for (const CellRef& line : unwelded.segments) {
-        const CellBlock& block = mesh.block(line.type);
-        const double length = cell_measure(mesh, line.type, line.cell);
-        for (const GroupIndex g : mesh.families.groups(block.families[line.cell]))
-            for (GroupRecord& r : report.groups)
-                if (r.kind == GroupKind::element && r.name == mesh.groups[g].name) {
-                    ++r.count_after;
-                    r.measure_after += length;
-                }
-    }
+    report_segments(mesh, unwelded, report);
     // Node groups were those of all that was single.
     std::vector<Index> before(mesh.groups.size(), 0), after(mesh.groups.size(), 0);
     const auto count = [](const Mesh& of, std::vector<Index>& counts) {
@@ -273,6 +265,39 @@ void WeldFirst::report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index d
         }
         if (r.status == "untouched" && r.count_after != r.count_before) r.status = "kept";
     }
+}
+
+/// Segments that were put aside, and those that came with taking nodes apart.
+void WeldFirst::report_segments(const Mesh& mesh, const Unwelded& unwelded, Report& report) const {
+    const auto count = [&](const Mesh& of, const CellRef& c, Index before, Index after) {
+        const double length = cell_measure(of, c.type, c.cell);
+        for (const GroupIndex g : of.families.groups(of.block(c.type).families[c.cell]))
+            for (GroupRecord& r : report.groups)
+                if (r.kind == GroupKind::element && r.name == of.groups[g].name) {
+                    r.count_before += before;
+                    r.count_after += after;
+                    r.measure_after += static_cast<double>(after) * length;
+                    r.dimension = std::max(r.dimension, 1);
+                }
+    };
+    const auto& [made, removed] = unwelded.springs;
+    for (const CellRef& c : welded_->aside) count(input_, c, 1, 1);
+    for (const CellRef& c : removed) count(input_, c, 0, -1);
+    for (const CellRef& c : made) count(mesh, c, 0, 1);
+    if (!unwelded.segments.empty()) {
+        const NumberIndex numbers(mesh);
+        for (const Index id : unwelded.segments) count(mesh, *numbers.cell(id), 0, 1);
+    }
+    report.elements_added += static_cast<Index>(unwelded.segments.size() + made.size());
+    report.elements_removed += static_cast<Index>(removed.size());
+    if (!removed.empty())
+        report.warnings.push_back(std::to_string(removed.size()) +
+                                  " segment element(s) (spring, gap) between double nodes lose one, and are removed");
+    if (!made.empty())
+        report.warnings.push_back(
+            std::to_string(made.size()) +
+            " segment element(s) (spring, gap) are new, between new double nodes of pairs that have such: each is like "
+            "theirs. Where their stiffness stands for that of an area, give all a smaller one");
 }
 
 bool WeldFirst::finish(Result& result, bool strict, bool part) {

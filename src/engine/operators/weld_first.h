@@ -52,6 +52,7 @@ private:
     std::vector<char> free_together() const;
     void pin_fronts();
     void carry(Mesh& mesh, const Changes& changes, bool strict, Report& report) const;
+    void report_segments(const Mesh& mesh, const Unwelded& unwelded, Report& report) const;
     void report_pairs(const Mesh& mesh, const Unwelded& unwelded, Index doubled, Report& report) const;
 
     const Mesh& input_;
