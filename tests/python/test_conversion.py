@@ -10,7 +10,7 @@ import mixed_cases
 import numpy as np
 import pytest
 from calculix_runs import solve
-from mixed_meshes import grid, second_order, worst_of
+from mixed_meshes import grid, outer_area, prisms_of, second_order, worst_of
 
 import femscalpel as fs
 
@@ -130,3 +130,61 @@ def test_conversion_goes_on_where_pyramids_would_be_poor(kind):
     result = fs.crack(mesh, tool)
     assert worst_of(result.mesh) > 0.1
     assert any(k.startswith("pyramid") for k in result.mesh.cells)
+
+
+def block(kind, order):
+    """A block 18 by 8 by 6 with the groups ALL and END (the nodes at x = 18)."""
+    points, cells = grid((18, 8, 6))
+    if kind == "wedge":
+        cells = prisms_of(cells)
+    name = kind
+    if order == 2:
+        points, cells = second_order(points, cells, kind)
+        name = {"hexahedron": "hexahedron20", "wedge": "wedge15"}[kind]
+    mesh = fs.Mesh(points, {name: cells})
+    mesh.add_group("ALL", "element", mesh.cell_ids[name])
+    mesh.add_group("END", "node", mesh.node_ids[points[:, 0] == 18])
+    return mesh
+
+
+def check_converted(mesh, result, lost, kind):
+    (record,) = [g for g in result.report.groups if g.name == "ALL"]
+    assert record.count_before == len(mesh.groups["ALL", "element"].ids)
+    assert record.measure_before - record.measure_after == pytest.approx(lost, rel=0.03)
+    assert result.report.quality.after.minimum > 0.3 and worst_of(result.mesh) > 0.2
+    names = {k.rstrip("0123456789") for k in result.mesh.cells}
+    assert {kind, "tetra", "pyramid"} <= names or (kind == "wedge" and {kind, "tetra"} <= names)
+    outer_area(result.mesh)  # which fails where faces do not fit
+    assert sum(result.report.converted.values()) > 0
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge"])
+def test_an_edge_of_hexahedra_is_rounded(kind, order):
+    mesh = block(kind, order)
+    result = fs.fillet(mesh, (18, 8, 3), 1.2, name="T")
+    check_converted(mesh, result, (1 - np.pi / 4) * 1.2**2 * 6, kind)
+    x = result.mesh.points[np.unique(result.mesh.cells["triangle" if order == 1 else "triangle6"])]
+    assert np.allclose(np.hypot(x[:, 0] - 16.8, x[:, 1] - 6.8), 1.2, atol=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge"])
+def test_a_wall_of_hexahedra_is_moved(kind, order):
+    mesh = block(kind, order)
+    result = fs.reshape(mesh, "END", by=(-0.7, 0, 0), name="T")
+    check_converted(mesh, result, 0.7 * 48, kind)
+    on = np.isin(result.mesh.node_ids, result.mesh.groups["END", "node"].ids)
+    assert np.allclose(result.mesh.points[on, 0], 17.3)
+
+
+def test_a_corner_and_a_border_of_quadrangles():
+    points, cells = grid((18, 8))
+    mesh = fs.Mesh(points, {"quad": cells})
+    mesh.add_group("END", "node", mesh.node_ids[points[:, 0] == 18])
+    rounded = fs.fillet(mesh, (18, 8, 0), 1.2, name="T").mesh
+    moved = fs.reshape(mesh, "END", by=(0.7, 0, 0), name="T").mesh
+    for after, area in ((rounded, 144 - (1 - np.pi / 4) * 1.2**2), (moved, 144 + 0.7 * 8)):
+        assert {"quad", "triangle"} <= set(after.cells) and worst_of(after) > 0.4
+        total = sum(v.sum() for k, v in fs.measure(after).items() if k in ("quad", "triangle"))
+        assert total == pytest.approx(area, abs=0.02)

@@ -11,7 +11,10 @@ namespace {
 
 class Finder {
 public:
-    Finder(const Mesh& mesh, GroupIndex group) : mesh_(mesh), group_(group) { out_.faces = mesh.dimension() == 3; }
+    Finder(const Mesh& mesh, GroupIndex group, std::optional<GroupIndex> skin_inside)
+        : mesh_(mesh), group_(group), skin_inside_(skin_inside) {
+        out_.faces = mesh.dimension() == 3;
+    }
 
     Covered run() {
         switch (mesh_.groups[group_].kind) {
@@ -74,16 +77,20 @@ private:
             check_();
             if (!has(f.family)) continue;
             ++members_;
-            const auto n = mesh_.block(f.type).nodes(f.cell);
-            const CellTraits& t = traits(f.type);
-            if (!t.simplex) refuse_quadrangles(mesh_.groups[group_].name);
-            if (t.dimension == 3) {
-                const auto& face = t.faces[f.face - 1];
-                add({n[face[0]], n[face[1]], n[face[2]]});
-            } else if (f.face > 2 && !out_.faces) {
-                add({n[f.face - 3], n[(f.face - 2) % 3], -1});
-            }
+            if (!traits(f.type).simplex) refuse_quadrangles(mesh_.groups[group_].name);
+            if (const auto part = part_of(f)) add(*part);
         }
+    }
+
+    std::optional<std::array<Index, 3>> part_of(const Facet& f) const {
+        const auto n = mesh_.block(f.type).nodes(f.cell);
+        const CellTraits& t = traits(f.type);
+        if (t.dimension != 3) {
+            if (f.face <= 2 || out_.faces) return {};
+            return std::array<Index, 3>{n[f.face - 3], n[(f.face - 2) % 3], -1};
+        }
+        const auto& face = t.faces[f.face - 1];
+        return std::array<Index, 3>{n[face[0]], n[face[1]], n[face[2]]};
     }
 
     /// Faces or edges with all nodes in the group that only one element has.
@@ -106,6 +113,12 @@ private:
             }
         }
         keep_single();
+        if (!skin_inside_) return;
+        for (const Facet& f : mesh_.facets) {
+            if (!mesh_.families.contains(f.family, *skin_inside_) || !traits(f.type).simplex) continue;
+            const auto part = part_of(f);
+            if (part && std::ranges::all_of(*part, [&](Index v) { return v < 0 || in[v] != 0; })) add(*part);
+        }
     }
 
     void keep_single() {
@@ -120,6 +133,7 @@ private:
 
     const Mesh& mesh_;
     const GroupIndex group_;
+    const std::optional<GroupIndex> skin_inside_;
     Index members_ = 0;
     SparseCheck check_;
     Covered out_;
@@ -127,6 +141,8 @@ private:
 
 }  // namespace
 
-Covered covered_by(const Mesh& mesh, GroupIndex group) { return Finder(mesh, group).run(); }
+Covered covered_by(const Mesh& mesh, GroupIndex group, std::optional<GroupIndex> skin_inside) {
+    return Finder(mesh, group, skin_inside).run();
+}
 
 }  // namespace femscalpel

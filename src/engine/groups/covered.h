@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -18,9 +19,10 @@ struct Covered {
 /// What a group covers of the skin of a solid (of the border of shells): an element group its faces (edges), which may
 /// also be inside, a facet group its facets, a node group the faces of the skin (edges of the border) all of whose
 /// corners are members.
+/// Faces of the facet group `skin_inside`, if any, count as skin to a node group, too.
 ///
 /// Throws ToolError that names `group` when that is nothing, or the group is one of volumes, or of shells in a mesh of
 /// shells; UnsupportedElementError when it covers quadrangles.
-Covered covered_by(const Mesh& mesh, GroupIndex group);
+Covered covered_by(const Mesh& mesh, GroupIndex group, std::optional<GroupIndex> skin_inside = {});
 
 }  // namespace femscalpel

@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "cutting/conversion.h"
 #include "cutting/surface_line.h"
 #include "mesh/band_mesh.h"
 #include "operators/coordinate_slack.h"
@@ -212,32 +213,67 @@ FeatureLine line_through(const FeatureEdges& all, int seed, std::set<int>& used)
 
 }  // namespace
 
-std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
-    struct Entry {
-        SkinTriangle key, face;
-    };
-    std::vector<Entry> entries;
-    for (const CellType type : {CellType::tetra, CellType::tetra10}) {
-        const CellBlock& b = mesh.block(type);
-        entries.reserve(entries.size() + static_cast<std::size_t>(4 * b.size()));
-        SparseCheck check;
-        for (Index c = 0; c < b.size(); ++c) {
-            check();
-            const auto n = b.nodes(c);
-            for (const auto& f : outward_faces) {
-                Entry e{{n[f[0]], n[f[1]], n[f[2]]}, {n[f[0]], n[f[1]], n[f[2]]}};
-                std::ranges::sort(e.key);
-                entries.push_back(e);
-            }
+namespace {
+
+/// A face of a solid, normal outwards; the fourth of a triangle is -1.
+struct SolidFace {
+    std::array<Index, 4> key, corners;
+
+    explicit SolidFace(const std::array<Index, 4>& nodes) : key(nodes), corners(nodes) {
+        std::sort(key.begin(), key.end() - (nodes[3] < 0 ? 1 : 0));
+    }
+};
+
+void add_faces_of_tetrahedra(const CellBlock& b, std::vector<SolidFace>& out) {
+    out.reserve(out.size() + static_cast<std::size_t>(4 * b.size()));
+    SparseCheck check;
+    for (Index c = 0; c < b.size(); ++c) {
+        check();
+        const auto n = b.nodes(c);
+        for (const auto& f : outward_faces) out.emplace_back(std::array<Index, 4>{n[f[0]], n[f[1]], n[f[2]], -1});
+    }
+}
+
+void add_faces_of_others(const Mesh& mesh, const CellBlock& b, std::vector<SolidFace>& out) {
+    const auto& x = mesh.points;
+    SparseCheck check;
+    for (Index c = 0; c < b.size(); ++c) {
+        check();
+        const auto corners = b.nodes(c).first(static_cast<std::size_t>(traits(b.type).corners));
+        Vec3 middle = Vec3::Zero();
+        for (const Index n : corners) middle += x[n] / static_cast<double>(corners.size());
+        for (const ElementFace& f : faces_of(mesh, {b.type, c})) {
+            if (f.count < 3) continue;
+            std::array<Index, 4> n = f.corners;
+            if (f.count == 3) n[3] = -1;
+            const Vec3 turned = f.count == 3 ? (x[n[1]] - x[n[0]]).cross(x[n[2]] - x[n[0]])
+                                             : (x[n[2]] - x[n[0]]).cross(x[n[3]] - x[n[1]]);
+            if (turned.dot(x[n[0]] - middle) < 0) std::swap(n[0], n[2]);
+            out.emplace_back(n);
         }
     }
+}
+
+}  // namespace
+
+std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh) {
+    std::vector<SolidFace> faces;
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension != 3) continue;
+        if (traits(b.type).simplex)
+            add_faces_of_tetrahedra(b, faces);
+        else
+            add_faces_of_others(mesh, b, faces);
+    }
     check_cancelled();
-    std::ranges::sort(entries, {}, &Entry::key);
+    std::ranges::sort(faces, {}, &SolidFace::key);
     std::vector<SkinTriangle> skin;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        const bool twice = (k > 0 && entries[k].key == entries[k - 1].key) ||
-                           (k + 1 < entries.size() && entries[k].key == entries[k + 1].key);
-        if (!twice) skin.push_back(entries[k].face);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+        if ((k > 0 && faces[k].key == faces[k - 1].key) || (k + 1 < faces.size() && faces[k].key == faces[k + 1].key))
+            continue;
+        const auto& [a, b, c, d] = faces[k].corners;
+        skin.push_back({a, b, c});
+        if (d >= 0) skin.push_back({a, c, d});
     }
     return skin;
 }

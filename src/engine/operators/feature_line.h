@@ -17,7 +17,7 @@ struct Along {
     std::vector<Vec3> points;  ///< near feature lines
 };
 
-/// A feature line of the skin of tetrahedra, from one of its ends to the other; of a closed one the first node is not
+/// A feature line of the skin of solids, from one of its ends to the other; of a closed one the first node is not
 /// repeated at the end.
 struct FeatureLine {
     std::vector<Index> nodes;  ///< indices in the mesh
@@ -27,7 +27,7 @@ struct FeatureLine {
     std::vector<std::array<std::array<Index, 3>, 2>> faces;
 };
 
-/// Triangles of the skin of the mesh's tetrahedra, by corners, normals outwards.
+/// Triangles of the skin of the mesh's solids, by corners, normals outwards; quadrangular faces are two.
 std::vector<std::array<Index, 3>> skin_of(const Mesh& mesh);
 
 /// How a feature line ends, for what is swept along it.

@@ -460,11 +460,13 @@ void check_radius(double radius) {
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
               const Prepared& prepared) {
     check_radius(radius);
+    const auto run = [&](const Mesh& on, const Prepared& known) {
+        Fillet recipe(on, along, radius, options);
+        return perform(recipe, on, options, known);
+    };
     WeldFirst weld(mesh, prepared);  // an edge goes on from one part to what it touches
-    Fillet recipe(weld ? weld.mesh() : mesh, along, radius, options);
-    Result result =
-        weld ? perform(recipe, weld.mesh(), options, weld.known()) : perform(recipe, mesh, options, prepared);
-    if (weld) (void)weld.finish(result, options.strict, options.band_only);
+    Result result = weld ? run(weld.mesh(), weld.known()) : run(mesh, prepared);
+    if (weld && !weld.finish(result, options.strict, options.band_only)) result = run(mesh, prepared);
     if (mesh.dimension() == 3 && !options.band_only) keep_face_nodes(mesh, skin_of(mesh), result);
     return result;
 }

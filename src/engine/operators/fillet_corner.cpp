@@ -28,28 +28,29 @@ using Edge = std::array<int, 2>;
 
 [[noreturn]] void refuse_along(const std::string& text) { throw ToolError("along: " + text, "along"); }
 
-/// The outline of the mesh's triangles: the next node of each, with the material on the left.
+/// The outline of the mesh's elements: the next node of each, with the material on the left.
 class Outline {
 public:
     explicit Outline(const Mesh& mesh) : mesh_(mesh), slack_(mesh) {
         std::set<std::array<Index, 2>> edges;
         double normal_off = 0;
-        for (const CellType type : {CellType::triangle, CellType::triangle6}) {
-            const CellBlock& b = mesh.block(type);
+        for (const CellBlock& b : mesh.blocks()) {
+            if (traits(b.type).dimension != 2) continue;
+            const int corners = traits(b.type).corners;
             for (Index c = 0; c < b.size(); ++c) {
                 const auto n = b.nodes(c);
                 const Vec3 turned =
-                    (mesh.points[n[1]] - mesh.points[n[0]]).cross(mesh.points[n[2]] - mesh.points[n[0]]);
-                const double off = slack_.normal(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]);
+                    (mesh.points[n[1]] - mesh.points[n[0]]).cross(mesh.points[n[corners - 1]] - mesh.points[n[0]]);
+                const double off = slack_.normal(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[corners - 1]]);
                 if (normal.isZero() || off < normal_off) {
                     normal = turned.normalized();
                     normal_off = off;
                 }
                 if ((turned.normalized() - normal).norm() > 1.4e-3 + off + normal_off)
                     refuse_along(
-                        "the mesh is not plane, or its triangles are not turned all the same way; edges of "
+                        "the mesh is not plane, or its elements are not turned all the same way; edges of "
                         "curved shells are not rounded");
-                for (int k = 0; k < 3; ++k) edges.insert({n[k], n[(k + 1) % 3]});
+                for (int k = 0; k < corners; ++k) edges.insert({n[k], n[(k + 1) % corners]});
             }
         }
         for (const auto& [a, b] : edges)

@@ -21,6 +21,7 @@
 #include "operators/changed_quality.h"
 #include "operators/driver.h"
 #include "operators/edit.h"
+#include "operators/simplify_first.h"
 #include "operators/warnings.h"
 #include "operators/weld_first.h"
 
@@ -214,9 +215,9 @@ Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, 
     return report;
 }
 
-/// On a mesh whose double nodes, if any, are single.
-Result reshape_on(const Mesh& input, Covered covered, const ReshapeOptions& options, const Naming& naming,
-                  const Prepared& known) {
+/// On a mesh whose double nodes, if any, are single, and which has simplices alone around the wall.
+Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOptions& options, const Naming& naming,
+                         const Prepared& known) {
     Laps seconds;
     Stopwatch watch(seconds);
     WallMotion motion = motion_of(options);
@@ -255,6 +256,88 @@ Result reshape_on(const Mesh& input, Covered covered, const ReshapeOptions& opti
     return result;
 }
 
+/// Corners of what a group covers, or its own.
+std::vector<char> nodes_of(const Mesh& mesh, GroupIndex group) {
+    std::vector<char> out(mesh.points.size(), 0);
+    for (Index n = 0; n < mesh.node_count(); ++n) out[n] = mesh.families.contains(mesh.node_families[n], group);
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c)
+            if (mesh.families.contains(b.families[c], group))
+                for (const Index n : b.nodes(c)) out[n] = 1;
+    for (const Facet& f : mesh.facets) {
+        if (!mesh.families.contains(f.family, group)) continue;
+        const CellTraits& t = traits(f.type);
+        const auto n = mesh.block(f.type).nodes(f.cell);
+        const auto add = [&](std::int8_t k) {
+            if (k >= 0) out[n[k]] = 1;
+        };
+        if (t.dimension == 3)
+            std::ranges::for_each(t.faces[f.face - 1], add);
+        else if (f.face >= 3)
+            std::ranges::for_each(t.edges[f.face - 3], add);
+        else
+            for (const Index v : n) out[v] = 1;
+    }
+    return out;
+}
+
+/// How far the motion takes a group's nodes, in the mean length of the edges at them.
+double edges_moved(const Mesh& mesh, const std::vector<char>& wall, const WallMotion& motion) {
+    double farthest = 0, length = 0;
+    Index edges = 0;
+    for (std::size_t n = 0; n < wall.size(); ++n)
+        if (wall[n]) {
+            const Vec3& x = mesh.points[n];
+            farthest =
+                std::max(farthest, motion.onto ? std::abs(motion.onto->distance(x)) : (motion.carried(x) - x).norm());
+        }
+    for (const CellBlock& b : mesh.blocks())
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (const auto& e : traits(b.type).edges) {
+                if (!wall[n[e[0]]] || !wall[n[e[1]]]) continue;
+                length += (mesh.points[n[e[0]]] - mesh.points[n[e[1]]]).norm();
+                ++edges;
+            }
+        }
+    return edges == 0 ? 0 : farthest * static_cast<double>(edges) / length;
+}
+
+/// Makes simplices of what else is around the wall first, as far as the band reaches.
+Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Naming& naming,
+                  const Prepared& known, std::optional<GroupIndex> weld = {}) {
+    const auto on = [&](const Mesh& mesh, const Prepared& prepared) {
+        return reshape_simplices(mesh, covered_by(mesh, find(mesh, group), weld), options, naming, prepared);
+    };
+    const bool simple =
+        std::ranges::all_of(input.blocks(), [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
+    if (simple) return on(input, known);
+    const std::vector<char> wall = nodes_of(input, find(input, group));
+    const double edges = edges_moved(input, wall, motion_of(options));
+    const double wanted = least_rings + std::ceil(rings_per_edge * std::min(edges, 1e3));
+    for (int rings = std::min(most_rings, static_cast<int>(wanted));; rings *= 2) {
+        const Stopwatch::Time started = Stopwatch::now();
+        std::vector<std::int8_t> level(input.points.size(), -1);
+        for (std::size_t n = 0; n < wall.size(); ++n) level[n] = wall[n] ? 0 : -1;
+        spread_levels(input, level, std::min(rings, 2 * most_rings), known.adjacency);
+        const std::optional<Refined> converted = simplify_first(input, level, known);
+        if (!converted) return on(input, known);
+        const double seconds = Stopwatch::since(started);
+        const std::size_t stages = known.stages ? known.stages->size() : 0;
+        if (known.stages) known.stages->push_back(converted->trace.changes);
+        try {
+            Result result = on(converted->mesh, known.renewed ? known.renewed(converted->mesh) : Prepared{});
+            add_conversion(*converted, options.strict, result.report);
+            result.report.seconds.insert(result.report.seconds.begin(), {"convert", seconds});
+            return result;
+        } catch (const UnsupportedElementError&) {
+            // What moves with the wall reaches farther.
+            if (rings > 2 * most_rings) throw;
+            if (known.stages) known.stages->resize(stages);
+        }
+    }
+}
+
 }  // namespace
 
 Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Prepared& known) {
@@ -264,12 +347,11 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     check_name(input, options.name, naming);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
     WeldFirst weld(input, known);
-    Covered covered = covered_by(input, find(input, group));
-    if (!weld) return reshape_on(input, std::move(covered), options, naming, known);
-    weld.make_single(covered.parts);
-    Result result = reshape_on(weld.mesh(), std::move(covered), options, naming, weld.known());
-    (void)weld.finish(result, options.strict);
-    return result;
+    if (weld) {
+        Result result = reshape_on(weld.mesh(), group, options, naming, weld.known(), weld.faces());
+        if (weld.finish(result, options.strict)) return result;
+    }
+    return reshape_on(input, group, options, naming, known);
 }
 
 }  // namespace femscalpel

@@ -127,8 +127,7 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::i
     return out;
 }
 
-Refined joined(const Refined& converted, Refined refined, bool strict) {
-    Report& report = refined.report;
+void add_conversion(const Refined& converted, bool strict, Report& report) {
     const Report& first = converted.report;
     std::vector<std::string> warnings = first.warnings;
     std::ranges::move(warnings_of(converted.trace.deck, strict), std::back_inserter(warnings));
@@ -139,12 +138,16 @@ Refined joined(const Refined& converted, Refined refined, bool strict) {
     report.nodes_split += first.nodes_split;
     report.nodes_removed += first.nodes_removed;
     report.elements_added += first.elements_added;
-    for (std::size_t g = 0; g < report.groups.size(); ++g) {
+    for (std::size_t g = 0; g < first.groups.size(); ++g) {
         report.groups[g].count_before = first.groups[g].count_before;
         report.groups[g].measure_before = first.groups[g].measure_before;
         if (report.groups[g].status == "untouched" && first.groups[g].count_before != first.groups[g].count_after)
             report.groups[g].status = first.groups[g].status;
     }
+}
+
+Refined joined(const Refined& converted, Refined refined, bool strict) {
+    add_conversion(converted, strict, refined.report);
     std::unordered_map<Index, Index> parents;
     Changes changes = converted.trace.changes;
     for (const Changes::Part& p : changes.parts) parents.emplace(p.element, p.parent);

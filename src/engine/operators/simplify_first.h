@@ -25,6 +25,9 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::i
 /// The same for what a refinement would have to bisect. Nothing where that is simplices alone.
 std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance, const BisectionOptions& options);
 
+/// Makes the report of what was done to what a conversion made one of both.
+void add_conversion(const Refined& converted, bool strict, Report& report);
+
 /// A conversion and then a refinement of what it made, as one change.
 Refined joined(const Refined& converted, Refined refined, bool strict);
 

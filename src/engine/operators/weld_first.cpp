@@ -160,17 +160,6 @@ void WeldFirst::pin_fronts() {
     pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
 }
 
-void WeldFirst::make_single(std::vector<std::array<Index, 3>>& parts) const {
-    const std::vector<Index> now = welded_->single_nodes();
-    for (auto& part : parts) {
-        const auto end = part.begin() + (part[2] < 0 ? 2 : 3);
-        std::transform(part.begin(), end, part.begin(), [&](Index n) { return now[n]; });
-        std::sort(part.begin(), end);
-    }
-    std::ranges::sort(parts);
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-}
-
 bool WeldFirst::is_near(std::span<const Blade> blades) const {
     const Mesh& mesh = welded_->mesh;
     std::vector<double> length(mesh.points.size(), -1);

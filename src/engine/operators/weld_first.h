@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,9 +30,8 @@ public:
 
     const Mesh& mesh() const { return welded_->mesh; }
 
-    /// Has faces and edges of the input, by their nodes (-1: none), name nodes that mesh() has in elements: ascending,
-    /// each once.
-    void make_single(std::vector<std::array<Index, 3>>& parts) const;
+    /// The group of mesh() that holds the faces which were made single.
+    GroupIndex faces() const { return welded_->faces; }
 
     /// What an operation on mesh() is to know; see Prepared.
     Prepared known();
