@@ -180,11 +180,12 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
     Parameters
     ----------
     mesh : Mesh
-        Tetrahedra near the edge, or a plane mesh of triangles, linear or quadratic.
+        Solids, or a plane mesh of shells, linear or quadratic; what is not tetrahedra or triangles near the edge
+        becomes so first.
     along : str, list or array of int, tuple of three numbers, or array of shape (n, 3)
         The edges: a group of segments or nodes, numbers of nodes, or a point or points near feature lines of the skin.
         Each is rounded as far as it goes on without a corner. It must be straight or an arc of a circle, between
-        planes, or cylinders and cones about the circle's axis. In a plane mesh of triangles, corners of its outline.
+        planes, or cylinders and cones about the circle's axis. In a plane mesh, corners of its outline.
     radius : number
         Of the ball.
     name : str
@@ -544,9 +545,9 @@ def reshape(
     Parameters
     ----------
     mesh : Mesh
-        Triangles (shells) and tetrahedra, linear or quadratic, near the wall; anything elsewhere.
+        Shells or solids, linear or quadratic; what is not triangles or tetrahedra near the wall becomes so first.
     group : str
-        What is moved. In a solid: a group of triangles or facets on tetrahedra (also between two groups inside the
+        What is moved. In a solid: a group of faces or facets of solids (also between two groups inside the
         material), or of nodes, which stands for the faces of the skin all of whose corners are members. In a mesh of
         shells: of segments or facets on their border, or of its nodes.
     onto : Tool, optional
