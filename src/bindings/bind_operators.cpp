@@ -10,6 +10,7 @@
 #include "bindings.h"
 #include "interruptible.h"
 #include "operators/crack.h"
+#include "operators/crack_faces.h"
 #include "operators/cut.h"
 #include "operators/drill.h"
 #include "operators/fillet.h"
@@ -189,6 +190,12 @@ void bind_functions(py::module_& module) {
             return crack(mesh, tool, o, known);
         },
         py::arg("tool"), py::arg("options"), py::arg("within"));
+    bind_operator<const std::string&, const OperatorOptions&>(
+        module, "crack_along_faces",
+        [](const Mesh& mesh, const Prepared& known, const std::string& faces, const OperatorOptions& options) {
+            return crack_along_faces(mesh, faces, with<CrackOptions>(options), known);
+        },
+        py::arg("faces"), py::arg("options"));
     bind_operator<const Tools&, const OperatorOptions&, std::optional<double>>(
         module, "drill",
         [](const Mesh& mesh, const Prepared& known, const Tools& tools, const OperatorOptions& options,

@@ -10,9 +10,9 @@
 #include "cancel.h"
 #include "error.h"
 #include "io/atomic_file.h"
-#include "io/facet_element.h"
 #include "io/med.h"
 #include "io/med_library.h"
+#include "mesh/facet_element.h"
 
 namespace femscalpel {
 namespace {

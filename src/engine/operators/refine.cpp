@@ -251,8 +251,8 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
         return result;
     }
     std::ranges::move(stages, std::back_inserter(weld.stages()));
-    (void)weld.finish(result, options.strict);
-    return result;
+    if (weld.finish(result, options.strict)) return result;
+    return refine_on(input, distance, options, stages, started);
 }
 
 std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,

@@ -240,6 +240,11 @@ def crack(
 ) -> tuple[Mesh, dict[str, Any]]: ...
 
 @overload
+def crack_along_faces(mesh: Mesh, faces: str, options: Options) -> tuple[Mesh, dict[str, Any]]: ...
+@overload
+def crack_along_faces(session: Scalpel, faces: str, options: Options) -> tuple[Mesh, dict[str, Any]]: ...
+
+@overload
 def cut(
     mesh: Mesh,
     positive: Tool,

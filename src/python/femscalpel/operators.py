@@ -11,7 +11,7 @@ from .mesh import Mesh, check_mesh
 from .options import ShapeOption, check_feature_angle, check_preserve, on_session, takes_options
 from .report import Report
 from .skin import check_skin
-from .tools import Plane, Tool, check_tool
+from .tools import Faces, Plane, Tool, check_tool
 from .within import Within, check_within
 
 
@@ -35,7 +35,7 @@ def _run(operator, mesh, *arguments) -> Result:
 
 
 @takes_options("CRACK", after={"within": "band_only"})
-def crack(mesh: Mesh, tool: Tool, within: Optional[Within] = None, *, options) -> Result:
+def crack(mesh: Mesh, tool: Union[Tool, Faces], within: Optional[Within] = None, *, options) -> Result:
     """Cracks a mesh along a tool, or along a part of it.
 
     Element faces (edges, in a shell mesh) are brought onto the tool, then each side gets its own copy of the
@@ -53,8 +53,8 @@ def crack(mesh: Mesh, tool: Tool, within: Optional[Within] = None, *, options) -
     ----------
     mesh : Mesh
         Triangles (shells) and tetrahedra, linear or quadratic, near the tool; anything elsewhere.
-    tool : Tool
-        For example :class:`Plane`.
+    tool : Tool or Faces
+        For example :class:`Plane`; or :class:`Faces` that the mesh has already.
     name : str
         Prefix of the new groups: ``name_P`` and ``name_N``, the lip faces on the tool's positive and negative
         side, and, if the sides hang together at some nodes, ``name_FRONT`` with these. The groups' names must be new
@@ -92,6 +92,10 @@ def crack(mesh: Mesh, tool: Tool, within: Optional[Within] = None, *, options) -
     >>> result = crack(mesh, Plane(origin=(7.3, 5, 5), normal=(0.9, 0.3, 0.2)))
     >>> result.mesh.groups["CRACK_P"].ids
     """
+    if isinstance(tool, Faces):
+        if within is not None:
+            raise _arguments.about("within", ValueError("within has no meaning for a crack along faces"))
+        return _run(_engine.crack_along_faces, mesh, tool.group, options)
     return _run(_engine.crack, mesh, check_tool(tool), options, check_within(within))
 
 

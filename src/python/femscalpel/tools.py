@@ -16,7 +16,7 @@ import numpy as np
 from . import _arguments, _engine
 from .signatures import bind
 
-__all__ = ["Cone", "Cylinder", "Face", "Plane", "Sphere", "Tool", "Torus"]
+__all__ = ["Cone", "Cylinder", "Face", "Faces", "Plane", "Sphere", "Tool", "Torus"]
 
 Tool = _engine.Tool
 Vector = Tuple[float, float, float]
@@ -290,6 +290,27 @@ class Face(_engine.Face):
 
     def __repr__(self) -> str:
         return getattr(self, "_text", "Face()")
+
+
+class Faces:
+    """Faces that a mesh has already, for :func:`crack`: elements of any type come apart there, and none moves.
+
+    Parameters
+    ----------
+    group : str
+        A group that covers faces inside the solids (in a mesh of shells: edges between them): of elements on the faces,
+        of facets, or of nodes, which stands for the faces all of whose corners are members. The negative side, which
+        keeps its nodes, is that of the solids whose facets they are, or the one that the elements' normals point away
+        from (of segments: the left); with a group of nodes, normals point to larger x, y or z.
+    """
+
+    __slots__ = ("group",)
+
+    def __init__(self, group: str):
+        self.group = _arguments.text(group, "group")
+
+    def __repr__(self) -> str:
+        return f"Faces({self.group!r})"
 
 
 def check_tool(tool, name: str = "tool"):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "io/facet_element.h"
+#include "mesh/facet_element.h"
 
 #include <span>
 

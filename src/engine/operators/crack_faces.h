@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "operators/options.h"
+#include "operators/prepared.h"
+#include "operators/report.h"
+
+namespace femscalpel {
+
+/// Cracks `mesh` along faces that it has: those that the group `faces` covers (part_along()). Elements may be of any
+/// type; none moves, none is split. Of the options, `name` and `strict` count.
+///
+/// New groups: NAME_P and NAME_N, the lips; NAME_FRONT, segments along the edges where the crack ends inside a solid,
+/// in shells the nodes at its tips. Throws ToolError (bad name, no such group, nothing to part) and what carry_deck()
+/// does.
+Result crack_along_faces(const Mesh& mesh, const std::string& faces, const OperatorOptions& options,
+                         const Prepared& prepared = {});
+
+}  // namespace femscalpel

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cracks along faces that a mesh has: elements of any type, none moved."""
+
+import numpy as np
+import pytest
+from contact_cases import TETRA_OF_CUBE
+from meshes import quadratic
+from mixed_meshes import FACES, grid, outer_area, prisms_of, second_order
+from test_conversion import deck, largest_error, needs_ccx
+
+import femscalpel as fs
+
+KINDS = ("hexahedron", "hexahedron20", "tetra", "tetra10", "wedge", "wedge15")
+
+
+def box(kind, counts=(6, 4, 4), jitter=0.0):
+    points, cells = grid(counts, jitter)
+    order = 2 if kind[-1].isdigit() else 1
+    name = kind.rstrip("0123456789")
+    if name == "tetra":
+        cells = cells[:, TETRA_OF_CUBE].reshape(-1, 4)
+    elif name == "wedge":
+        cells = prisms_of(cells)
+    if kind == "tetra10":
+        mesh = quadratic(fs.Mesh(points, {"tetra": cells}))
+        return fs.Mesh(mesh.points, mesh.cells)
+    if order == 2:
+        points, cells = second_order(points, cells, name)
+    return fs.Mesh(points, {kind: cells})
+
+
+def name_nodes(mesh, name, chosen):
+    mesh.add_group(name, "node", mesh.node_ids[chosen])
+
+
+def lip_area(mesh, group):
+    ids = mesh.groups[group, "element"].ids
+    return sum(v[np.isin(mesh.cell_ids[k], ids)].sum() for k, v in fs.measure(mesh).items() if len(v))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_part_of_a_section(kind):
+    mesh = box(kind)
+    x = mesh.points
+    name_nodes(mesh, "SECTION", (x[:, 0] == 3) & (x[:, 2] >= 2))
+    result = fs.crack(mesh, fs.Faces("SECTION"), name="T")
+    after = result.mesh
+    assert lip_area(after, "T_N") == pytest.approx(8) == lip_area(after, "T_P")
+    assert outer_area(after) == pytest.approx(128 + 16)
+    front = after.groups["T_FRONT", "element"]
+    ((line, segments),) = [(k, c) for k, c in after.cells.items() if k.startswith("line")]
+    assert len(front.ids) == 4 and (segments[1:, 0] == segments[:-1, 1]).all()
+    on_front = after.points[segments]
+    assert (on_front[..., 0] == 3).all() and (on_front[..., 2] == 2).all()
+    assert result.report.nodes_doubled == after.node_count - mesh.node_count > 0
+    # The copies are those of the positive side, in the groups of the originals.
+    new = after.node_ids[mesh.node_count :]
+    for name, sign in (("T_N", -1), ("T_P", 1)):
+        ids = after.groups[name, "element"].ids
+        nodes = np.unique(np.concatenate([c[np.isin(after.cell_ids[k], ids)].ravel() for k, c in after.cells.items()]))
+        assert np.isin(after.node_ids[nodes], new).any() == (sign > 0)
+    assert set(new) <= set(after.groups["SECTION", "node"].ids)
+    assert (after.points[: mesh.node_count] == mesh.points).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_around_elements_chosen_at_random(kind):
+    """They come off all around, and nothing else does."""
+    rng = np.random.default_rng(7)
+    for _ in range(6):
+        mesh = box(kind, (5, 4, 3), 0.15)
+        ((_, cells),) = mesh.cells.items()
+        chosen = rng.random(len(cells)) < rng.uniform(0.1, 0.6)
+        faces = [
+            (number, k + 1)
+            for number, cell in zip(mesh.cell_ids[kind][chosen], cells[chosen])
+            for k in range(len(FACES[kind.rstrip("0123456789")]))
+        ]
+        mesh.add_group("FACES", "facet", np.array(faces))
+        mesh.add_group("ALL", "element", mesh.cell_ids[kind])
+        after = fs.crack(mesh, fs.Faces("FACES"), name="T").mesh
+        assert not np.intersect1d(after.cells[kind][chosen], after.cells[kind][~chosen]).size
+        count = {}
+        for cell in after.cells[kind][~chosen]:
+            for face in FACES[kind.rstrip("0123456789")]:
+                key = frozenset(cell[list(face)].tolist())
+                count[key] = count.get(key, 0) + 1
+        before = {}
+        for cell in cells[~chosen]:
+            for face in FACES[kind.rstrip("0123456789")]:
+                key = frozenset(cell[list(face)].tolist())
+                before[key] = before.get(key, 0) + 1
+        assert sorted(count.values()) == sorted(before.values())
+        assert fs.measure(after)[kind].sum() == pytest.approx(60, rel=1e-9)
+        assert lip_area(after, "T_N") == pytest.approx(lip_area(after, "T_P"))
+
+
+def test_elements_on_the_faces_get_twins_in_their_groups():
+    mesh = box("hexahedron")
+    quads = np.array([f for c in mesh.cells["hexahedron"] for f in c[np.array(FACES["hexahedron"])]])
+    x = mesh.points[quads]
+    on = quads[(x[..., 0] == 3).all(axis=1)]
+    _, first = np.unique(np.sort(on, axis=1), axis=0, return_index=True)
+    out = fs.Mesh(mesh.points, {"hexahedron": mesh.cells["hexahedron"], "quad": on[first]})
+    out.add_group("WALL", "element", out.cell_ids["quad"])
+    result = fs.crack(out, fs.Faces("WALL"), name="T")
+    after = result.mesh
+    assert len(after.groups["WALL", "element"].ids) == 32 == len(after.cells["quad"])
+    assert len(after.groups["T_N", "element"].ids) == 16 == len(after.groups["T_P", "element"].ids)
+    (wall,) = [g for g in result.report.groups if g.name == "WALL"]
+    assert (wall.measure_before, wall.measure_after) == (16, 32)
+    assert outer_area(after) == pytest.approx(128 + 32)
+
+
+def test_shells():
+    points, cells = grid((6, 4))
+    mesh = fs.Mesh(points, {"quad": cells})
+    name_nodes(mesh, "LINE", (points[:, 0] == 3) & (points[:, 1] >= 2))
+    after = fs.crack(mesh, fs.Faces("LINE"), name="T").mesh
+    assert after.node_count == mesh.node_count + 2 and len(after.cells["line"]) == 4
+    ((tip,),) = [after.points[np.isin(after.node_ids, after.groups["T_FRONT", "node"].ids)].tolist()]
+    assert tip == [3, 2, 0]
+
+
+def test_what_cannot_be_parted_is_told():
+    mesh = box("hexahedron")
+    x = mesh.points
+    name_nodes(mesh, "OUTSIDE", x[:, 0] == 0)
+    name_nodes(mesh, "ROW", (x[:, 0] == 3) & (x[:, 1] == 2))
+    name_nodes(mesh, "ONE", (x[:, 0] == 3) & (np.abs(x[:, 1:] - 1.5) < 1).all(axis=1))
+    mesh.add_group("ALL", "element", mesh.cell_ids["hexahedron"])
+    name_nodes(mesh, "MIDDLE", x[:, 0] == 3)
+    for group, text in (
+        ("OUTSIDE", "lies on the outside"),
+        ("ROW", "covers no face"),
+        ("ONE", "none could be opened"),
+        ("ALL", "has hexahedron elements"),
+        ("NONE", "has no group 'NONE'"),
+    ):
+        with pytest.raises(fs.ToolError, match=text):
+            fs.crack(mesh, fs.Faces(group))
+    with pytest.raises(ValueError, match="within has no meaning"):
+        fs.crack(mesh, fs.Faces("MIDDLE"), within=fs.Disk((3, 2, 2), 1))
+    once = fs.crack(mesh, fs.Faces("MIDDLE"), name="A").mesh
+    with pytest.raises(fs.ToolError, match="open there already"):
+        fs.crack(once, fs.Faces("MIDDLE"), name="B")
+    assert repr(fs.Faces("MIDDLE")) == "Faces('MIDDLE')"
+
+
+@needs_ccx
+@pytest.mark.parametrize("kind, label", [("hexahedron", "C3D8"), ("hexahedron20", "C3D20"), ("tetra10", "C3D10")])
+def test_the_deck_follows(tmp_path, kind, label):
+    """With the lips tied a linear field is exact, and loads on both sides stay."""
+    mesh = box(kind, (6, 4, 4), 0.15)
+    ((_, cells),) = mesh.cells.items()
+    section = np.nonzero((np.abs(mesh.points[:, 0] - 3) < 0.5) & (mesh.points[:, 2] > 1.5))[0]
+    sets = ["*NSET, NSET=SECTION", *(str(n + 1) for n in section)]
+    sets += ["*SOLID SECTION, ELSET=EALL, MATERIAL=M"]
+    mesh = deck(tmp_path, mesh.points, cells, label, "\n".join(sets))
+    result = fs.crack(mesh, fs.Faces("SECTION"), name="T")
+    assert result.report.nodes_doubled > 0 and not result.report.warnings
+    assert largest_error(tmp_path, result.mesh, (6, 4, 4), (0, 1, 2)) < 1e-7
