@@ -22,6 +22,7 @@ from femscalpelobjects.cut import Cut
 from femscalpelobjects.cylindrical_crack import CylindricalCrack
 from femscalpelobjects.drill import Drill
 from femscalpelobjects.example import open_example
+from femscalpelobjects.face_crack import FaceCrack
 from femscalpelobjects.group_names import rename_group
 from femscalpelobjects.make_material import makeFillet, makeMerge, makeReshape  # noqa: F401
 from femscalpelobjects.making import check_source, make, make_along_tool, placement_of
@@ -186,6 +187,27 @@ def makeCurvedCrack(
     Returns and raises as makeCrack().
     """
     return make_along_tool(doc, CurvedCrack, source, name, tool, (placement, origin, axis), inputs, options)
+
+
+@takes(options=operator_options.arguments("group_name", group_name="CRACK"))
+def makeFaceCrack(doc, source, group, name="FaceCrack", *, options):
+    """Adds a parametric mesh object to `doc`: the mesh of `source`, cracked along faces that it has.
+
+    Elements may be of any type; none moves.
+
+    Parameters
+    ----------
+    doc, source, name
+        As for makeCrack().
+    group : str
+        A mesh group of faces inside the solids (in a shell: of edges), or of nodes, which stands for the faces all of
+        whose corners are members; see femscalpel.Faces.
+    {options}
+
+    Returns and raises as makeCrack().
+    """
+    check_source(doc, source)
+    return make(doc, FaceCrack, source, name, options, Group=group)
 
 
 @takes(options=operator_options.arguments(group_name="HOLE"))

@@ -98,6 +98,22 @@ class Operators(DocumentTest):
         self.doc.recompute()
         self.assertIn("ToolFace is not set", crack.getStatusString())
 
+    def test_crack_along_faces_of_a_group(self):
+        cells = self.mesh.cells["tetra"]
+        sides = [cells[np.isin(self.mesh.cell_ids["tetra"], self.mesh.groups[g].ids)] for g in ("LEFT", "RIGHT")]
+        self.mesh.add_group("SECTION", "node", self.mesh.node_ids[np.intersect1d(*sides)])
+        source = self.add_source(self.mesh)
+        with self.assertRaisesRegex(TypeError, "group"):
+            ObjectsFemScalpel.makeFaceCrack(self.doc, source)
+        crack = ObjectsFemScalpel.makeFaceCrack(self.doc, source, "SECTION", group_name="F")
+        expected = fs.crack(self.mesh, fs.Faces("SECTION"), name="F")
+        self.assertGreater(expected.report.nodes_doubled, 20)
+        self.check(crack, expected)
+        for group, text in (("LEFT", "has tetra elements"), ("", "Group is not set"), ("NONE", "no group 'NONE'")):
+            crack.Group = group
+            self.doc.recompute()
+            self.assertIn(text, crack.getStatusString())
+
     def test_refinement_first(self):
         for refine in (None, False, 0.4):
             with self.subTest(refine=refine):
@@ -214,6 +230,7 @@ class Operators(DocumentTest):
                 "angles=(0,360) refine=None",
             ),
             ("makeCurvedCrack", "CRACK", f"name=CurvedCrack tool=Sphere {curved} {common} face=None refine=None"),
+            ("makeFaceCrack", "CRACK", "group name=FaceCrack group_name={}"),
             (
                 "makeDrill",
                 "HOLE",
