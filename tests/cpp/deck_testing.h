@@ -104,7 +104,7 @@ inline Block block() {
     return out;
 }
 
-inline constexpr int faces_of[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};  // CalculiX's S1 to S4
+inline constexpr int solver_faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};  // CalculiX's S1 to S4
 
 /// (element, face) of the block on the plane z = 2.
 inline std::vector<std::pair<Index, int>> top_faces() {
@@ -112,7 +112,7 @@ inline std::vector<std::pair<Index, int>> top_faces() {
     const Block b = block();
     for (std::size_t e = 0; e < b.tetras.size(); ++e)
         for (int f = 0; f < 4; ++f)
-            if (std::ranges::all_of(faces_of[f], [&](int v) { return b.tetras[e][v] >= node_at(0, 0, nz); }))
+            if (std::ranges::all_of(solver_faces[f], [&](int v) { return b.tetras[e][v] >= node_at(0, 0, nz); }))
                 out.push_back({static_cast<Index>(e) + 1, f + 1});
     return out;
 }
@@ -202,7 +202,7 @@ inline double surface_area(const Mesh& mesh, const std::string& name, const std:
         const auto n = mesh.block(f.type).nodes(f.cell);
         std::array<Vec3, 3> p;
         for (int k = 0; k < 3; ++k) {
-            p[k] = mesh.points[n[faces_of[f.face - 1][k]]];
+            p[k] = mesh.points[n[solver_faces[f.face - 1][k]]];
             EXPECT_TRUE(holds(p[k])) << name << " has a wrong face of element " << mesh.block(f.type).ids[f.cell];
         }
         area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;

@@ -168,7 +168,7 @@ TEST_F(DeckAfterRemoval, LoadedAreaIsThatOfWhatIsLeft) {
         const auto n = after.block(cell.type).nodes(cell.cell);
         std::array<Vec3, 3> p;
         for (int k = 0; k < 3; ++k) {
-            p[k] = after.points[n[faces_of[r[1][1] - '1'][k]]];
+            p[k] = after.points[n[solver_faces[r[1][1] - '1'][k]]];
             EXPECT_NEAR(p[k].z(), nz, 1e-12);
         }
         area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;

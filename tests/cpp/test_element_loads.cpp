@@ -26,8 +26,8 @@ std::map<std::string, double> loaded_area(const Mesh& mesh, const std::string& k
             EXPECT_TRUE(seen.insert({e, face}).second) << e << " is loaded twice";
             const CellRef c = *numbers.cell(e);
             const auto n = mesh.block(c.type).nodes(c.cell);
-            const Vec3 a = mesh.points[n[faces_of[face - 1][0]]], b = mesh.points[n[faces_of[face - 1][1]]],
-                       d = mesh.points[n[faces_of[face - 1][2]]];
+            const Vec3 a = mesh.points[n[solver_faces[face - 1][0]]], b = mesh.points[n[solver_faces[face - 1][1]]],
+                       d = mesh.points[n[solver_faces[face - 1][2]]];
             for (const Vec3& p : {a, b, d}) EXPECT_NEAR(p.z(), 2, 1e-12) << keyword << " on a wrong face of " << e;
             out[r.back()] += (b - a).cross(d - a).norm() / 2;
         }
@@ -41,7 +41,7 @@ TEST_F(ElementLoadsRule, FaceLoadsReachAllPiecesAndKeepTheirArea) {
     const Block b = block();
     for (const auto& [e, f] : top_faces()) {
         double x = 0, y = 0;
-        for (const int v : faces_of[f - 1]) {
+        for (const int v : solver_faces[f - 1]) {
             x += static_cast<double>((b.tetras[e - 1][v] - 1) % 5) / 3;
             y += static_cast<double>((b.tetras[e - 1][v] - 1) / 5 % 3) / 3;
         }

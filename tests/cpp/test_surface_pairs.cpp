@@ -21,7 +21,7 @@ TEST_F(SurfacePairsRule, SurfacesOfTiesContactAndLoadsFollow) {
     const Block b = block();
     for (std::size_t e = 0; e < b.tetras.size(); ++e)
         for (int f = 0; f < 4; ++f)
-            if (std::ranges::all_of(faces_of[f], [&](int v) { return b.tetras[e][v] % (nx + 1) == 0; }))
+            if (std::ranges::all_of(solver_faces[f], [&](int v) { return b.tetras[e][v] % (nx + 1) == 0; }))
                 end += std::to_string(e + 1) + ", S" + std::to_string(f + 1) + "\n";
     for (int j = 0; j <= ny; ++j)
         for (int i = 0; i <= nx; ++i) {

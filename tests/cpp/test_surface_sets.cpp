@@ -43,7 +43,7 @@ std::vector<std::pair<Index, int>> faces_on_top() {
     const Block b = turned_block();
     for (std::size_t e = 0; e < b.tetras.size(); ++e)
         for (int f = 0; f < 4; ++f)
-            if (std::ranges::all_of(faces_of[f], [&](int v) { return b.tetras[e][v] >= node_at(0, 0, nz); }))
+            if (std::ranges::all_of(solver_faces[f], [&](int v) { return b.tetras[e][v] >= node_at(0, 0, nz); }))
                 out.push_back({static_cast<Index>(e) + 1, f + 1});
     return out;
 }
