@@ -95,6 +95,26 @@ def test_around_elements_chosen_at_random(kind):
         assert lip_area(after, "T_N") == pytest.approx(lip_area(after, "T_P"))
 
 
+@pytest.mark.parametrize("kind", ["hexahedron", "hexahedron20", "wedge", "wedge15"])
+def test_a_plane_between_elements_converts_none(kind):
+    mesh = box(kind)
+    mesh.add_group("ALL", "element", mesh.cell_ids[kind])
+    for normal in ((1, 0, 0), (-1, 0, 0)):
+        result = fs.crack(mesh, fs.Plane((3, 2, 2), normal), name="T")
+        assert not result.report.converted and len(result.mesh.cells[kind]) == len(mesh.cells[kind])
+        assert outer_area(result.mesh) == pytest.approx(128 + 32)
+        ids = result.mesh.groups["T_P", "element"].ids
+        lip = np.isin(result.mesh.cell_ids["quad8" if kind[-1].isdigit() else "quad"], ids)
+        assert lip.sum() == 16
+        # New nodes, at elements that the normal points to.
+        new = np.arange(mesh.node_count, result.mesh.node_count)
+        at = [c for c in result.mesh.cells[kind] if np.isin(c, new).any()]
+        assert all(result.mesh.points[c][:, 0].mean() * normal[0] > 3 * normal[0] for c in at)
+        part = fs.crack(mesh, fs.Plane((3, 2, 2), normal), name="T", band_only=True).mesh
+        assert 0 < len(part.cells[kind]) < len(mesh.cells[kind])
+    assert fs.crack(mesh, fs.Plane((3.2, 2, 2), (1, 0, 0)), name="T").report.converted
+
+
 def test_elements_on_the_faces_get_twins_in_their_groups():
     mesh = box("hexahedron")
     quads = np.array([f for c in mesh.cells["hexahedron"] for f in c[np.array(FACES["hexahedron"])]])

@@ -2,6 +2,7 @@
 #include "cutting/part_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -45,9 +46,23 @@ public:
     Parter(const Mesh& mesh, GroupIndex group, const Numbering& numbering)
         : mesh_(mesh), group_(group), dimension_(mesh.dimension()), next_(numbering) {}
 
-    Parted run(const PartedNames& names) {
+    Parter(const Mesh& mesh, const std::vector<double>& distance, double rounding, const Numbering& numbering)
+        : Parter(mesh, -1, numbering) {
+        distance_ = &distance;
+        rounding_ = rounding;
+    }
+
+    bool finds_faces() {
         find_wanted();
         find_owners();
+        return !faces_.empty();
+    }
+
+    Parted run(const PartedNames& names) {
+        if (faces_.empty()) {
+            find_wanted();
+            find_owners();
+        }
         orient();
         find_parts();
         out_.mesh = mesh_;
@@ -62,6 +77,7 @@ public:
 
 private:
     [[noreturn]] void refuse(const std::string& why) const {
+        if (distance_) throw ToolError("what lies on the tool " + why, "tool");
         throw ToolError("group '" + mesh_.groups[group_].name + "' " + why, "group");
     }
     std::string what() const { return dimension_ == 3 ? "face" : "edge"; }
@@ -91,6 +107,10 @@ private:
             for (const Index n : nodes) reached_[n] = 1;
             return faces_[key_of(nodes)];
         };
+        if (distance_) {
+            for (std::size_t n = 0; n < reached_.size(); ++n) reached_[n] = std::abs((*distance_)[n]) <= rounding_;
+            return;
+        }
         const GroupKind kind = mesh_.groups[group_].kind;
         if (kind == GroupKind::node) {
             for (std::size_t n = 0; n < reached_.size(); ++n) reached_[n] = has(mesh_.node_families[n]);
@@ -129,7 +149,7 @@ private:
     }
 
     void find_owners() {
-        const bool by_nodes = mesh_.groups[group_].kind == GroupKind::node;
+        const bool by_nodes = distance_ || mesh_.groups[group_].kind == GroupKind::node;
         for_each_of(dimension_, [&](const CellRef& c) {
             if (std::ranges::count_if(corners(c), [&](Index n) { return reached_[n] != 0; }) < dimension_) return;
             for (int k = 0; k < face_count(c.type); ++k) {
@@ -146,8 +166,8 @@ private:
         });
         const bool any = !faces_.empty();
         std::erase_if(faces_, [](const auto& f) { return f.second.owners.size() < 2; });
-        if (!any) refuse("covers no " + what() + ": no element has all corners of one in it");
-        if (faces_.empty())
+        if (!any && !distance_) refuse("covers no " + what() + ": no element has all corners of one in it");
+        if (faces_.empty() && !distance_)
             refuse("covers no " + what() +
                    " between two elements: it lies on the outside, or is open there already; nothing could be parted");
         if (by_nodes)
@@ -164,6 +184,11 @@ private:
 
     /// What the group's element or facet says.
     void ask(const Key& key, Face& face) const {
+        if (distance_) {
+            for (const Index n : corners(face.owners[0].cell))
+                if (std::abs((*distance_)[n]) > rounding_) face.reference = (*distance_)[n] < 0 ? 1 : -1;
+            return;
+        }
         if (const auto told = told_.find(key); told != told_.end())
             face.reference = told->second == face.owners[0].cell ? 1 : -1;
         if (!face.element || mesh_.groups[group_].kind != GroupKind::element) return;
@@ -455,6 +480,8 @@ private:
     const int dimension_;
     Numbering next_;
     Parted out_;
+    const std::vector<double>* distance_ = nullptr;  // in place of a group: from a surface
+    double rounding_ = 0;
     GroupIndex negative_ = 0, positive_ = 0;
     std::vector<char> reached_;                                // nodes of wanted faces
     std::map<Key, Face> faces_;                                // those to be opened
@@ -468,6 +495,13 @@ private:
 
 Parted part_along(const Mesh& mesh, GroupIndex group, const PartedNames& names, const Numbering& numbering) {
     return Parter(mesh, group, numbering).run(names);
+}
+
+std::optional<Parted> part_along(const Mesh& mesh, const std::vector<double>& distance, double rounding,
+                                 const PartedNames& names, const Numbering& numbering) {
+    Parter parter(mesh, distance, rounding, numbering);
+    if (!parter.finds_faces()) return {};
+    return parter.run(names);
 }
 
 }  // namespace femscalpel

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,5 +42,10 @@ struct PartedNames {
 /// Throws ToolError that names `group` where it covers no face, none inside, or none that can be opened, or has
 /// elements of the mesh's own dimension.
 Parted part_along(const Mesh& mesh, GroupIndex group, const PartedNames& names, const Numbering& numbering);
+
+/// The same for the faces that lie on a surface, by the nodes' signed distances from it: all corners are within
+/// `rounding`. The surface must not pass through an element. Nothing when no such face is inside.
+std::optional<Parted> part_along(const Mesh& mesh, const std::vector<double>& distance, double rounding,
+                                 const PartedNames& names, const Numbering& numbering);
 
 }  // namespace femscalpel

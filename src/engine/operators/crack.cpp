@@ -19,6 +19,7 @@
 #include "cutting/snap.h"
 #include "deformation/deformation.h"
 #include "deformation/relaxation.h"
+#include "operators/crack_faces.h"
 #include "operators/driver.h"
 #include "tools/face.h"
 
@@ -281,6 +282,8 @@ private:
 }  // namespace
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
+    if (!options.within)
+        if (auto between = crack_between_elements(input, tool, options, prepared)) return std::move(*between);
     Crack recipe(tool, options);
     return perform(recipe, input, options, prepared);
 }

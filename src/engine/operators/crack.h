@@ -38,6 +38,9 @@ struct CrackOptions : OperatorOptions {
 /// Shells that lie in the tool's surface are parted from those that stand on them: a sheet of them stays with the
 /// negative side, or, where others are joined to it on the negative side only, with the positive.
 ///
+/// A tool that passes between quadrangles, prisms or hexahedra only, through none, opens the faces that lie on it and
+/// converts nothing (crack_between_elements()).
+///
 /// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
 ///
 /// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band

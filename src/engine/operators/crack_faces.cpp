@@ -2,14 +2,19 @@
 #include "operators/crack_faces.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <set>
 
+#include "cancel.h"
 #include "cutting/part_faces.h"
 #include "deck/carry_over.h"
 #include "deck/mark_deck.h"
 #include "groups/group_report.h"
+#include "groups/preserve.h"
+#include "mesh/crop.h"
 #include "mesh/quality.h"
+#include "mesh/rounding.h"
 #include "mesh/stopwatch.h"
 #include "operators/driver.h"
 
@@ -75,10 +80,40 @@ Report report_of(const Mesh& before, const Parted& parted, const OperatorOptions
     return report;
 }
 
-}  // namespace
+bool passes_through(const Mesh& mesh, const std::vector<double>& distance, double rounding) {
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension != mesh.dimension()) continue;
+        const auto corners = static_cast<std::size_t>(traits(b.type).corners);
+        SparseCheck check;
+        for (Index c = 0; c < b.size(); ++c) {
+            check();
+            bool before = false, behind = false;
+            for (const Index n : b.nodes(c).first(corners)) {
+                before = before || distance[n] > rounding;
+                behind = behind || distance[n] < -rounding;
+            }
+            if (before && behind) return true;
+        }
+    }
+    return false;
+}
 
-Result crack_along_faces(const Mesh& mesh, const std::string& faces, const OperatorOptions& options,
-                         const Prepared& prepared) {
+/// The elements at what came apart.
+Mesh part_of(const Mesh& mesh, const Parted& parted) {
+    CellLists cells;
+    for (const std::vector<CellRef>* list : {&parted.changed, &parted.added})
+        for (const CellRef& c : *list) cells[static_cast<std::size_t>(c.type)].push_back(c.cell);
+    for (auto& list : cells) {
+        std::ranges::sort(list);
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    return crop(mesh, cells).mesh;
+}
+
+/// What `part` makes of a mesh, as the result of an operator; nothing if that is nothing.
+std::optional<Result> opened(
+    const Mesh& mesh, const OperatorOptions& options, const Prepared& prepared,
+    const std::function<std::optional<Parted>(const Mesh&, const PartedNames&, const Numbering&)>& part) {
     const Stopwatch::Time started = Stopwatch::now();
     Naming naming;
     naming.groups = {{options.name + "_N"}, {options.name + "_P"}};
@@ -88,20 +123,55 @@ Result crack_along_faces(const Mesh& mesh, const std::string& faces, const Opera
     if (!prepared.marks) own = mark_deck(mesh);
     const DeckMarks& marks = prepared.marks ? *prepared.marks : own;
     const Mesh& marked = marks.mesh ? *marks.mesh : mesh;
-    Parted parted = part_along(marked, group_of_faces(marked, faces),
-                               {naming.groups[0][0], naming.groups[1][0], naming.front}, next_numbers(mesh));
-    std::vector<CellRef> all = parted.changed;
-    std::ranges::copy(parted.added, std::back_inserter(all));
+    std::optional<Parted> parted =
+        part(marked, {naming.groups[0][0], naming.groups[1][0], naming.front}, next_numbers(mesh));
+    if (!parted) return {};
+    std::vector<CellRef> all = parted->changed;
+    std::ranges::copy(parted->added, std::back_inserter(all));
     if (!marks.surface_sets.empty() && solver_input(mesh))
-        renew_surface_sets(parted.mesh, marks.surface_sets, *solver_input(mesh), all);
+        renew_surface_sets(parted->mesh, marks.surface_sets, *solver_input(mesh), all);
+    Remarks deck;
+    if (!options.band_only) deck = carry_deck(marked, parted->mesh, parted->changes);
     Result result{{}, {}};
-    const Remarks deck = carry_deck(marked, parted.mesh, parted.changes);
-    result.report = report_of(marked, parted, options, prepared.totals ? *prepared.totals : family_totals(marked));
-    std::ranges::move(warnings_of(deck, options.strict), std::back_inserter(result.report.warnings));
-    result.mesh = std::move(parted.mesh);
+    result.report = report_of(marked, *parted, options, prepared.totals ? *prepared.totals : family_totals(marked));
+    if (!options.band_only)
+        std::ranges::move(warnings_of(deck, options.strict), std::back_inserter(result.report.warnings));
+    result.mesh = options.band_only ? part_of(parted->mesh, *parted) : std::move(parted->mesh);
     remove_marks(result.mesh);
     result.report.seconds = {{"part", Stopwatch::since(started)}};
     return result;
+}
+
+}  // namespace
+
+Result crack_along_faces(const Mesh& mesh, const std::string& faces, const OperatorOptions& options,
+                         const Prepared& prepared) {
+    return *opened(mesh, options, prepared,
+                   [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) {
+                       return part_along(marked, group_of_faces(marked, faces), names, numbering);
+                   });
+}
+
+std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool, const OperatorOptions& options,
+                                             const Prepared& prepared) {
+    const auto is_other = [](const CellBlock& b) { return !traits(b.type).simplex && b.size() > 0; };
+    if (tool.bounded() || options.refine.when == RefineFirst::When::to_size ||
+        std::ranges::none_of(mesh.blocks(), is_other))
+        return {};
+    check_options(options);
+    (void)drifting_groups(mesh, options.preserve);  // whose names may be unknown
+    std::vector<double> distance(mesh.points.size());
+    Eigen::AlignedBox3d box;
+    for (std::size_t n = 0; n < distance.size(); ++n) {
+        distance[n] = tool.distance(mesh.points[n]);
+        box.extend(mesh.points[n]);
+    }
+    const double rounding = std::max(1e-10 * box.diagonal().norm(), 2 * coordinate_rounding(mesh.points));
+    if (passes_through(mesh, distance, rounding)) return {};
+    return opened(mesh, options, prepared,
+                  [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) {
+                      return part_along(marked, distance, rounding, names, numbering);
+                  });
 }
 
 }  // namespace femscalpel

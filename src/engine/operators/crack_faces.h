@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "operators/options.h"
 #include "operators/prepared.h"
 #include "operators/report.h"
+#include "tools/tool.h"
 
 namespace femscalpel {
 
@@ -17,5 +19,10 @@ namespace femscalpel {
 /// does.
 Result crack_along_faces(const Mesh& mesh, const std::string& faces, const OperatorOptions& options,
                          const Prepared& prepared = {});
+
+/// The same along the faces that lie on a tool which passes through no element: then quadrangles and hexahedra need not
+/// become triangles and tetrahedra. Nothing where it does, or the mesh has none of these, or is to be refined.
+std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool, const OperatorOptions& options,
+                                             const Prepared& prepared = {});
 
 }  // namespace femscalpel

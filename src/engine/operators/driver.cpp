@@ -22,14 +22,6 @@ namespace {
 /// Code_Aster's limit for group names.
 constexpr std::size_t longest_name = 24;
 
-void check_options(const OperatorOptions& options) {
-    if (options.transition && (*options.transition < 1 || *options.transition > 20))
-        throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20",
-                        "transition");
-    if (!(options.feature_angle > 0 && options.feature_angle < 180))
-        throw ToolError("feature_angle must lie between 0 and 180 degrees", "feature_angle");
-}
-
 /// The surfaces around which the band is.
 std::vector<Blade> around(const Recipe& recipe) {
     std::vector<Blade> blades(recipe.blades().begin(), recipe.blades().end());
@@ -146,6 +138,14 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
 }
 
 }  // namespace
+
+void check_options(const OperatorOptions& options) {
+    if (options.transition && (*options.transition < 1 || *options.transition > 20))
+        throw ToolError("transition is " + std::to_string(*options.transition) + "; it must be between 1 and 20",
+                        "transition");
+    if (!(options.feature_angle > 0 && options.feature_angle < 180))
+        throw ToolError("feature_angle must lie between 0 and 180 degrees", "feature_angle");
+}
 
 void check_characters(const std::string& name, const char* parameter) {
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=

@@ -68,6 +68,9 @@ public:
     virtual void finished(const Rebuilt& rebuilt) { (void)rebuilt; }
 };
 
+/// Throws ToolError when `transition` or `feature_angle` is out of range.
+void check_options(const OperatorOptions& options);
+
 /// Throws ToolError when a part of groups' names, given as that parameter, has characters that solvers do not accept.
 void check_characters(const std::string& name, const char* parameter);
 
