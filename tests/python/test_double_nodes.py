@@ -7,8 +7,8 @@ import itertools
 import contact_cases
 import numpy as np
 import pytest
-from meshes import grid_box
-from mixed_meshes import FACES, worst_of
+from meshes import grid_box, quadratic
+from mixed_meshes import EDGES, FACES, grid, prisms_of, second_order, second_order_of_all, worst_of
 from calculix_runs import solve
 from test_conversion import GRADIENT, deck, largest_error, needs_ccx
 
@@ -304,3 +304,125 @@ def test_surfaces_of_a_contact_pair_stay_whole(tmp_path, operate):
     assert groups["SURF_A"].count_after == groups["SURF_B"].count_after > groups["SURF_A"].count_before
     fs.write(result.mesh, tmp_path / "out.inp")
     assert "SURF_A, SURF_B" in (tmp_path / "out.inp").read_text()
+
+
+def with_skin(kind, order, part):
+    """Solids, and shells with nodes of their own on all or a part of their upper faces."""
+    points, cells = grid((6, 5, 3))
+    name, lower = "hexahedron", cells
+    if kind == "tetra":
+        name, lower = "tetra", cells[:, contact_cases.TETRA_OF_CUBE].reshape(-1, 4)
+    solid = fs.Mesh(points, {name: lower})
+    if order == 2:
+        solid = quadratic(solid) if kind == "tetra" else fs.Mesh(*with_middles(points, lower))
+    ((name, lower),) = solid.cells.items()
+    count = 4 if kind == "hexahedron" else 3
+    faces = np.concatenate([lower[:, facet_nodes(f, kind, order)] for f in FACES[kind]])
+    corners = solid.points[faces[:, :count]]
+    faces = faces[(corners[..., 2] == 3).all(axis=1) & (corners[..., 0] <= (3 if part else 6)).all(axis=1)]
+    own, where = np.unique(faces, return_inverse=True)
+    shell = {(3, 1): "triangle", (3, 2): "triangle6", (4, 1): "quad", (4, 2): "quad8"}[count, order]
+    rows = len(solid.points) + where.reshape(faces.shape)
+    mesh = fs.Mesh(np.vstack([solid.points, solid.points[own]]), {name: lower, shell: rows})
+    mesh.add_group("SOLID", "element", mesh.cell_ids[name])
+    mesh.add_group("SHELL", "element", mesh.cell_ids[shell])
+    mesh.add_group("OWN", "node", mesh.node_ids[len(solid.points) :])
+    return mesh
+
+
+def facet_nodes(face, kind, order):
+    """Places in an element of the nodes on a face: corners, then mid-side nodes."""
+    if order == 1:
+        return list(face)
+    edges = [tuple(sorted(e)) for e in EDGES[kind]]
+    ring = zip(face, face[1:] + face[:1])
+    return list(face) + [{"tetra": 4, "hexahedron": 8}[kind] + edges.index(tuple(sorted(e))) for e in ring]
+
+
+def with_middles(points, cells):
+    points, cells = second_order(points, cells, "hexahedron")
+    return points, {"hexahedron20": cells}
+
+
+@pytest.mark.parametrize("part", [False, True])
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("kind", ["tetra", "hexahedron"])
+def test_shells_with_nodes_of_their_own_on_solids(kind, order, part):
+    mesh = with_skin(kind, order, part)
+    for operate in (
+        lambda m: fs.crack(m, fs.Plane((2.2, 2, 2), (1, 0.3, 0.2)), name="T"),
+        lambda m: fs.refine(m, fs.Plane((2.2, 2, 2), (1, 0.3, 0.2)), 0.6),
+        lambda m: fs.drill(m, fs.Cylinder((2.2, 2.4, 0), (0.05, 0, 1), 0.8), name="T"),
+        lambda m: fs.cut(m, fs.Plane((2.2, 2, 2), (1, 0.3, 0.2)), width=0.4, name="T"),
+    ):
+        result = operate(mesh)
+        after, report = result.mesh, result.report
+        shell, solid = contact_cases.members(after, "SHELL"), contact_cases.members(after, "SOLID")
+        assert report.welded_pairs > 0 and not np.intersect1d(shell, solid).size
+        assert set(map(tuple, after.points[shell])) <= set(map(tuple, after.points[solid]))
+        assert set(after.node_ids[shell]) == set(after.groups["OWN", "node"].ids)
+        assert after.node_count == mesh.node_count + report.nodes_added - report.nodes_removed
+
+
+@pytest.mark.parametrize("order", [20, 27])
+def test_nodes_in_the_middle_of_faces_stay_pairs(order):
+    points, cells = grid((5, 4, 4))
+    upper = points[cells].mean(axis=1)[:, 2] > 2
+    points, cells = contact_cases.apart(points, cells, upper, [])
+    points, cells = second_order(points, cells, "hexahedron")
+    if order == 27:
+        points, cells = with_centres(points, cells)
+    mesh = fs.Mesh(points, {f"hexahedron{order}": cells})
+    for group, chosen in (("LOW", ~upper), ("UP", upper)):
+        mesh.add_group(group, "element", mesh.cell_ids[f"hexahedron{order}"][chosen])
+    for operate in (
+        lambda m: fs.crack(m, fs.Plane((2.2, 2, 2), (1, 0.3, 0.2)), name="T"),
+        lambda m: fs.refine(m, fs.Plane((2.2, 2, 2), (1, 0.3, 0.2)), 0.6),
+    ):
+        after = operate(mesh).mesh
+        assert contact_cases.check_sides(mesh, after) == []
+
+
+def with_centres(points, cells):
+    """Hexahedra of 27 nodes of those of 20, in VTK's order."""
+    faces = [(0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)]
+    points, made, out = list(points), {}, []
+    for cell in cells:
+        row = list(cell)
+        for corners in [*faces, tuple(range(8))]:
+            key = frozenset(cell[list(corners)])
+            if key not in made:
+                made[key] = len(points)
+                points.append(np.mean([points[n] for n in key], axis=0))
+            row.append(made[key])
+        out.append(row)
+    return np.array(points), np.array(out)
+
+
+@pytest.mark.parametrize("columns", [{(2, 2)}, {(3, 2), (2, 2)}, {(0, 0)}])
+@pytest.mark.parametrize("order", [1, 2])
+def test_quadrangles_on_two_triangles_stay_apart(columns, order):
+    """Below hexahedra alone, above some columns of prisms: their faces on the contact do not match."""
+    points, cells = grid((5, 4, 2))
+    middles = points[cells].mean(axis=1)
+    upper = middles[:, 2] > 1
+    points, cells = contact_cases.apart(points, cells, upper, [])
+    lying = cells[:, [0, 1, 2, 3, 4, 5, 6, 7]]
+    chosen = upper & np.array([(int(x), int(y)) in columns for x, y, _ in middles])
+    kinds = {"hexahedron": lying[~chosen], "wedge": prisms_of(lying[chosen])}
+    if order == 2:
+        points, kinds = second_order_of_all(points, kinds)
+    mesh = fs.Mesh(points, kinds)
+    names = sorted(mesh.cells)
+    above = {n: mesh.points[mesh.cells[n]][:, :6, 2].mean(axis=1) > 1 for n in names}
+    mesh.add_group("UP", "element", np.concatenate([mesh.cell_ids[n][above[n]] for n in names]))
+    mesh.add_group("LOW", "element", np.concatenate([mesh.cell_ids[n][~above[n]] for n in names]))
+    for operate in (
+        lambda m: fs.crack(m, fs.Plane((2.6, 2, 1), (1, 0.3, 0.2)), name="T"),
+        lambda m: fs.refine(m, fs.Plane((2.6, 2, 1), (1, 0.3, 0.2)), 0.6),
+    ):
+        result = operate(mesh)
+        after = result.mesh
+        common = np.intersect1d(contact_cases.members(after, "LOW"), contact_cases.members(after, "UP"))
+        assert not common.size
+        assert after.node_count == mesh.node_count + result.report.nodes_added - result.report.nodes_removed

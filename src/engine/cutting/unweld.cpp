@@ -224,6 +224,7 @@ private:
             if (gone[n]) {
                 numbers.insert(mesh_.node_ids[n]);
                 out_.removed += sides_.is_of_input(mesh_.node_ids[n]);
+                out_.born -= births_.contains(mesh_.node_ids[n]);
                 continue;
             }
             mesh_.points[kept] = mesh_.points[n];

@@ -16,7 +16,7 @@ struct Unwelded {
     /// Of nodes that were single (by number): those at the same place now, their partners.
     std::unordered_map<Index, std::vector<Index>> partners;
     Index moved = 0;    ///< partners that are the input's, and lie elsewhere now
-    Index born = 0;     ///< new ones of nodes born meanwhile
+    Index born = 0;     ///< new ones of nodes born meanwhile, less those that no element has in the end
     Index doubled = 0;  ///< new ones of nodes doubled meanwhile
     Index removed = 0;  ///< nodes of the input that no element has any more, that of the operation were not
     Index joined = 0;   ///< welded faces that could not be taken apart: the result is of no use then

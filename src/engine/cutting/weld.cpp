@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 #include "cancel.h"
+#include "mesh/facet_element.h"
 #include "mesh/rounding.h"
 #include "mesh/union_find.h"
 
@@ -76,10 +78,10 @@ std::vector<Index> first_at_place(const Mesh& mesh, double rounding) {
 
 /// A face on the outside, a shell element, or a shell's border edge.
 struct Side {
-    std::vector<Index> nodes;  // corners and mid-side nodes, in no order
-    Facet facet;               // of family 0; `face` 0 for a shell itself
-    int owners = 1;            // elements that have it
-    bool joins = true;         // may be welded to another
+    std::vector<Index> nodes;    // corners and others, in no order
+    std::vector<Index> corners;  // their places, ascending
+    Facet facet;                 // of family 0; `face` 0 for a shell itself
+    int owners = 1;              // elements that have it
 };
 
 class Welder {
@@ -94,6 +96,7 @@ public:
     std::optional<Welded> run() {
         collect();
         std::vector<Facet> welded;
+        find_misfits();
         for (const auto& [place, sides] : sides_) {
             if (!match(sides)) continue;
             for (const Side& s : sides)
@@ -127,52 +130,37 @@ private:
                 const auto n = b.nodes(c);
                 if (std::ranges::none_of(n, [&](Index v) { return double_[v] != 0; })) continue;
                 if (t.dimension == 3) {
-                    for (std::size_t f = 0; f < t.faces.size(); ++f) add(face_of(b, c, f), static_cast<int>(f) + 1);
+                    for (std::size_t f = 0; f < t.faces.size(); ++f) put(side_of(b, c, static_cast<int>(f) + 1));
                 } else {
-                    Side self{{n.begin(), n.end()}, {b.type, 0, 0, c}};
+                    Side self{{n.begin(), n.end()}, {}, {b.type, 0, 0, c}};
+                    for (const Index v : n.first(static_cast<std::size_t>(t.corners)))
+                        self.corners.push_back(first_[v]);
                     put(std::move(self));
                     if (dimension == 2)
-                        for (std::size_t e = 0; e < t.edges.size(); ++e) add(edge_of(b, c, e), static_cast<int>(e) + 3);
+                        for (std::size_t e = 0; e < t.edges.size(); ++e) put(side_of(b, c, static_cast<int>(e) + 3));
                 }
             }
         }
     }
 
-    static Side face_of(const CellBlock& b, Index c, std::size_t f) {
-        const CellTraits& t = traits(b.type);
-        const auto n = b.nodes(c);
-        Side out{{}, {b.type, 0, 0, c}};
-        for (const std::int8_t k : t.faces[f])
-            if (k >= 0) out.nodes.push_back(n[k]);
-        if (t.quadratic)
-            for (std::size_t e = 0; e < t.edges.size(); ++e)
-                if (std::ranges::find(out.nodes, n[t.edges[e][0]]) != out.nodes.end() &&
-                    std::ranges::find(out.nodes, n[t.edges[e][1]]) != out.nodes.end() &&
-                    is_edge_of(t.faces[f], t.edges[e]))
-                    out.nodes.push_back(n[t.corners + static_cast<int>(e)]);
+    /// A face of a solid, by its number minus one, or an edge of a shell, by its number minus three.
+    Side side_of(const CellBlock& b, Index c, int face) const {
+        Side out{{}, {}, {b.type, static_cast<std::int8_t>(face), 0, c}};
+        const FacetElement f = facet_element(mesh_, out.facet);
+        out.nodes.assign(f.nodes.begin(), f.nodes.begin() + f.size);
+        for (int k = 0; k < traits(f.type).corners; ++k) out.corners.push_back(f.nodes[static_cast<std::size_t>(k)]);
+        for (std::vector<Index>* list : {&out.nodes, &out.corners}) {  // degenerate elements have nodes twice
+            std::ranges::sort(*list);
+            list->erase(std::unique(list->begin(), list->end()), list->end());
+        }
+        for (Index& n : out.corners) n = first_[n];
         return out;
-    }
-
-    static bool is_edge_of(const std::array<std::int8_t, 4>& face, const auto& edge) {
-        return std::ranges::find(face, edge[0]) != face.end() && std::ranges::find(face, edge[1]) != face.end();
-    }
-
-    static Side edge_of(const CellBlock& b, Index c, std::size_t e) {
-        const CellTraits& t = traits(b.type);
-        const auto n = b.nodes(c);
-        Side out{{n[t.edges[e][0]], n[t.edges[e][1]]}, {b.type, 0, 0, c}};
-        if (t.quadratic) out.nodes.push_back(n[t.corners + static_cast<int>(e)]);
-        return out;
-    }
-
-    void add(Side side, int face) {
-        side.facet.face = static_cast<std::int8_t>(face);
-        put(std::move(side));
     }
 
     void put(Side side) {
         if (std::ranges::none_of(side.nodes, [&](Index v) { return double_[v] != 0; })) return;
         std::ranges::sort(side.nodes);
+        std::ranges::sort(side.corners);
         std::vector<Index> place;
         place.reserve(side.nodes.size());
         for (const Index n : side.nodes) place.push_back(first_[n]);
@@ -187,6 +175,29 @@ private:
         there.push_back(std::move(side));
     }
 
+    /// Nodes of faces that have all corners in common, but neither division nor nodes: of a hexahedron on two
+    /// tetrahedra, or of eight and nine nodes. They stay double, as conversion would not part such faces alike.
+    void find_misfits() {
+        std::map<std::vector<Index>, std::vector<const Side*>> alone;  // by corners
+        for (const auto& [place, sides] : sides_)
+            if (sides.size() == 1 && sides[0].owners == 1) alone[sides[0].corners].push_back(&sides[0]);
+        const auto misfit = [&](const std::vector<const Side*>& sides) {
+            for (const Side* s : sides) misfits_.insert(s->nodes.begin(), s->nodes.end());
+        };
+        for (const auto& [corners, sides] : alone) {
+            if (sides.size() > 1) misfit(sides);
+            if (corners.size() != 4) continue;
+            for (std::size_t k = 0; k < 4; ++k) {
+                std::vector<Index> three = corners;
+                three.erase(three.begin() + static_cast<std::ptrdiff_t>(k));
+                const auto found = alone.find(three);
+                if (found == alone.end()) continue;
+                misfit(sides);
+                misfit(found->second);
+            }
+        }
+    }
+
     /// Makes the nodes of sides at one place single; false if they are the same, or inside the material.
     bool match(const std::vector<Side>& sides) {
         bool any = false;
@@ -195,7 +206,7 @@ private:
             if (a.nodes == b.nodes || (a.owners > 1 && b.owners > 1)) continue;
             for (const Index n : a.nodes)
                 for (const Index m : b.nodes)
-                    if (n != m && first_[n] == first_[m]) {
+                    if (n != m && first_[n] == first_[m] && !misfits_.contains(n) && !misfits_.contains(m)) {
                         sets_.unite(static_cast<int>(n), static_cast<int>(m));
                         facing_.push_back({std::min(n, m), std::max(n, m)});
                     }
@@ -260,6 +271,7 @@ private:
     std::vector<char> double_;
     UnionFind sets_;
     std::vector<std::array<Index, 2>> facing_;
+    std::set<Index> misfits_;
     std::map<std::vector<Index>, std::vector<Side>> sides_;  // by the places of their nodes
 };
 

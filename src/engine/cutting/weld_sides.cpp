@@ -71,6 +71,10 @@ std::vector<Index> WeldSides::ancestors(Index number) const {
 /// Welded nodes that elements of the input join are on one side.
 void WeldSides::find_bodies() {
     body_.assign(input_.points.size(), -1);
+    dimension_at_.assign(input_.points.size(), 0);
+    for (const CellBlock& b : input_.blocks())
+        for (const Index n : b.connectivity)
+            dimension_at_[n] = std::max(dimension_at_[n], static_cast<std::int8_t>(traits(b.type).dimension));
     UnionFind bodies(input_.points.size());
     for (const CellBlock& b : input_.blocks()) {
         if (traits(b.type).dimension < 2) continue;
@@ -215,9 +219,19 @@ bool WeldSides::are_layers(const CellRef& a, const CellRef& b) const {
     return std::ranges::is_permutation(corners(a), corners(b));
 }
 
-/// Elements at a node in parts that are joined by faces (shells: edges), but for welded ones; and the part of each.
-std::vector<WeldSide> WeldSides::by_faces(std::span<const CellRef> cells, const AtFace& at_face,
-                                          const std::vector<Index>& from, std::vector<int>& part_of) const {
+/// Elements at a node in parts.
+struct WeldSides::Pieces {
+    std::vector<CellRef> cells;
+    std::vector<int> part_of;  // of each
+    std::vector<WeldSide> parts;
+    AtFace at_face;  // places in `cells`, by corners of the faces they have
+    /// Parts that lie on each other, with a welded face between them or as layers of shells.
+    std::set<std::pair<int, int>> across;
+};
+
+/// Parts that are joined by faces (shells: edges), but for welded ones.
+void WeldSides::join_by_faces(std::span<const CellRef> cells, const AtFace& at_face, const std::vector<Index>& from,
+                              Pieces& out) const {
     std::vector<WeldLabel> labels;
     for (const CellRef& c : cells) labels.push_back(label_of(c, from));
     const auto were_together = [&](int a, int b) {
@@ -235,16 +249,60 @@ std::vector<WeldSide> WeldSides::by_faces(std::span<const CellRef> cells, const 
             for (const int b : there)
                 if (a < b && (alone || were_together(a, b))) joined.unite(a, b);
     }
+    const std::size_t first = out.parts.size();
     std::map<int, int> place;
-    std::vector<WeldSide> parts;
     for (int k = 0; k < static_cast<int>(cells.size()); ++k) {
-        const auto [it, fresh] = place.emplace(joined.find(k), static_cast<int>(parts.size()));
-        if (fresh) parts.push_back({});
-        parts[static_cast<std::size_t>(it->second)].cells.push_back(cells[k]);
-        part_of.push_back(it->second);
+        const auto [it, fresh] = place.emplace(joined.find(k), static_cast<int>(out.parts.size()));
+        if (fresh) out.parts.push_back({});
+        out.parts[static_cast<std::size_t>(it->second)].cells.push_back(cells[k]);
+        out.part_of.push_back(it->second);
     }
-    for (WeldSide& part : parts) part.label = usual_label(part.cells, from);
-    return parts;
+    for (std::size_t k = first; k < out.parts.size(); ++k) out.parts[k].label = usual_label(out.parts[k].cells, from);
+}
+
+/// Adds elements of one dimension.
+void WeldSides::find_pieces(std::span<const CellRef> cells, Index node, const std::vector<Index>& from,
+                            Pieces& out) const {
+    AtFace at_face;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        for (std::vector<Index>& face : faces_at(cells[k], node))
+            at_face[std::move(face)].push_back(static_cast<int>(k));
+    const int first = static_cast<int>(out.cells.size());
+    join_by_faces(cells, at_face, from, out);
+    out.cells.insert(out.cells.end(), cells.begin(), cells.end());
+    for (auto& [face, there] : at_face) {
+        std::vector<int>& all = out.at_face[face];
+        for (const int k : there) all.push_back(k + first);
+    }
+}
+
+void WeldSides::find_layers(Pieces& pieces) const {
+    const auto put = [&](int a, int b) {
+        const int one = pieces.part_of[a], other = pieces.part_of[b];
+        if (one == other) return;
+        pieces.across.insert({one, other});
+        pieces.across.insert({other, one});
+    };
+    for (const auto& [face, there] : pieces.at_face)
+        for (const int a : there)
+            for (const int b : there)
+                if (faces_.contains(face) || are_layers(pieces.cells[a], pieces.cells[b])) put(a, b);
+    // Shells of their own on the faces of solids.
+    for (int k = 0; k < static_cast<int>(pieces.cells.size()); ++k) {
+        if (dimension(pieces.cells[k]) == dimension(pieces.cells.front())) continue;
+        std::vector<Index> face(corners(pieces.cells[k]).begin(), corners(pieces.cells[k]).end());
+        std::ranges::sort(face);
+        if (const auto there = pieces.at_face.find(face); there != pieces.at_face.end())
+            for (const int other : there->second) put(k, other);
+    }
+}
+
+/// Whether a shell had welded nodes that no solid had.
+bool WeldSides::is_own(const CellRef& cell) const {
+    const auto old = root(cell);
+    if (!old || dimension(cell) < 2) return false;
+    return std::ranges::any_of(input_.block(old->type).nodes(old->cell),
+                               [&](Index n) { return set_of_.contains(n) && dimension_at_[n] == dimension(cell); });
 }
 
 /// What most of the elements say; by their bodies where they had none of the nodes.
@@ -284,27 +342,21 @@ std::vector<WeldSide> WeldSides::at(Index node, std::set<std::pair<int, int>>& f
     const std::vector<Index> from = ancestors(mesh_.node_ids[node]);
     const std::vector<CellRef>& all = cells_.at(node);
     const auto lower = std::ranges::find_if(all, [&](const CellRef& c) { return dimension(c) < dimension(all[0]); });
-    const std::span cells(all.begin(), lower);
-    AtFace at_face;
-    for (std::size_t k = 0; k < cells.size(); ++k)
-        for (std::vector<Index>& face : faces_at(cells[k], node))
-            at_face[std::move(face)].push_back(static_cast<int>(k));
-    std::vector<int> part_of;
-    std::vector<WeldSide> parts = by_faces(cells, at_face, from, part_of), sides;
-    std::set<std::pair<int, int>> across;  // parts that have a welded face between them
-    for (const auto& [face, there] : at_face)
-        if (faces_.contains(face))
-            for (const int a : there)
-                for (const int b : there)
-                    if (part_of[a] != part_of[b]) across.insert({part_of[a], part_of[b]});
-    std::vector<std::vector<int>> members;  // of `parts`, by side
+    Pieces pieces;
+    find_pieces(std::span(all.begin(), lower), node, from, pieces);
+    std::vector<CellRef> own;
+    std::copy_if(lower, all.end(), std::back_inserter(own), [&](const CellRef& c) { return is_own(c); });
+    if (!own.empty()) find_pieces(own, node, from, pieces);
+    find_layers(pieces);
+    std::vector<WeldSide> sides;
+    std::vector<std::vector<int>> members;  // of the parts, by side
     std::vector<int> side_of;               // by part
-    for (int k = 0; k < static_cast<int>(parts.size()); ++k) {
+    for (int k = 0; k < static_cast<int>(pieces.parts.size()); ++k) {
         // Parts of one side that hang together at an edge or at the node only.
         const auto may_join = [&](std::size_t at) {
-            return std::ranges::none_of(members[at], [&](int m) { return across.contains({m, k}); });
+            return std::ranges::none_of(members[at], [&](int m) { return pieces.across.contains({m, k}); });
         };
-        WeldSide& part = parts[static_cast<std::size_t>(k)];
+        WeldSide& part = pieces.parts[static_cast<std::size_t>(k)];
         std::size_t at = 0;
         while (at < sides.size() && !(may_join(at) && go_together(sides[at].label, part.label))) ++at;
         if (at == sides.size()) {
@@ -318,20 +370,17 @@ std::vector<WeldSide> WeldSides::at(Index node, std::set<std::pair<int, int>>& f
             if (sides[at].label[i] < 0) sides[at].label[i] = part.label[i];
     }
     std::vector<std::pair<int, int>> opposite;
-    for (const auto& [face, there] : at_face) {
-        const bool welded = faces_.contains(face);
-        if (welded && there.size() > 1) met_.insert(face);
-        for (const int a : there)
-            for (const int b : there) {
-                const int one = side_of[part_of[a]], other = side_of[part_of[b]];
-                if (one == other || !(welded || are_layers(cells[a], cells[b]))) continue;
-                opposite.emplace_back(one, other);
-                if (welded) parted_.insert(face);
-            }
+    for (const auto& [one, other] : pieces.across)
+        if (side_of[one] != side_of[other]) opposite.emplace_back(side_of[one], side_of[other]);
+    for (const auto& [face, there] : pieces.at_face) {
+        if (!faces_.contains(face) || there.size() < 2) continue;
+        met_.insert(face);
+        const auto side = [&](int cell) { return side_of[pieces.part_of[cell]]; };
+        if (std::ranges::any_of(there, [&](int c) { return side(c) != side(there[0]); })) parted_.insert(face);
     }
     complete(sides, from, opposite);
     for (auto cell = lower; cell != all.end(); ++cell)
-        if (guest(*cell, all).hosts.empty()) add_lone(*cell, from, sides);
+        if (!is_own(*cell) && guest(*cell, all).hosts.empty()) add_lone(*cell, from, sides);
     std::vector<int> order(sides.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](int s) { return is_first(sides[s].label) ? 0 : 1; });
@@ -367,7 +416,8 @@ std::vector<WeldSides::Guest> WeldSides::guests() const {
         if (!cells_.contains(node)) continue;
         const std::vector<CellRef>& cells = cells_.at(node);
         for (const CellRef& c : cells) {
-            if (dimension(c) == dimension(cells.front()) || !seen.insert(mesh_.block(c.type).ids[c.cell]).second)
+            if (dimension(c) == dimension(cells.front()) || is_own(c) ||
+                !seen.insert(mesh_.block(c.type).ids[c.cell]).second)
                 continue;
             if (Guest made = guest(c, cells); !made.hosts.empty()) out.push_back(std::move(made));
         }

@@ -54,7 +54,7 @@ public:
         /// Those that have all its nodes, of the highest dimension, with the places of its nodes in theirs.
         std::vector<std::pair<CellRef, std::vector<int>>> hosts;
     };
-    /// Those at nodes(), which are in none of sides().
+    /// Those at nodes(), which are in none of sides(). Shells that had nodes of their own are no guests.
     std::vector<Guest> guests() const;
 
     /// How much of what an element was on says that the node of a side with this label, of the node `number`, is its:
@@ -86,6 +86,10 @@ private:
     void find_faces();
     void find_sides();
     std::vector<WeldSide> at(Index node, std::set<std::pair<int, int>>& facing);
+    struct Pieces;
+    void find_pieces(std::span<const CellRef> cells, Index node, const std::vector<Index>& from, Pieces& out) const;
+    void find_layers(Pieces& pieces) const;
+    bool is_own(const CellRef& cell) const;
     std::optional<CellRef> root(const CellRef& cell) const;
     Index body_of(const CellRef& cell) const;
     WeldLabel label_of(const CellRef& cell, const std::vector<Index>& from) const;
@@ -93,8 +97,8 @@ private:
     bool are_layers(const CellRef& a, const CellRef& b) const;
     std::vector<std::vector<Index>> faces_at(const CellRef& cell, Index node) const;
     using AtFace = std::map<std::vector<Index>, std::vector<int>>;  // elements by corners of the faces they have
-    std::vector<WeldSide> by_faces(std::span<const CellRef> cells, const AtFace& at_face,
-                                   const std::vector<Index>& from, std::vector<int>& part_of) const;
+    void join_by_faces(std::span<const CellRef> cells, const AtFace& at_face, const std::vector<Index>& from,
+                       Pieces& out) const;
     WeldLabel usual_label(const std::vector<CellRef>& cells, const std::vector<Index>& from) const;
     void complete(std::vector<WeldSide>& sides, const std::vector<Index>& from,
                   const std::vector<std::pair<int, int>>& opposite) const;
@@ -117,6 +121,7 @@ private:
     std::vector<Index> nodes_;
     std::unordered_map<Index, Index> place_;
     std::unordered_map<Index, std::vector<CellRef>> cells_;
+    std::vector<std::int8_t> dimension_at_;      // of the largest elements at nodes of the input
     std::set<std::vector<Index>> faces_;         // corners of welded ones
     std::set<std::vector<Index>> met_, parted_;  // of these, those of two elements, and of elements on two sides
     std::vector<std::vector<WeldSide>> sides_;   // at each of nodes_

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_set>
 
@@ -88,6 +89,8 @@ private:
             if (!could.contains(nodes) || !is_one_place(nodes.first, nodes.second)) continue;
             of_pair_[e] = 1;
             of_nodes_[nodes].push_back(e);
+            tied_to_[nodes.first].insert(nodes.second);
+            tied_to_[nodes.second].insert(nodes.first);
         }
     }
 
@@ -102,43 +105,82 @@ private:
         std::vector<Index> ancestors;
     };
 
-    /// The shapes, with the term of the first side, that all pairs have which two nodes come from, and equations that
-    /// have them.
-    std::map<Role, std::size_t> common_shapes(const Side& one, const Side& other, bool& any) const {
-        std::map<Role, std::size_t> out;
+    /// What an equation of two terms says of the first node's degree of freedom and the other's, and their ratio.
+    struct Tie {
+        Index dof, other;
+        double ratio;
+        auto operator<=>(const Tie&) const = default;
+    };
+    /// Ties, and an equation that has each, if there is one and not several that say it together.
+    using Ties = std::map<Tie, std::optional<std::size_t>>;
+
+    /// From a node to another: by their own equations, or over a third to which both are tied.
+    Ties ties_between(Index a, Index b) const {
+        Ties out = own_ties(a, b);
+        const auto partners = tied_to_.find(a);
+        if (partners == tied_to_.end()) return out;
+        for (const Index c : partners->second)
+            for (const auto& [first, e] : own_ties(a, c))
+                for (const auto& [second, f] : own_ties(c, b))
+                    if (first.other == second.dof)
+                        out.try_emplace({first.dof, second.other, -first.ratio * second.ratio}, std::nullopt);
+        return out;
+    }
+
+    Ties own_ties(Index a, Index b) const {
+        Ties out;
+        const auto found = of_nodes_.find(std::minmax(a, b));
+        if (found == of_nodes_.end()) return out;
+        for (const std::size_t e : found->second) {
+            const auto& terms = equations_[e].terms;
+            const std::size_t one = terms[0].node == a ? 0 : 1;
+            out.try_emplace({terms[one].dof, terms[1 - one].dof, terms[1 - one].factor / terms[one].factor}, e);
+        }
+        return out;
+    }
+
+    /// The ties that all pairs have which two nodes come from, and an equation for each. `any`: some pair has some.
+    Ties common_ties(const Side& one, const Side& other, bool& any) const {
+        Ties out;
         bool first = true;
         for (const Index a : one.ancestors) {
             if (std::ranges::find(other.ancestors, a) != other.ancestors.end()) continue;  // not double
-            std::map<Role, std::size_t> here;
-            for (const Index b : other.ancestors) {
-                const auto found = of_nodes_.find(std::minmax(a, b));
-                if (found == of_nodes_.end()) continue;
-                for (const std::size_t e : found->second) {
-                    Role role;
-                    for (const NodeEquation::Term& t : equations_[e].terms) role.shape.emplace_back(t.dof, t.factor);
-                    role.term = equations_[e].terms[0].node == a ? 0 : 1;
-                    here.emplace(std::move(role), e);
-                }
-            }
+            Ties here;
+            for (const Index b : other.ancestors) here.merge(ties_between(a, b));
             any = any || !here.empty();
-            if (!first) std::erase_if(out, [&](const auto& r) { return !here.contains(r.first); });
-            if (first) out = std::move(here);
+            if (first) {
+                out = std::move(here);
+            } else {
+                std::erase_if(out, [&](const auto& t) { return !here.contains(t.first); });
+                for (auto& [tie, e] : out)
+                    if (!e) e = here.at(tie);
+            }
             first = false;
         }
         return out;
     }
 
     void relate_pair(const Side& one, const Side& other) {
-        bool any = false;
-        const auto shapes = common_shapes(one, other, any);
-        for (const auto& [role, e] : shapes)
-            add(e, role.term == 0 ? std::vector{one.node, other.node} : std::vector{other.node, one.node});
-        if (!any || !shapes.empty()) return;
+        bool any = false, made = false;
+        for (const auto& [tie, e] : common_ties(one, other, any)) {
+            made = true;
+            if (!e) continue;  // by what it and the other have with a third
+            const bool turned = is_turned(*e, tie);
+            add(*e, turned ? std::vector{other.node, one.node} : std::vector{one.node, other.node});
+        }
+        if (!any || made) return;
         for (const Index a : one.ancestors)
             if (const auto there = roles_.find(a); there != roles_.end()) {
                 out_.missed.push_back({there->second.begin()->second.front(), one.node});
                 return;
             }
+    }
+
+    /// Whether the equation's first term is that of the tie's other node.
+    bool is_turned(std::size_t e, const Tie& tie) const {
+        const auto& terms = equations_[e].terms;
+        return !(terms[0].dof == tie.dof && terms[1].dof == tie.other &&
+                 terms[1].factor / terms[0].factor == tie.ratio);
     }
 
     void relate(std::size_t k) {
@@ -306,6 +348,7 @@ private:
     double same_place_ = 0;
     std::vector<char> of_pair_;  // by equation: that of two double nodes that are followed
     std::map<std::pair<Index, Index>, std::vector<std::size_t>> of_nodes_;  // these equations
+    std::map<Index, std::set<Index>> tied_to_;                              // by them
     RelatedNodes out_;
 };
 
