@@ -109,7 +109,10 @@ private:
     }
 
     void make_walls(const std::vector<int>& tetras, const std::vector<int>& shells) {
-        const std::set<int> out(tetras.begin(), tetras.end()), shells_out(shells.begin(), shells.end());
+        std::vector<char> out(static_cast<std::size_t>(band_.tetras.size()), 0),
+            shells_out(static_cast<std::size_t>(band_.triangles.size()), 0);
+        for (const int t : tetras) out[t] = 1;
+        for (const int t : shells) shells_out[t] = 1;
         SparseCheck check(64);
         for (const int t : tetras)
             for (const auto& face : outward_faces) {
@@ -118,7 +121,7 @@ private:
                 // Turned round: out of the material that stays.
                 const std::array<int, 3> nodes{n[face[0]], n[face[2]], n[face[1]]};
                 for (const int s : band_.tetras.around(nodes[0]))
-                    if (!out.contains(s) && holds(band_.tetras[s], nodes[1]) && holds(band_.tetras[s], nodes[2]))
+                    if (!out[s] && holds(band_.tetras[s], nodes[1]) && holds(band_.tetras[s], nodes[2]))
                         band_.cut_faces.add(nodes, tag_of(nodes));
             }
         for (const int t : shells)
@@ -126,7 +129,7 @@ private:
                 const std::array<int, 2> nodes{band_.triangles[t][k], band_.triangles[t][(k + 1) % 3]};
                 if (band_.cut_edges.find(nodes) >= 0) continue;
                 for (const int s : band_.triangles.around(nodes[0]))
-                    if (is_shell(s) && !shells_out.contains(s) && holds(band_.triangles[s], nodes[1])) {
+                    if (is_shell(s) && !shells_out[s] && holds(band_.triangles[s], nodes[1])) {
                         band_.cut_edges.add(nodes, tag_of(nodes));
                         break;
                     }
@@ -141,7 +144,7 @@ private:
     template <std::size_t N>
     void take(SimplexList<N>& list, const std::vector<CellRef>& cells, int s) {
         note_taken(list, cells, s);
-        touched_.insert(list[s].begin(), list[s].end());
+        for (const int v : list[s]) touched_[v] = 1;
         list.remove(s);
     }
 
@@ -159,7 +162,8 @@ private:
     template <std::size_t N>
     void drop(SimplexList<N>& list, auto goes) {
         SparseCheck check(64);
-        for (const int v : touched_) {
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!touched_[v]) continue;
             check();
             const auto slots = list.around(v);
             for (const int s : std::vector<int>(slots.begin(), slots.end()))
@@ -186,7 +190,7 @@ private:
             }
             // A beam or spring goes if what carries one of its ends does.
             const bool goes = std::ranges::any_of(
-                band_.lines[s], [&](int v) { return touched_.contains(v) && bare(v) && is_inside(std::array{v}); });
+                band_.lines[s], [&](int v) { return touched_[v] != 0 && bare(v) && is_inside(std::array{v}); });
             loose += goes;
             return goes;
         });
@@ -197,7 +201,8 @@ private:
         });
         drop(band_.facet_faces, [&](int s) { return !has_outward_host(band_.facet_faces[s]); });
         drop(band_.facet_edges, [&](int s) { return !has_host(band_.facet_edges[s], false); });
-        for (const int v : touched_) {
+        for (int v = 0; v < band_.size(); ++v) {
+            if (!touched_[v]) continue;
             if (!bare(v) || !band_.lines.around(v).empty() || !band_.vertices.around(v).empty()) continue;
             band_.nodes[v].gone = true;
             f_.d.contact[v] = {};
@@ -231,8 +236,8 @@ private:
     BandMesh& band_;
     std::span<const Tool* const> tools_;
     int first_tag_;
-    std::vector<std::vector<double>> value_;  // by tool and node
-    std::set<int> touched_;
+    std::vector<std::vector<double>> value_;                                                    // by tool and node
+    std::vector<char> touched_ = std::vector<char>(static_cast<std::size_t>(band_.size()), 0);  // nodes
 };
 
 template <std::size_t N>
