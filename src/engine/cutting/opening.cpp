@@ -10,6 +10,7 @@
 
 #include "cancel.h"
 #include "cutting/node_parts.h"
+#include "mesh/chains.h"
 
 namespace femscalpel {
 namespace {
@@ -389,30 +390,10 @@ private:
         std::map<std::array<int, 2>, int> faces_at;
         for (const auto& key : face_keys_)
             for (int k = 0; k < 3; ++k) ++faces_at[sorted(std::array{key[k], key[(k + 1) % 3]})];
-        std::map<int, std::vector<int>> next;
-        for (const auto& [edge, faces] : faces_at) {
-            if (faces != 1 || f_.d.constraints.is_skin_edge(band_, edge[0], edge[1])) continue;
-            next[edge[0]].push_back(edge[1]);
-            next[edge[1]].push_back(edge[0]);
-        }
-        const auto walk = [&](int from) {
-            std::vector<int> chain{from};
-            while (!next[chain.back()].empty()) {
-                const int v = chain.back(), w = next[v].front();
-                next[v].erase(next[v].begin());
-                std::erase(next[w], v);
-                chain.push_back(w);
-            }
-            out_.front_chains.push_back(std::move(chain));
-        };
-        // Open chains from their ends, then closed ones.
-        std::vector<int> nodes;
-        nodes.reserve(next.size());
-        for (const auto& [v, neighbours] : next) nodes.push_back(v);
-        for (const int v : nodes)
-            if (next[v].size() % 2 == 1) walk(v);
-        for (const int v : nodes)
-            if (!next[v].empty()) walk(v);
+        std::vector<std::array<int, 2>> edges;
+        for (const auto& [edge, faces] : faces_at)
+            if (faces == 1 && !f_.d.constraints.is_skin_edge(band_, edge[0], edge[1])) edges.push_back(edge);
+        out_.front_chains = chains_of(edges);
     }
 
     template <std::size_t N>

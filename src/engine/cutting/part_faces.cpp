@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "mesh/chains.h"
 #include "mesh/facet_element.h"
 #include "mesh/union_find.h"
 
@@ -376,6 +377,7 @@ private:
     void make_lips() {
         for (const auto& [key, face] : faces_) {
             std::vector<std::vector<Index>> sides;
+            sides.reserve(face.owners.size());
             for (const Owner& o : face.owners) sides.push_back(nodes_of(out_.mesh, o));
             if (std::ranges::all_of(sides, [&](const auto& s) { return key_of(s) == key_of(sides[0]); })) {
                 ++out_.closed;
@@ -441,38 +443,30 @@ private:
             return e.second.first != 1 ||
                    std::ranges::any_of(e.second.second, [&](Index n) { return parts_.contains(n); });
         });
-        if (!edges.empty()) write_chains(std::move(edges), out_.mesh.add_group(name, GroupKind::element));
+        if (!edges.empty()) write_chains(edges, out_.mesh.add_group(name, GroupKind::element));
     }
 
-    /// Segments one after the other, as far as they go on; a segment that is there already joins the group.
-    void write_chains(std::map<Key, std::pair<int, std::vector<Index>>> edges, GroupIndex group) {
-        std::map<Index, std::vector<Key>> at;
-        for (const auto& [key, edge] : edges)
-            for (const Index n : {key[0], key[1]}) at[n].push_back(key);
+    /// Segments in order; one that is there already joins the group.
+    void write_chains(const std::map<Key, std::pair<int, std::vector<Index>>>& edges, GroupIndex group) {
         std::map<Key, CellRef> there;
         for_each_of(1, [&](const CellRef& c) {
             if (const Key key = key_of(corners(c)); edges.contains(key)) there.emplace(key, c);
         });
-        const auto follow = [&](Index node) {
-            for (;;) {
-                const auto next = std::ranges::find_if(at[node], [&](const Key& k) { return edges.contains(k); });
-                if (next == at[node].end()) return;
-                const Key key = *next;
-                std::vector<Index> nodes = edges.at(key).second;
-                if (nodes[0] != node) std::swap(nodes[0], nodes[1]);
-                edges.erase(key);
-                node = nodes[1];
+        std::vector<std::array<Index, 2>> ends;
+        ends.reserve(edges.size());
+        for (const auto& [key, edge] : edges) ends.push_back({key[0], key[1]});
+        for (const std::vector<Index>& chain : chains_of(ends))
+            for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+                const Key key = key_of(std::span(chain).subspan(k, 2));
                 if (const auto old = there.find(key); old != there.end()) {
                     FamilyIndex& family = out_.mesh.block(old->second.type).families[old->second.cell];
                     family = out_.mesh.families.with(family, group);
                     continue;
                 }
+                std::vector<Index> nodes = edges.at(key).second;
+                if (nodes[0] != chain[k]) std::swap(nodes[0], nodes[1]);
                 add(nodes.size() == 3 ? CellType::line3 : CellType::line, nodes, out_.mesh.families.with(0, group));
             }
-        };
-        for (const auto& [node, keys] : at)
-            if (keys.size() != 2) follow(node);
-        for (const auto& [node, keys] : at) follow(node);
     }
 
     const Mesh& mesh_;

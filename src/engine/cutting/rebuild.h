@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cutting/numbering.h"
 #include "cutting/opening.h"
 #include "cutting/workpiece.h"
 #include "mesh/changes.h"
@@ -26,16 +27,6 @@ struct Rebuilt {
 
     Index kept_node(Index input_node) const { return place.empty() ? input_node : place[input_node]; }
 };
-
-/// The numbers that new nodes and elements get, in order from these on.
-struct Numbering {
-    Index node = 1;
-    Index cell = 1;
-};
-
-/// Those above the largest in use, also by elements outside the mesh that the solver's input has. Throws ToolError when
-/// that is too large.
-Numbering next_numbers(const Mesh& mesh);
 
 /// Puts the band's changes into `copy`, a copy of `input`: moved nodes, split elements, doubled nodes, lip elements in
 /// all groups of `groups[Opening::Face::group]` (appended to the mesh's groups, in that order), removed elements and

@@ -41,6 +41,7 @@ private:
         const FamilyIndex family = mesh_.node_families[w];
         const std::vector<WeldSide>& sides = sides_.sides()[k];
         std::vector<Index> numbers;
+        numbers.reserve(sides.size());
         // The side of the first nodes keeps a node that is new.
         for (const WeldSide& side : sides)
             numbers.push_back(mesh_.node_ids[give(w, numbers.empty(), family, from, side)]);
