@@ -13,6 +13,7 @@
 #include "groups/preserve.h"
 #include "mesh/stopwatch.h"
 #include "operators/account.h"
+#include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/weld_first.h"
 
@@ -222,6 +223,12 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
     check_name(input, options.name, recipe.naming());
     check_options(options);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    if (SevenNodes seven(input); seven) {
+        recipe.start(seven.mesh());
+        Result result = perform(recipe, seven.mesh(), options, seven.known());
+        seven.finish(result);
+        return result;
+    }
     const Stopwatch::Time started = Stopwatch::now();
     WeldFirst weld(input, known);
     if (!weld || !(weld.is_near(around(recipe)) || !recipe.zones().empty()))

@@ -26,6 +26,7 @@
 #include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
 #include "operators/fillet_vertex.h"
+#include "operators/seven_nodes.h"
 #include "operators/weld_first.h"
 
 namespace femscalpel {
@@ -460,6 +461,11 @@ void check_radius(double radius) {
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
               const Prepared& prepared) {
     check_radius(radius);
+    if (SevenNodes seven(mesh); seven) {
+        Result result = fillet(seven.mesh(), along, radius, options, seven.known());
+        seven.finish(result);
+        return result;
+    }
     const auto run = [&](const Mesh& on, const Prepared& known) {
         Fillet recipe(on, along, radius, options);
         return perform(recipe, on, options, known);

@@ -22,6 +22,7 @@
 #include "mesh/stopwatch.h"
 #include "operators/changed_quality.h"
 #include "operators/edit.h"
+#include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/weld_first.h"
 
@@ -238,21 +239,38 @@ Result refine_on(const Mesh& input, const DistanceField& distance, const RefineO
 
 }  // namespace
 
-Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
-    check(options);
-    check_extent(input);
+namespace {
+
+/// On a mesh without triangles of seven nodes.
+Result refine_pairs(const Mesh& input, const DistanceField& distance, const RefineOptions& options,
+                    std::vector<Changes>& stages) {
     const Stopwatch::Time started = Stopwatch::now();
-    WeldFirst weld(input, {});
-    std::vector<Changes> stages;
+    Prepared known;
+    known.stages = &stages;
+    WeldFirst weld(input, known);
     if (!weld) return refine_on(input, distance, options, stages, started);
-    Result result = refine_on(weld.mesh(), distance, options, stages, Stopwatch::now());
-    if (stages.empty()) {
+    std::vector<Changes> of_welded;
+    Result result = refine_on(weld.mesh(), distance, options, of_welded, Stopwatch::now());
+    if (of_welded.empty()) {
         result.mesh = input;
         return result;
     }
-    std::ranges::move(stages, std::back_inserter(weld.stages()));
+    std::ranges::move(of_welded, std::back_inserter(weld.stages()));
     if (weld.finish(result, options.strict)) return result;
     return refine_on(input, distance, options, stages, started);
+}
+
+}  // namespace
+
+Result refine(const Mesh& input, const DistanceField& distance, const RefineOptions& options) {
+    check(options);
+    check_extent(input);
+    std::vector<Changes> stages;
+    SevenNodes seven(input);
+    if (!seven) return refine_pairs(input, distance, options, stages);
+    Result result = refine_pairs(seven.mesh(), distance, options, *seven.known().stages);
+    seven.finish(result);
+    return result;
 }
 
 std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField& distance,

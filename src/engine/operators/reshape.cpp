@@ -21,6 +21,7 @@
 #include "operators/changed_quality.h"
 #include "operators/driver.h"
 #include "operators/edit.h"
+#include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/warnings.h"
 #include "operators/weld_first.h"
@@ -346,6 +347,11 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     naming.front = options.name + "_WALL";
     check_name(input, options.name, naming);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    if (SevenNodes seven(input); seven) {
+        Result result = reshape(seven.mesh(), group, options, seven.known());
+        seven.finish(result);
+        return result;
+    }
     WeldFirst weld(input, known);
     if (weld) {
         Result result = reshape_on(weld.mesh(), group, options, naming, weld.known(), weld.faces());

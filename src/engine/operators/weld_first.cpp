@@ -57,7 +57,8 @@ std::vector<Index> nodes_of(const NumberIndex& numbers, const std::vector<Index>
 
 }  // namespace
 
-WeldFirst::WeldFirst(const Mesh& input, const Prepared& known) : input_(input), marks_(known.marks) {
+WeldFirst::WeldFirst(const Mesh& input, const Prepared& known)
+    : input_(input), marks_(known.marks), outer_stages_(known.stages) {
     const Stopwatch::Time started = Stopwatch::now();
     std::optional<Welded> welded = weld(input, coordinate_rounding(input.points));
     if (!welded) return;
@@ -306,6 +307,7 @@ bool WeldFirst::finish(Result& result, bool strict, bool part) {
     mesh.companion = input_.companion;
     if (mesh.companion && !part) carry(mesh, changes, strict, result.report);
     remove_marks(mesh);
+    if (outer_stages_) outer_stages_->push_back(changes);
     report_pairs(mesh, unwelded, static_cast<Index>(changes.copies.size()), result.report);
     auto& seconds = result.report.seconds;
     seconds.insert(seconds.begin(), {"weld", seconds_ + Stopwatch::since(started)});

@@ -56,6 +56,7 @@ private:
     const Mesh& input_;
     DeckMarks own_marks_;
     const DeckMarks* marks_;
+    std::vector<Changes>* outer_stages_;  // where what was done to the input goes
     std::optional<Welded> welded_;
     DeckMarks on_welded_;   // what the deck asks of the welded mesh
     DeckMarks on_changed_;  // of that refined or converted
