@@ -35,6 +35,7 @@ from .report import (
 )
 from .skin import Shape
 from .tools import *  # Tool, and a class for each tool
+from .tools import Faces
 from .within import CylinderPart, Disk, Ellipse, HalfPlane, Polygon, Within
 
 __version__ = "0.1.0"
@@ -49,6 +50,7 @@ __all__ = [
     "ElementaryGroup",
     "ElementQuality",
     "Error",
+    "Faces",
     "Format",
     "Group",
     "GroupRecord",

@@ -16,7 +16,7 @@ import numpy as np
 from . import _arguments, _engine
 from .signatures import bind
 
-__all__ = ["Cone", "Cylinder", "Face", "Faces", "Plane", "Sphere", "Tool", "Torus"]
+__all__ = ["Cone", "Cylinder", "Face", "Plane", "Sphere", "Tool", "Torus"]
 
 Tool = _engine.Tool
 Vector = Tuple[float, float, float]

@@ -96,6 +96,8 @@ class EveryCommand(GuiTest):
                 if is_shown("radius"):
                     type_into("originY", "0.2")
                     type_into("radius", "0.6")
+                else:
+                    type_into("originX", "2.3")  # not between two of them
                 wait_until(lambda: "hexahedr" in widget("status").text().lower(), "what will be converted")
                 screenshot("hexahedra_" + name)
                 press_ok()
