@@ -17,6 +17,7 @@ struct SurfaceFace {
 
 /// Nodes of a triangular face, ascending: its name, whichever element it is looked at from.
 using FaceKey = std::array<Index, 3>;
+/// The same corners, ascending.
 FaceKey face_key(FaceKey face);
 
 /// The faces of a mesh's surface that reach into a box: faces that only one tetrahedron has, and triangles that are no
