@@ -53,6 +53,7 @@ public:
         rounding_ = rounding;
     }
 
+    /// To be called first.
     bool finds_faces() {
         find_wanted();
         find_owners();
@@ -60,10 +61,6 @@ public:
     }
 
     Parted run(const PartedNames& names) {
-        if (faces_.empty()) {
-            find_wanted();
-            find_owners();
-        }
         orient();
         find_parts();
         out_.mesh = mesh_;
@@ -488,7 +485,9 @@ private:
 }  // namespace
 
 Parted part_along(const Mesh& mesh, GroupIndex group, const PartedNames& names, const Numbering& numbering) {
-    return Parter(mesh, group, numbering).run(names);
+    Parter parter(mesh, group, numbering);
+    (void)parter.finds_faces();
+    return parter.run(names);
 }
 
 std::optional<Parted> part_along(const Mesh& mesh, const std::vector<double>& distance, double rounding,
