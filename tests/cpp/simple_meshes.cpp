@@ -127,4 +127,14 @@ std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind) {
     return group_members(mesh, *mesh.find_group(name, kind)).ids;
 }
 
+Mesh touching_tetrahedra() {
+    Mesh mesh;
+    const Vec3 at[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, -2}};
+    const Index numbers[] = {1, 2, 3, 4, 11, 12, 13, 14};
+    for (int n = 0; n < 8; ++n) mesh.add_node(at[n], numbers[n]);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 1);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{4, 6, 5, 7}, 2);
+    return mesh;
+}
+
 }  // namespace femscalpel::checks

@@ -34,4 +34,7 @@ Index number_near(const Mesh& mesh, const Vec3& at);
 /// Numbers of a group's nodes or elements.
 std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind);
 
+/// Tetrahedra 1 above and 2 below a triangle, with the double nodes 1 2 3 and 11 12 13.
+Mesh touching_tetrahedra();
+
 }  // namespace femscalpel::checks

@@ -48,5 +48,19 @@ TEST(Crop, TakesElementsWithTheirNodesAndFacets) {
     EXPECT_EQ(part.mesh.groups[empty].name, "EMPTY") << "groups stay, also empty ones";
 }
 
+TEST(Crop, TheChangedPartIsWhatIsNewOrMoved) {
+    Mesh before;
+    checks::add_plate(before, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, 1);  // triangles 1 to 6
+    Mesh after = before;
+    EXPECT_EQ(changed_part(before, after).cell_count(), 0);
+    after.points[checks::number_near(after, {0, 0, 0})][2] = 0.1;
+    const auto corner = after.block(CellType::triangle).nodes(5);
+    after.add_cell(CellType::triangle, std::vector<Index>(corner.begin(), corner.end()), 9);
+    const Mesh part = changed_part(before, after);
+    EXPECT_THAT(part.block(CellType::triangle).ids, testing::Contains(9));
+    EXPECT_LT(part.cell_count(), 4);
+    EXPECT_GT(part.cell_count(), 1);
+}
+
 }  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

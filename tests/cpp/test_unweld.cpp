@@ -4,20 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "simple_meshes.h"
+
 namespace femscalpel {
 namespace FILE_NAMESPACE {
 
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
 
-/// Tetrahedra 1 above and 2 below the triangle of nodes 1 2 3 and 11 12 13.
+/// With the nodes below in a group.
 Mesh input() {
-    Mesh mesh;
-    const Vec3 at[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, -2}};
-    const Index numbers[] = {1, 2, 3, 4, 11, 12, 13, 14};
-    for (int n = 0; n < 8; ++n) mesh.add_node(at[n], numbers[n]);
-    mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 3}, 1);
-    mesh.add_cell(CellType::tetra, std::array<Index, 4>{4, 6, 5, 7}, 2);
+    Mesh mesh = checks::touching_tetrahedra();
     const GroupIndex both = mesh.add_group("BELOW", GroupKind::node);
     set_group_members(mesh, both, {GroupKind::node, {11, 12, 13}, {}});
     return mesh;

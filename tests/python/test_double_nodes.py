@@ -97,6 +97,25 @@ def test_divisions_that_do_not_match_stay_as_they_are():
     assert 0 < result.report.welded_pairs < 42
 
 
+@pytest.mark.parametrize(
+    "operate",
+    [
+        lambda m, **k: fs.crack(m, PLANE, name="T", **k),
+        lambda m, **k: fs.drill(m, fs.Cylinder((3, 2.5, 0), (0, 0, 1), 0.9), name="T", **k),
+        lambda m, **k: fs.fillet(m, (6, 5, 2), 0.8, name="T", **k),
+    ],
+)
+def test_a_preview_reports_what_the_whole_does(operate):
+    mesh = both()
+    whole, part = operate(mesh), operate(mesh, band_only=True)
+    assert part.mesh.node_count < whole.mesh.node_count
+    for name in ("nodes_added", "nodes_removed", "elements_added", "elements_removed", "welded_pairs"):
+        assert getattr(part.report, name) == getattr(whole.report, name)
+    assert [g.count_after for g in part.report.groups] == [g.count_after for g in whole.report.groups]
+    places = dict(zip(whole.mesh.node_ids.tolist(), map(tuple, whole.mesh.points)))
+    assert all(places[i] == tuple(x) for i, x in zip(part.mesh.node_ids.tolist(), part.mesh.points))
+
+
 @pytest.mark.parametrize("kind", ["flat", "flat second", "curved"])
 def test_wall_of_a_hole_through_both(kind):
     axis = fs.Cylinder((3, 2.5, 0), (0, 0, 1), 1.0)

@@ -7,6 +7,7 @@ from contact_cases import TETRA_OF_CUBE
 from meshes import quadratic
 from mixed_meshes import FACES, grid, outer_area, prisms_of, second_order
 from test_conversion import deck, largest_error, needs_ccx
+from test_double_nodes import both, facing, with_springs
 
 import femscalpel as fs
 
@@ -113,6 +114,37 @@ def test_a_plane_between_elements_converts_none(kind):
         part = fs.crack(mesh, fs.Plane((3, 2, 2), normal), name="T", band_only=True).mesh
         assert 0 < len(part.cells[kind]) < len(mesh.cells[kind])
     assert fs.crack(mesh, fs.Plane((3.2, 2, 2), (1, 0, 0)), name="T").report.converted
+
+
+def test_shells_beside_the_solids_are_cut_too():
+    points, cubes = grid((4, 2, 2))
+    flat, squares = grid((4, 2))
+    for shift in (0.5, 0):  # through the shells' middle, and between them
+        shells = flat + (shift, 0, 5)
+        mesh = fs.Mesh(np.vstack([points, shells]), {"hexahedron": cubes, "quad": squares + len(points)})
+        mesh.add_group("SHELLS", "element", mesh.cell_ids["quad"])
+        after = fs.crack(mesh, fs.Plane((2, 1, 1), (1, 0, 0)), name="T").mesh
+        ids = after.groups["SHELLS", "element"].ids
+        rows = [row for k, c in after.cells.items() for row in c[np.isin(after.cell_ids[k], ids)]]
+        left, right = (
+            {n for row in rows if sign * (after.points[row][:, 0].mean() - 2) > 0 for n in row} for sign in (-1, 1)
+        )
+        assert left and right and not left & right
+
+
+def test_double_nodes_are_followed_where_a_plane_is_between():
+    """Springs and pairs across the contact: both sides do the same, and new pairs have theirs."""
+    mesh = both("hexahedra")
+    points = mesh.points.copy()
+    points[:, 0] = np.round(points[:, 0])
+    flat = fs.Mesh(points, mesh.cells)
+    for name, kind in (("LOW", "element"), ("UP", "element"), ("CON_A", "node"), ("CON_B", "node")):
+        flat.add_group(name, kind, mesh.groups[name, kind].ids)
+    flat = with_springs(flat)
+    after = fs.crack(flat, fs.Plane((3, 2.5, 4), (1, 0, 0)), name="T").mesh
+    springs = after.node_ids[after.cells["line"][np.isin(after.cell_ids["line"], after.groups["SPRINGS"].ids)]]
+    assert len(springs) > len(flat.cell_ids["line"])
+    assert facing(after) == set(map(tuple, springs.tolist()))
 
 
 def test_elements_on_the_faces_get_twins_in_their_groups():

@@ -80,3 +80,13 @@ def test_a_node_group_without_the_middles_gets_none():
     after = fs.crack(mesh, fs.Plane((3.1, 2, 0), (1, 0.1, 0)), name="T").mesh
     old = mesh.node_ids[mesh.cells["triangle7"][:, 6]]
     assert not np.intersect1d(after.groups["RIM", "node"].ids, old).size
+
+
+def test_a_preview_reports_what_the_whole_does():
+    mesh = plate()
+    tool = fs.Cylinder((3, 3, 0), (0, 0, 1), 0.8)
+    whole, part = fs.drill(mesh, tool), fs.drill(mesh, tool, band_only=True)
+    assert 0 < len(part.mesh.cells["triangle7"]) < len(whole.mesh.cells["triangle7"])
+    for name in ("nodes_added", "nodes_removed", "elements_added", "elements_removed"):
+        assert getattr(part.report, name) == getattr(whole.report, name)
+    assert [g.count_after for g in part.report.groups] == [g.count_after for g in whole.report.groups]

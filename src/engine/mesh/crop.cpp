@@ -42,4 +42,23 @@ Crop crop(const Mesh& mesh, const CellLists& cells) {
     return out;
 }
 
+Mesh changed_part(const Mesh& before, const Mesh& after) {
+    const NumberIndex numbers(before);
+    std::vector<char> changed(after.points.size(), 0);
+    for (std::size_t n = 0; n < changed.size(); ++n) {
+        const auto old = numbers.node(after.node_ids[n]);
+        changed[n] = !old || before.points[*old] != after.points[n];
+    }
+    CellLists cells;
+    for (const CellBlock& b : after.blocks()) {
+        SparseCheck check;
+        for (Index c = 0; c < b.size(); ++c) {
+            check();
+            if (!numbers.cell(b.ids[c]) || std::ranges::any_of(b.nodes(c), [&](Index n) { return changed[n] != 0; }))
+                cells[static_cast<std::size_t>(b.type)].push_back(c);
+        }
+    }
+    return crop(after, cells).mesh;
+}
+
 }  // namespace femscalpel

@@ -18,4 +18,7 @@ struct Crop {
 /// one look at each node.
 Crop crop(const Mesh& mesh, const CellLists& cells);
 
+/// The elements of `after` that are new against `before`, by number, or have a node that is new or has moved.
+Mesh changed_part(const Mesh& before, const Mesh& after);
+
 }  // namespace femscalpel

@@ -2,6 +2,7 @@
 #include "operators/crack_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <set>
@@ -17,6 +18,7 @@
 #include "mesh/rounding.h"
 #include "mesh/stopwatch.h"
 #include "operators/driver.h"
+#include "operators/weld_first.h"
 
 namespace femscalpel {
 namespace {
@@ -82,7 +84,7 @@ Report report_of(const Mesh& before, const Parted& parted, const OperatorOptions
 
 bool passes_through(const Mesh& mesh, const std::vector<double>& distance, double rounding) {
     for (const CellBlock& b : mesh.blocks()) {
-        if (traits(b.type).dimension != mesh.dimension()) continue;
+        if (traits(b.type).dimension < 2) continue;
         const auto corners = static_cast<std::size_t>(traits(b.type).corners);
         SparseCheck check;
         for (Index c = 0; c < b.size(); ++c) {
@@ -98,16 +100,23 @@ bool passes_through(const Mesh& mesh, const std::vector<double>& distance, doubl
     return false;
 }
 
-/// The elements at what came apart.
-Mesh part_of(const Mesh& mesh, const Parted& parted) {
-    CellLists cells;
-    for (const std::vector<CellRef>* list : {&parted.changed, &parted.added})
-        for (const CellRef& c : *list) cells[static_cast<std::size_t>(c.type)].push_back(c.cell);
-    for (auto& list : cells) {
-        std::ranges::sort(list);
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+/// Whether shells of a mesh of solids end on the surface beside the solids: these have to be cut, too.
+bool meets_shells(const Mesh& mesh, const std::vector<double>& distance, double rounding) {
+    if (mesh.dimension() < 3) return false;
+    std::vector<char> of_solids(mesh.points.size(), 0);
+    for (const CellBlock& b : mesh.blocks())
+        if (traits(b.type).dimension == 3)
+            for (const Index n : b.connectivity) of_solids[n] = 1;
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension != 2) continue;
+        const auto corners = static_cast<std::size_t>(traits(b.type).corners);
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c).first(corners);
+            const bool lone = std::ranges::any_of(n, [&](Index v) { return !of_solids[v]; });
+            if (lone && std::ranges::any_of(n, [&](Index v) { return std::abs(distance[v]) <= rounding; })) return true;
+        }
     }
-    return crop(mesh, cells).mesh;
+    return false;
 }
 
 /// What `part` makes of a mesh, as the result of an operator; nothing if that is nothing.
@@ -136,7 +145,7 @@ std::optional<Result> opened(
     result.report = report_of(marked, *parted, options, prepared.totals ? *prepared.totals : family_totals(marked));
     if (!options.band_only)
         std::ranges::move(warnings_of(deck, options.strict), std::back_inserter(result.report.warnings));
-    result.mesh = options.band_only ? part_of(parted->mesh, *parted) : std::move(parted->mesh);
+    result.mesh = options.band_only ? changed_part(marked, parted->mesh) : std::move(parted->mesh);
     remove_marks(result.mesh);
     result.report.seconds = {{"part", Stopwatch::since(started)}};
     return result;
@@ -167,11 +176,17 @@ std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool,
         box.extend(mesh.points[n]);
     }
     const double rounding = std::max(1e-10 * box.diagonal().norm(), 2 * coordinate_rounding(mesh.points));
-    if (passes_through(mesh, distance, rounding)) return {};
-    return opened(mesh, options, prepared,
-                  [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) {
-                      return part_along(marked, distance, rounding, names, numbering);
-                  });
+    if (passes_through(mesh, distance, rounding) || meets_shells(mesh, distance, rounding)) return {};
+    // Double nodes, with springs and equations, are followed the other way.
+    const Blade blade{&tool, {}, {}, -1};
+    if (WeldFirst weld(mesh, prepared); weld && weld.is_near(std::span(&blade, 1))) return {};
+    return opened(
+        mesh, options, prepared,
+        [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) -> std::optional<Parted> {
+            std::optional<Parted> parted = part_along(marked, distance, rounding, names, numbering);
+            if (parted && parted->whole > 0) return {};
+            return parted;
+        });
 }
 
 }  // namespace femscalpel

@@ -11,6 +11,7 @@
 #include "cutting/folded_input.h"
 #include "cutting/snap.h"
 #include "groups/preserve.h"
+#include "mesh/crop.h"
 #include "mesh/stopwatch.h"
 #include "operators/account.h"
 #include "operators/seven_nodes.h"
@@ -223,11 +224,18 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
     check_name(input, options.name, recipe.naming());
     check_options(options);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
+    // What is taken out or made one before counts in the report, which the band alone would not tell.
+    OperatorOptions whole = options;
+    whole.band_only = false;
+    const auto as_asked = [&](Result result) {
+        if (options.band_only) result.mesh = changed_part(input, result.mesh);
+        return result;
+    };
     if (SevenNodes seven(input); seven) {
         recipe.start(seven.mesh());
-        Result result = perform(recipe, seven.mesh(), options, seven.known());
+        Result result = perform(recipe, seven.mesh(), whole, seven.known());
         seven.finish(result);
-        return result;
+        return as_asked(std::move(result));
     }
     const Stopwatch::Time started = Stopwatch::now();
     WeldFirst weld(input, known);
@@ -235,8 +243,8 @@ Result perform(Recipe& recipe, const Mesh& input, const OperatorOptions& options
         return perform_on(recipe, input, options, known, started);
     try {
         recipe.start(weld.mesh());
-        Result result = perform_on(recipe, weld.mesh(), options, weld.known(), Stopwatch::now());
-        if (weld.finish(result, options.strict, options.band_only)) return result;
+        Result result = perform_on(recipe, weld.mesh(), whole, weld.known(), Stopwatch::now());
+        if (weld.finish(result, options.strict)) return as_asked(std::move(result));
     } catch (const ToolError&) {
         // Sides that need not agree may find room; where they part, a warning says so.
     } catch (const QualityError&) {

@@ -19,6 +19,7 @@
 #include "cutting/retry.h"
 #include "cutting/snap.h"
 #include "deformation/curved_shape.h"
+#include "mesh/crop.h"
 #include "mesh/union_find.h"
 #include "operators/driver.h"
 #include "operators/face_nodes.h"
@@ -461,19 +462,34 @@ void check_radius(double radius) {
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
               const Prepared& prepared) {
     check_radius(radius);
-    if (SevenNodes seven(mesh); seven) {
-        Result result = fillet(seven.mesh(), along, radius, options, seven.known());
-        seven.finish(result);
+    FilletOptions whole = options;
+    whole.band_only = false;
+    const auto as_asked = [&](Result result) {
+        if (options.band_only) result.mesh = changed_part(mesh, result.mesh);
         return result;
-    }
-    const auto run = [&](const Mesh& on, const Prepared& known) {
-        Fillet recipe(on, along, radius, options);
-        return perform(recipe, on, options, known);
     };
-    WeldFirst weld(mesh, prepared);  // an edge goes on from one part to what it touches
-    Result result = weld ? run(weld.mesh(), weld.known()) : run(mesh, prepared);
-    if (weld && !weld.finish(result, options.strict, options.band_only)) result = run(mesh, prepared);
-    if (mesh.dimension() == 3 && !options.band_only) keep_face_nodes(mesh, skin_of(mesh), result);
+    if (SevenNodes seven(mesh); seven) {
+        Result result = fillet(seven.mesh(), along, radius, whole, seven.known());
+        seven.finish(result);
+        return as_asked(std::move(result));
+    }
+    const auto run = [&](const Mesh& on, const FilletOptions& with, const Prepared& known) {
+        Fillet recipe(on, along, radius, with);
+        return perform(recipe, on, with, known);
+    };
+    const auto keep = [&](Result& result) {
+        if (mesh.dimension() == 3) keep_face_nodes(mesh, skin_of(mesh), result);
+    };
+    // An edge goes on from one part to what it touches.
+    if (WeldFirst weld(mesh, prepared); weld) {
+        Result result = run(weld.mesh(), whole, weld.known());
+        if (weld.finish(result, options.strict)) {
+            keep(result);
+            return as_asked(std::move(result));
+        }
+    }
+    Result result = run(mesh, options, prepared);
+    if (!options.band_only) keep(result);
     return result;
 }
 

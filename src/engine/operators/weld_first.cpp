@@ -290,7 +290,7 @@ void WeldFirst::report_segments(const Mesh& mesh, const Unwelded& unwelded, Repo
             "theirs. Where their stiffness stands for that of an area, give all a smaller one");
 }
 
-bool WeldFirst::finish(Result& result, bool strict, bool part) {
+bool WeldFirst::finish(Result& result, bool strict) {
     const Stopwatch::Time started = Stopwatch::now();
     Mesh& mesh = result.mesh;
     Changes changes = in_one(stages_);
@@ -305,7 +305,7 @@ bool WeldFirst::finish(Result& result, bool strict, bool part) {
     remove_groups(mesh, gone);
     rename_marks(mesh, other_prefix, mark_prefix);
     mesh.companion = input_.companion;
-    if (mesh.companion && !part) carry(mesh, changes, strict, result.report);
+    if (mesh.companion) carry(mesh, changes, strict, result.report);
     remove_marks(mesh);
     if (outer_stages_) outer_stages_->push_back(changes);
     report_pairs(mesh, unwelded, static_cast<Index>(changes.copies.size()), result.report);

@@ -40,9 +40,9 @@ public:
     std::vector<Changes>& stages() { return stages_; }
 
     /// Takes the nodes of what an operation made of mesh() apart again, carries the solver's input over, and brings the
-    /// report up to date. `part`: that is the band alone. `strict`: see warnings_of(). False, and the result is of no
-    /// use, when a crack opened but what was open before, or what was open could not be again.
-    bool finish(Result& result, bool strict, bool part = false);
+    /// report up to date. `strict`: see warnings_of(). False, and the result is of no use, when a crack opened but what
+    /// was open before, or what was open could not be again.
+    bool finish(Result& result, bool strict);
 
 private:
     const Mesh& marked() const { return marks_->mesh ? *marks_->mesh : input_; }
