@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from contact_cases import TETRA_OF_CUBE
 from meshes import quadratic
-from mixed_meshes import FACES, grid, outer_area, prisms_of, second_order
+from mixed_meshes import EDGES, FACES, grid, outer_area, prisms_of, second_order
 from test_conversion import deck, largest_error, needs_ccx
 from test_double_nodes import both, facing, with_springs
 
@@ -212,3 +212,37 @@ def test_the_deck_follows(tmp_path, kind, label):
     result = fs.crack(mesh, fs.Faces("SECTION"), name="T")
     assert result.report.nodes_doubled > 0 and not result.report.warnings
     assert largest_error(tmp_path, result.mesh, (6, 4, 4), (0, 1, 2)) < 1e-7
+
+
+@pytest.mark.parametrize("kind", ["hexahedron", "hexahedron20"])
+def test_faces_with_all_corners_on_the_border_stay_closed(kind):
+    """In second order, too: a node in the middle comes apart with its corners. Elements on such faces follow."""
+    mesh = box(kind)
+    name = kind.replace("hexahedron", "quad").replace("20", "8")
+    whole = box(kind)
+    whole.add_group("MIDDLE", "node", whole.node_ids[whole.points[:, 2] == 2])
+    opened = fs.crack(whole, fs.Faces("MIDDLE"), name="T").mesh
+    lips = opened.cells[name][np.isin(opened.cell_ids[name], opened.groups["T_N", "element"].ids)]
+    rng = np.random.default_rng(2)
+    for _ in range(20):
+        some = lips[rng.random(len(lips)) < 0.4]
+        both = fs.Mesh(mesh.points, {kind: mesh.cells[kind], name: some})
+        both.add_group("WALL", "element", both.cell_ids[name])
+        try:
+            result = fs.crack(both, fs.Faces("WALL"), name="T")
+        except fs.ToolError as error:
+            assert "none could be opened" in str(error)
+            continue
+        after = result.mesh
+        assert lip_area(after, "T_N") == pytest.approx(lip_area(after, "T_P"))
+        assert outer_area(after) == pytest.approx(128 + 2 * lip_area(after, "T_N"))
+        faces = [frozenset(map(int, f)) for c in after.cells[kind] for f in c[np.array(FACES["hexahedron"])]]
+        times = {f: faces.count(f) for f in set(faces)}
+        lip = np.isin(after.cell_ids[name], [*after.groups["T_N"].ids, *after.groups["T_P"].ids])
+        for row, on_lip in zip(after.cells[name], lip):
+            assert times[frozenset(map(int, row[:4]))] == (1 if on_lip else 2)
+        if kind == "hexahedron20":  # a node in the middle belongs to one pair of corners
+            edges = {}
+            for cell in after.cells[kind]:
+                for k, (a, b) in enumerate(EDGES["hexahedron"]):
+                    assert edges.setdefault(frozenset((cell[a], cell[b])), cell[8 + k]) == cell[8 + k]

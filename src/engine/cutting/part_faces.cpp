@@ -263,8 +263,54 @@ private:
                 if (const auto there = at_node_.find(n); there != at_node_.end())
                     if (there->second.empty() || !(there->second.back() == c)) there->second.push_back(c);
         });
-        for (const auto& [node, cells] : at_node_) part(node, cells);
+        for (const auto& [node, cells] : at_node_)
+            if (is_corner(node, cells.front())) part(node, cells);
+        for (const auto& [node, cells] : at_node_)
+            if (!is_corner(node, cells.front())) part_middle(node, cells);
         if (parts_.empty()) refuse("has all its " + what() + "s where the crack would end: none could be opened");
+    }
+
+    bool is_corner(Index node, const CellRef& cell) const {
+        return std::ranges::find(corners(cell), node) != corners(cell).end();
+    }
+
+    /// A node in the middle of an edge or face is one for all elements that have the same corners there.
+    void part_middle(Index node, const std::vector<CellRef>& cells) {
+        std::map<std::vector<int>, std::vector<std::size_t>> classes;  // by the copies that the corners get
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            std::vector<int> copies;
+            for (const Index corner : corners_beside(node, cells[k])) {
+                const auto parts = parts_.find(corner);
+                if (parts == parts_.end()) continue;
+                const std::vector<CellRef>& there = at_node_.at(corner);
+                copies.push_back(
+                    parts->second[static_cast<std::size_t>(std::ranges::find(there, cells[k]) - there.begin())]);
+            }
+            classes[copies].push_back(k);
+        }
+        if (classes.size() < 2) return;
+        std::vector<int>& of_cells = parts_[node];
+        of_cells.assign(cells.size(), -1);
+        int copy = -1;  // those with the originals (all -1) come first, and keep the node
+        for (const auto& [copies, members] : classes) {
+            for (const std::size_t k : members) of_cells[k] = copy;
+            ++copy;
+        }
+    }
+
+    /// The corners, ascending, of the smallest edge or face of an element that a node is in the middle of.
+    std::vector<Index> corners_beside(Index node, const CellRef& c) const {
+        const CellTraits& t = traits(c.type);
+        const auto n = mesh_.block(c.type).nodes(c.cell);
+        std::vector<Index> out;
+        for (std::size_t e = 0; t.quadratic && e < t.edges.size(); ++e)
+            if (n[t.corners + static_cast<int>(e)] == node) out = {n[t.edges[e][0]], n[t.edges[e][1]]};
+        for (int f = 0; out.empty() && f < face_count(c.type); ++f) {
+            const std::vector<Index> all = nodes_of(mesh_, owner(c.type, c.cell, f));
+            if (std::ranges::find(all, node) != all.end()) out = corners_of(owner(c.type, c.cell, f));
+        }
+        std::ranges::sort(out);
+        return out;
     }
 
     void part(Index node, const std::vector<CellRef>& cells) {
@@ -363,6 +409,7 @@ private:
                         images.push_back(std::move(*found));
                 if (images.size() != 1) {
                     ++out_.whole;
+                    out_.bridges += d == 2;
                     return;
                 }
                 if (std::ranges::equal(images.front(), nodes)) return;
@@ -376,8 +423,15 @@ private:
             std::vector<std::vector<Index>> sides;
             sides.reserve(face.owners.size());
             for (const Owner& o : face.owners) sides.push_back(nodes_of(out_.mesh, o));
-            if (std::ranges::all_of(sides, [&](const auto& s) { return key_of(s) == key_of(sides[0]); })) {
+            const auto is_first = [&](std::vector<Index> nodes) {
+                std::ranges::sort(nodes);
+                std::vector<Index> first = sides[0];
+                std::ranges::sort(first);
+                return nodes == first;
+            };
+            if (std::ranges::all_of(sides, is_first)) {
                 ++out_.closed;
+                keep_on(face);
                 continue;
             }
             opened_.push_back(&face);
@@ -385,6 +439,15 @@ private:
                 make_lip(face, face.owners[o], side(face, o) > 0 ? negative_ : positive_, side(face, o) > 0);
         }
         if (opened_.empty()) refuse("has all its " + what() + "s where the crack would end: none could be opened");
+    }
+
+    /// An element on a face that stays closed goes with the elements there.
+    void keep_on(const Face& face) {
+        if (!face.element) return;
+        const auto nodes = image(*face.element, face.owners[0].cell);
+        if (!nodes || std::ranges::equal(*nodes, nodes_in(*face.element))) return;
+        std::ranges::copy(*nodes, nodes_in(*face.element).begin());
+        out_.changed.push_back(*face.element);
     }
 
     void make_lip(const Face& face, const Owner& o, GroupIndex group, bool negative) {

@@ -19,6 +19,7 @@ struct Parted {
     std::vector<CellRef> added;    ///< twins and lips; listed after those of the input in their blocks
     std::vector<Index> doubled;    ///< nodes (indices) of the input that have copies
     Index closed = 0;              ///< faces whose nodes are all where the crack ends: they could not be opened
+    Index bridges = 0;             ///< of `whole`, shells
     Index whole = 0;               ///< segments and points that end on doubled nodes, and stay with the original
 };
 

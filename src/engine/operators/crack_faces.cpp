@@ -155,6 +155,8 @@ std::optional<Result> opened(
 
 Result crack_along_faces(const Mesh& mesh, const std::string& faces, const OperatorOptions& options,
                          const Prepared& prepared) {
+    check_options(options);
+    (void)drifting_groups(mesh, options.preserve);  // whose names may be unknown
     return *opened(mesh, options, prepared,
                    [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) {
                        return part_along(marked, group_of_faces(marked, faces), names, numbering);
@@ -184,7 +186,7 @@ std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool,
         mesh, options, prepared,
         [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) -> std::optional<Parted> {
             std::optional<Parted> parted = part_along(marked, distance, rounding, names, numbering);
-            if (parted && parted->whole > 0) return {};
+            if (parted && parted->bridges > 0) return {};
             return parted;
         });
 }

@@ -22,7 +22,7 @@ Result crack_along_faces(const Mesh& mesh, const std::string& faces, const Opera
 
 /// The same along the faces that lie on a tool which passes through no element: then quadrangles and hexahedra need not
 /// become triangles and tetrahedra. Nothing where it does, or the mesh has none of these, or is to be refined; nor
-/// where shells end on the tool beside the solids, elements could not follow (Parted::whole), or double nodes are near.
+/// where shells end on the tool beside the solids, shells could not follow (Parted::bridges), or double nodes are near.
 std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool, const OperatorOptions& options,
                                              const Prepared& prepared = {});
 

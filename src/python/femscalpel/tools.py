@@ -295,6 +295,9 @@ class Face(_engine.Face):
 class Faces:
     """Faces that a mesh has already, for :func:`crack`: elements of any type come apart there, and none moves.
 
+    Of the options, `name`, `strict` and `band_only` count. Beams and springs that end on the faces stay whole, on the
+    negative side: springs between double nodes get none for new pairs, of which a warning tells.
+
     Parameters
     ----------
     group : str
