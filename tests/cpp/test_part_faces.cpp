@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cutting/face_cover.h"
 #include "operators/crack_faces.h"
 
 namespace femscalpel {

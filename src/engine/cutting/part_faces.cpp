@@ -2,7 +2,6 @@
 #include "cutting/part_faces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,58 +9,25 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "cutting/face_cover.h"
 #include "mesh/chains.h"
-#include "mesh/facet_element.h"
 #include "mesh/union_find.h"
 
 namespace femscalpel {
 namespace {
 
-/// Corners of a face or edge, ascending, each once; then -1.
-using Key = std::array<Index, 4>;
+using Key = FaceCover::Key;
+using Face = FaceCover::Face;
+using Owner = FaceCover::Owner;
 
-Key key_of(std::span<const Index> corners) {
-    std::vector<Index> nodes(corners.begin(), corners.end());
-    std::ranges::sort(nodes);
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    Key out{-1, -1, -1, -1};
-    std::copy_n(nodes.begin(), std::min<std::size_t>(nodes.size(), 4), out.begin());
-    return out;
-}
-
-/// A face as one of the elements at it has it.
-struct Owner {
-    CellRef cell;
-    int face;  // Facet::face
-};
-
-struct Face {
-    std::vector<Owner> owners;
-    std::optional<CellRef> element;  // that lies on it
-    int reference = 0;               // 1: the first owner is on the negative side, as what covers it says; -1: not
-    int sense = 0;                   // the same when it is known
-};
+Key key_of(std::span<const Index> corners) { return FaceCover::key_of(corners); }
 
 class Parter {
 public:
-    Parter(const Mesh& mesh, GroupIndex group, const Numbering& numbering)
-        : mesh_(mesh), group_(group), dimension_(mesh.dimension()), next_(numbering) {}
-
-    Parter(const Mesh& mesh, const std::vector<double>& distance, double rounding, const Numbering& numbering)
-        : Parter(mesh, -1, numbering) {
-        distance_ = &distance;
-        rounding_ = rounding;
-    }
-
-    /// To be called first.
-    bool finds_faces() {
-        find_wanted();
-        find_owners();
-        return !faces_.empty();
-    }
+    Parter(const Mesh& mesh, const FaceCover& cover, const Numbering& numbering)
+        : mesh_(mesh), cover_(cover), dimension_(cover.dimension()), next_(numbering), faces_(cover.faces()) {}
 
     Parted run(const PartedNames& names) {
-        orient();
         find_parts();
         out_.mesh = mesh_;
         negative_ = out_.mesh.add_group(names.negative, GroupKind::element);
@@ -74,191 +40,12 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& why) const {
-        if (distance_) throw ToolError("what lies on the tool " + why, "tool");
-        throw ToolError("group '" + mesh_.groups[group_].name + "' " + why, "group");
-    }
-    std::string what() const { return dimension_ == 3 ? "face" : "edge"; }
-    bool has(FamilyIndex family) const { return mesh_.families.contains(family, group_); }
-    std::span<const Index> corners(const CellRef& c) const {
-        return mesh_.block(c.type).nodes(c.cell).first(static_cast<std::size_t>(traits(c.type).corners));
-    }
-    int face_count(CellType type) const {
-        return static_cast<int>(dimension_ == 3 ? traits(type).faces.size() : traits(type).edges.size());
-    }
-    Facet facet(const Owner& o) const { return {o.cell.type, static_cast<std::int8_t>(o.face), 0, o.cell.cell}; }
-    /// All nodes of a face, corners first, turned out of its owner.
-    std::vector<Index> nodes_of(const Mesh& mesh, const Owner& o) const {
-        const FacetElement f = facet_element(mesh, facet(o));
-        return {f.nodes.begin(), f.nodes.begin() + f.size};
-    }
-    std::vector<Index> corners_of(const Owner& o) const {
-        const FacetElement f = facet_element(mesh_, facet(o));
-        return {f.nodes.begin(), f.nodes.begin() + traits(f.type).corners};
-    }
-    Owner owner(CellType type, Index cell, int k) const { return {{type, cell}, dimension_ == 3 ? k + 1 : k + 3}; }
-
-    /// Faces that the group covers; nodes that they have.
-    void find_wanted() {
-        reached_.assign(mesh_.points.size(), 0);
-        const auto want = [&](std::span<const Index> nodes) -> Face& {
-            for (const Index n : nodes) reached_[n] = 1;
-            return faces_[key_of(nodes)];
-        };
-        if (distance_) {
-            for (std::size_t n = 0; n < reached_.size(); ++n) reached_[n] = std::abs((*distance_)[n]) <= rounding_;
-            return;
-        }
-        const GroupKind kind = mesh_.groups[group_].kind;
-        if (kind == GroupKind::node) {
-            for (std::size_t n = 0; n < reached_.size(); ++n) reached_[n] = has(mesh_.node_families[n]);
-        } else if (kind == GroupKind::facet) {
-            for (const Facet& f : mesh_.facets)
-                if (has(f.family) && traits(f.type).dimension == dimension_ && (dimension_ == 3 || f.face > 2)) {
-                    const Owner o{{f.type, f.cell}, f.face};
-                    told_.emplace(key_of(corners_of(o)), o.cell);
-                    want(corners_of(o));
-                }
-        } else {
-            for (const CellBlock& b : mesh_.blocks())
-                for (Index c = 0; c < b.size(); ++c) {
-                    if (!has(b.families[c])) continue;
-                    if (traits(b.type).dimension == dimension_)
-                        refuse("has " + std::string(traits(b.type).name) + " elements; give a group of " + what() +
-                               "s between them");
-                    if (traits(b.type).dimension == dimension_ - 1) want(corners({b.type, c}));
-                }
-        }
-        if (kind != GroupKind::node && faces_.empty()) refuse("covers no " + what());
-        for_each_of(dimension_ - 1, [&](const CellRef& c) {
-            if (const auto face = faces_.find(key_of(corners(c))); face != faces_.end()) face->second.element = c;
-        });
-    }
-
-    void for_each_of(int dimension, auto visit) const {
-        SparseCheck check;
-        for (const CellBlock& b : mesh_.blocks()) {
-            if (traits(b.type).dimension != dimension) continue;
-            for (Index c = 0; c < b.size(); ++c) {
-                check();
-                visit(CellRef{b.type, c});
-            }
-        }
-    }
-
-    void find_owners() {
-        const bool by_nodes = distance_ || mesh_.groups[group_].kind == GroupKind::node;
-        for_each_of(dimension_, [&](const CellRef& c) {
-            if (std::ranges::count_if(corners(c), [&](Index n) { return reached_[n] != 0; }) < dimension_) return;
-            for (int k = 0; k < face_count(c.type); ++k) {
-                const Owner o = owner(c.type, c.cell, k);
-                const std::vector<Index> nodes = corners_of(o);
-                if (!std::ranges::all_of(nodes, [&](Index n) { return reached_[n] != 0; })) continue;
-                const Key key = key_of(nodes);
-                if (key[static_cast<std::size_t>(dimension_) - 1] < 0) continue;  // of a degenerate element
-                if (by_nodes)
-                    faces_[key].owners.push_back(o);
-                else if (const auto face = faces_.find(key); face != faces_.end())
-                    face->second.owners.push_back(o);
-            }
-        });
-        const bool any = !faces_.empty();
-        std::erase_if(faces_, [](const auto& f) { return f.second.owners.size() < 2; });
-        if (!any && !distance_) refuse("covers no " + what() + ": no element has all corners of one in it");
-        if (faces_.empty() && !distance_)
-            refuse("covers no " + what() +
-                   " between two elements: it lies on the outside, or is open there already; nothing could be parted");
-        if (by_nodes)
-            for_each_of(dimension_ - 1, [&](const CellRef& c) {
-                if (const auto face = faces_.find(key_of(corners(c))); face != faces_.end()) face->second.element = c;
-            });
-        for (auto& [key, face] : faces_) {
-            if (face.owners.size() > 2 && dimension_ == 3)
-                refuse("has a face of " + std::to_string(face.owners.size()) +
-                       " elements: the mesh does not fit there");
-            ask(key, face);
-        }
-    }
-
-    /// What the group's element or facet says.
-    void ask(const Key& key, Face& face) const {
-        if (distance_) {
-            for (const Index n : corners(face.owners[0].cell))
-                if (std::abs((*distance_)[n]) > rounding_) face.reference = (*distance_)[n] < 0 ? 1 : -1;
-            return;
-        }
-        if (const auto told = told_.find(key); told != told_.end())
-            face.reference = told->second == face.owners[0].cell ? 1 : -1;
-        if (!face.element || mesh_.groups[group_].kind != GroupKind::element) return;
-        const auto own = corners(*face.element);
-        const std::vector<Index> out = corners_of(face.owners[0]);
-        const auto at = std::ranges::find(out, own[0]);
-        const bool same = dimension_ == 2 ? out[0] == own[0] : *(at + 1 == out.end() ? out.begin() : at + 1) == own[1];
-        face.reference = same ? 1 : -1;
-    }
-
-    /// Faces that go on smoothly have one negative side.
-    void orient() {
-        std::map<Key, std::vector<std::pair<Face*, bool>>> at_border;  // of each edge (node): which way it runs
-        for (auto& [key, face] : faces_) {
-            const std::vector<Index> n = corners_of(face.owners[0]);
-            if (dimension_ == 2) {
-                at_border[key_of(std::span(n).first(1))].emplace_back(&face, true);
-                at_border[key_of(std::span(n).subspan(1, 1))].emplace_back(&face, false);
-                continue;
-            }
-            for (std::size_t k = 0; k < n.size(); ++k) {
-                const std::array<Index, 2> edge{n[k], n[(k + 1) % n.size()]};
-                if (edge[0] != edge[1]) at_border[key_of(edge)].emplace_back(&face, edge[0] < edge[1]);
-            }
-        }
-        std::map<Face*, std::vector<std::pair<Face*, int>>> beside;
-        for (const auto& [edge, there] : at_border)
-            if (there.size() == 2) {
-                const int turned = there[0].second == there[1].second ? -1 : 1;
-                beside[there[0].first].emplace_back(there[1].first, turned);
-                beside[there[1].first].emplace_back(there[0].first, turned);
-            }
-        for (auto& [key, face] : faces_) {
-            if (face.sense != 0) continue;
-            std::vector<Face*> patch{&face};
-            face.sense = 1;
-            for (std::size_t k = 0; k < patch.size(); ++k)
-                for (const auto& [other, turned] : beside[patch[k]])
-                    if (other->sense == 0) {
-                        other->sense = patch[k]->sense * turned;
-                        patch.push_back(other);
-                    }
-            if (is_turned(patch))
-                for (Face* f : patch) f->sense = -f->sense;
-        }
-    }
-
-    bool is_turned(const std::vector<Face*>& patch) const {
-        int votes = 0;
-        Vec3 normal = Vec3::Zero();
-        for (const Face* f : patch) {
-            votes += f->reference * f->sense;
-            const std::vector<Index> n = corners_of(f->owners[0]);
-            const Vec3 &a = mesh_.points[n[0]], &b = mesh_.points[n[1]], &c = mesh_.points[n.back()];
-            const Vec3 way = dimension_ == 3 ? (b - a).cross(c - a) : b - a;
-            normal += f->sense * way;
-        }
-        if (votes != 0) return votes < 0;
-        Eigen::Index largest = 0;
-        normal.cwiseAbs().maxCoeff(&largest);
-        return normal[largest] < 0;
-    }
-
-    /// 1 on the negative side, -1 on the positive.
-    static int side(const Face& face, std::size_t owner) { return owner == 0 ? face.sense : -face.sense; }
-
     /// At each node which elements hang together.
     void find_parts() {
         for (const auto& [key, face] : faces_)
             for (const Owner& o : face.owners)
-                for (const Index n : nodes_of(mesh_, o)) at_node_[n];
-        for_each_of(dimension_, [&](const CellRef& c) {
+                for (const Index n : FaceCover::nodes_of(mesh_, o)) at_node_[n];
+        cover_.for_each_of(dimension_, [&](const CellRef& c) {
             for (const Index n : mesh_.block(c.type).nodes(c.cell))
                 if (const auto there = at_node_.find(n); there != at_node_.end())
                     if (there->second.empty() || !(there->second.back() == c)) there->second.push_back(c);
@@ -267,11 +54,12 @@ private:
             if (is_corner(node, cells.front())) part(node, cells);
         for (const auto& [node, cells] : at_node_)
             if (!is_corner(node, cells.front())) part_middle(node, cells);
-        if (parts_.empty()) refuse("has all its " + what() + "s where the crack would end: none could be opened");
+        if (parts_.empty())
+            cover_.refuse("has all its " + cover_.what() + "s where the crack would end: none could be opened");
     }
 
     bool is_corner(Index node, const CellRef& cell) const {
-        return std::ranges::find(corners(cell), node) != corners(cell).end();
+        return std::ranges::find(cover_.corners(cell), node) != cover_.corners(cell).end();
     }
 
     /// A node in the middle of an edge or face is one for all elements that have the same corners there.
@@ -305,9 +93,9 @@ private:
         std::vector<Index> out;
         for (std::size_t e = 0; t.quadratic && e < t.edges.size(); ++e)
             if (n[t.corners + static_cast<int>(e)] == node) out = {n[t.edges[e][0]], n[t.edges[e][1]]};
-        for (int f = 0; out.empty() && f < face_count(c.type); ++f) {
-            const std::vector<Index> all = nodes_of(mesh_, owner(c.type, c.cell, f));
-            if (std::ranges::find(all, node) != all.end()) out = corners_of(owner(c.type, c.cell, f));
+        for (int f = 0; out.empty() && f < cover_.face_count(c.type); ++f) {
+            const std::vector<Index> all = FaceCover::nodes_of(mesh_, cover_.owner(c.type, c.cell, f));
+            if (std::ranges::find(all, node) != all.end()) out = cover_.corners_of(cover_.owner(c.type, c.cell, f));
         }
         std::ranges::sort(out);
         return out;
@@ -316,11 +104,11 @@ private:
     void part(Index node, const std::vector<CellRef>& cells) {
         std::map<Key, std::vector<int>> at_face;
         for (std::size_t k = 0; k < cells.size(); ++k)
-            for (int f = 0; f < face_count(cells[k].type); ++f) {
-                const Owner o = owner(cells[k].type, cells[k].cell, f);
-                const std::vector<Index> all = nodes_of(mesh_, o);
+            for (int f = 0; f < cover_.face_count(cells[k].type); ++f) {
+                const Owner o = cover_.owner(cells[k].type, cells[k].cell, f);
+                const std::vector<Index> all = FaceCover::nodes_of(mesh_, o);
                 if (std::ranges::find(all, node) != all.end())
-                    at_face[key_of(corners_of(o))].push_back(static_cast<int>(k));
+                    at_face[key_of(cover_.corners_of(o))].push_back(static_cast<int>(k));
             }
         UnionFind before(cells.size()), after(cells.size());
         std::vector<int> score(cells.size(), 0);
@@ -334,7 +122,7 @@ private:
             for (std::size_t o = 0; o < face->second.owners.size(); ++o)
                 for (const int a : there)
                     if (cells[static_cast<std::size_t>(a)] == face->second.owners[o].cell)
-                        score[static_cast<std::size_t>(a)] += side(face->second, o);
+                        score[static_cast<std::size_t>(a)] += FaceCover::side(face->second, o);
         }
         // Of each piece that was one, the part that is most on the negative side, then the largest, keeps the node.
         std::map<int, std::map<int, std::pair<int, int>>> pieces;
@@ -398,11 +186,11 @@ private:
     /// What is on faces and edges goes with the solids there; what is on opened faces is the lips' (make_lips()).
     void place_others() {
         for (int d = 0; d < dimension_; ++d)
-            for_each_of(d, [&](const CellRef& c) {
+            cover_.for_each_of(d, [&](const CellRef& c) {
                 const auto nodes = mesh_.block(c.type).nodes(c.cell);
                 const auto doubled = std::ranges::find_if(nodes, [&](Index n) { return parts_.contains(n); });
                 if (doubled == nodes.end()) return;
-                if (d == dimension_ - 1 && faces_.contains(key_of(corners(c)))) return;
+                if (d == dimension_ - 1 && faces_.contains(key_of(cover_.corners(c)))) return;
                 std::vector<std::vector<Index>> images;
                 for (const CellRef& host : at_node_.at(*doubled))
                     if (auto found = image(c, host); found && std::ranges::find(images, *found) == images.end())
@@ -422,7 +210,7 @@ private:
         for (const auto& [key, face] : faces_) {
             std::vector<std::vector<Index>> sides;
             sides.reserve(face.owners.size());
-            for (const Owner& o : face.owners) sides.push_back(nodes_of(out_.mesh, o));
+            for (const Owner& o : face.owners) sides.push_back(FaceCover::nodes_of(out_.mesh, o));
             const auto is_first = [&](std::vector<Index> nodes) {
                 std::ranges::sort(nodes);
                 std::vector<Index> first = sides[0];
@@ -436,9 +224,11 @@ private:
             }
             opened_.push_back(&face);
             for (std::size_t o = 0; o < face.owners.size(); ++o)
-                make_lip(face, face.owners[o], side(face, o) > 0 ? negative_ : positive_, side(face, o) > 0);
+                make_lip(face, face.owners[o], FaceCover::side(face, o) > 0 ? negative_ : positive_,
+                         FaceCover::side(face, o) > 0);
         }
-        if (opened_.empty()) refuse("has all its " + what() + "s where the crack would end: none could be opened");
+        if (opened_.empty())
+            cover_.refuse("has all its " + cover_.what() + "s where the crack would end: none could be opened");
     }
 
     /// An element on a face that stays closed goes with the elements there.
@@ -453,7 +243,7 @@ private:
     void make_lip(const Face& face, const Owner& o, GroupIndex group, bool negative) {
         FamilyTable& families = out_.mesh.families;
         if (!face.element) {
-            const FacetElement f = facet_element(out_.mesh, facet(o));
+            const FacetElement f = facet_element(out_.mesh, FaceCover::facet(o));
             const std::span<const Index> nodes(f.nodes.data(), static_cast<std::size_t>(f.size));
             add(f.type, nodes, families.with(0, group));
             return;
@@ -481,7 +271,7 @@ private:
         std::map<Key, std::pair<int, std::vector<Index>>> edges;  // how many faces have it; its nodes
         std::set<Index> tips;
         for (const Face* face : opened_) {
-            const FacetElement f = facet_element(mesh_, facet(face->owners[0]));
+            const FacetElement f = facet_element(mesh_, FaceCover::facet(face->owners[0]));
             const auto count = static_cast<std::size_t>(traits(f.type).corners);
             for (std::size_t k = 0; k < count; ++k) {
                 if (!parts_.contains(f.nodes[k])) tips.insert(f.nodes[k]);
@@ -509,8 +299,8 @@ private:
     /// Segments in order; one that is there already joins the group.
     void write_chains(const std::map<Key, std::pair<int, std::vector<Index>>>& edges, GroupIndex group) {
         std::map<Key, CellRef> there;
-        for_each_of(1, [&](const CellRef& c) {
-            if (const Key key = key_of(corners(c)); edges.contains(key)) there.emplace(key, c);
+        cover_.for_each_of(1, [&](const CellRef& c) {
+            if (const Key key = key_of(cover_.corners(c)); edges.contains(key)) there.emplace(key, c);
         });
         std::vector<std::array<Index, 2>> ends;
         ends.reserve(edges.size());
@@ -530,16 +320,12 @@ private:
     }
 
     const Mesh& mesh_;
-    const GroupIndex group_;
+    const FaceCover& cover_;
     const int dimension_;
     Numbering next_;
+    const std::map<Key, Face>& faces_;
     Parted out_;
-    const std::vector<double>* distance_ = nullptr;  // in place of a group: from a surface
-    double rounding_ = 0;
     GroupIndex negative_ = 0, positive_ = 0;
-    std::vector<char> reached_;                                // nodes of wanted faces
-    std::map<Key, Face> faces_;                                // those to be opened
-    std::map<Key, CellRef> told_;                              // the element whose facet it is
     std::unordered_map<Index, std::vector<CellRef>> at_node_;  // elements of the mesh's dimension, at their nodes
     std::map<Index, std::vector<int>> parts_;                  // of these, which copy each gets (-1: none)
     std::vector<const Face*> opened_;
@@ -548,16 +334,16 @@ private:
 }  // namespace
 
 Parted part_along(const Mesh& mesh, GroupIndex group, const PartedNames& names, const Numbering& numbering) {
-    Parter parter(mesh, group, numbering);
-    (void)parter.finds_faces();
-    return parter.run(names);
+    FaceCover cover(mesh, group);
+    (void)cover.find();
+    return Parter(mesh, cover, numbering).run(names);
 }
 
 std::optional<Parted> part_along(const Mesh& mesh, const std::vector<double>& distance, double rounding,
                                  const PartedNames& names, const Numbering& numbering) {
-    Parter parter(mesh, distance, rounding, numbering);
-    if (!parter.finds_faces()) return {};
-    return parter.run(names);
+    FaceCover cover(mesh, distance, rounding);
+    if (!cover.find()) return {};
+    return Parter(mesh, cover, numbering).run(names);
 }
 
 }  // namespace femscalpel
