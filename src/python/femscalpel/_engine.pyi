@@ -7,6 +7,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+
 class CadShape:
     @overload
     def __init__(self, brep: bytes) -> None: ...
@@ -215,13 +216,19 @@ class Error(RuntimeError):
     def parameter(self) -> str | None: ...
 
 class Cancelled(Error): ...
+
 class QualityError(Error): ...
+
 class ReadError(Error): ...
+
 class ToolError(Error): ...
+
 class UnsupportedElementError(Error): ...
+
 class WriteError(Error): ...
 
 def cell_types() -> dict[str, tuple[int, int, int]]: ...
+
 @overload
 def crack(mesh: Mesh, tool: Tool, options: Options, within: Within | None) -> tuple[Mesh, dict[str, Any]]: ...
 @overload
@@ -231,10 +238,12 @@ def crack(
     options: Options,
     within: Within | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 @overload
 def crack_along_faces(mesh: Mesh, faces: str, options: Options) -> tuple[Mesh, dict[str, Any]]: ...
 @overload
 def crack_along_faces(session: Scalpel, faces: str, options: Options) -> tuple[Mesh, dict[str, Any]]: ...
+
 @overload
 def cut(
     mesh: Mesh,
@@ -267,6 +276,7 @@ def cut(
     options: Options,
     bottom: Tool | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 @overload
 def drill(
     mesh: Mesh,
@@ -281,7 +291,9 @@ def drill(
     options: Options,
     depth: float | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 def elementary_groups(mesh: Mesh) -> list[tuple[str, int, tuple[str, ...], NDArray[np.int64]]]: ...
+
 @overload
 def fillet(
     mesh: Mesh,
@@ -300,7 +312,9 @@ def fillet(
     radius: float,
     options: Options,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 def formats() -> list: ...
+
 @overload
 def merge(
     mesh: Mesh,
@@ -325,7 +339,9 @@ def merge(
     keep_side: Sequence[float] | None,
     tie: bool,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 def read(path: str | os.PathLike[str]) -> Mesh: ...
+
 def refine(
     mesh: Mesh,
     tools: Sequence[Tool],
@@ -339,6 +355,7 @@ def refine(
     strict: bool,
     skin: CadShape | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 @overload
 def reshape(
     mesh: Mesh,
@@ -363,10 +380,12 @@ def reshape(
     preserve: Sequence[str] | None,
     strict: bool,
 ) -> tuple[Mesh, dict[str, Any]]: ...
+
 def virtual_boundaries(
     mesh: Mesh,
     groups: Sequence[tuple[str, str]],
 ) -> list[
     tuple[dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]], NDArray[np.int64]]
 ]: ...
+
 def write(mesh: Mesh, path: str | os.PathLike[str]) -> None: ...
