@@ -100,6 +100,7 @@ py::dict to_dict(const Report& report) {
     py::dict converted;
     for (const auto& [type, count] : report.converted) converted[py::str(type)] = count;
     out["converted"] = converted;
+    out["beams_cut"] = report.beams_cut;
     out["nodes_added"] = report.nodes_added;
     out["nodes_split"] = report.nodes_split;
     out["nodes_doubled"] = report.nodes_doubled;

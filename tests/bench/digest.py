@@ -126,6 +126,8 @@ class Outcome:
             del fields["welded_pairs"]
         if not fields["converted"]:
             del fields["converted"]  # says nothing of meshes of simplices
+        if not fields["beams_cut"]:
+            del fields["beams_cut"]
         self.add("warnings", self.text(repr(fields.pop("warnings"))))
         self.add("report", fields)
         lines = [line for line in report.to_text().splitlines() if not line.startswith("  seconds ")]

@@ -49,7 +49,7 @@ TEST(WhyMissed, ThroughSegmentsOnly) {
     mesh.add_cell(CellType::line,
                   std::array{checks::number_near(mesh, {1, 0, 0}), checks::number_near(mesh, {3, 0, 0})}, 77);
     EXPECT_THAT(missed(mesh, Plane({1.5, 0, 0}, {1, 0, 0})),
-                HasSubstr("it passes only through segments (element 77), which are not cut"));
+                HasSubstr("it passes only through segments (element 77), which cannot be divided"));
 }
 
 TEST(WhyMissed, InsideAnElement) {

@@ -53,14 +53,15 @@ def test_nodes_without_elements_are_no_mesh():
     )
 
 
-def test_plane_through_beams_only():
-    mesh = fs.Mesh(
-        np.vstack([TETRA, [[5, 0, 0]]]),
-        {"tetra": [[0, 1, 2, 3]], "line": [[1, 4]]},
-        cell_ids={"tetra": [7], "line": [12]},
+def test_plane_through_springs_only(tmp_path):
+    nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate([*TETRA, (5, 0, 0)]))
+    deck = tmp_path / "spring.inp"
+    deck.write_text(
+        f"*NODE\n{nodes}*ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n12, 2, 5\n"
+        "*SPRING, ELSET=S\n\n10.\n"
     )
-    assert "passes only through segments (element 12), which are not cut" in message(
-        lambda: fs.crack(mesh, fs.Plane((3, 0, 0), (1, 0, 0)))
+    assert "passes only through segments (element 12), which cannot be divided" in message(
+        lambda: fs.crack(fs.read(str(deck)), fs.Plane((3, 0, 0), (1, 0, 0)))
     )
 
 

@@ -427,7 +427,7 @@ void keep_patch(Workpiece& f, const Patch& patch) {
             if (list.alive(s) && is_inside(f, patch, list[s])) return true;
         return false;
     };
-    if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges)) {
+    if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges) && f.beam_nodes.empty()) {
         if (meets_material(band, patch)) too_coarse("no element face fits in it");
         throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}},
                                           "the crack lies outside the part, or is far smaller than the elements there: "

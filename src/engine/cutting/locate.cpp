@@ -47,7 +47,7 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
     std::vector<std::uint8_t> side(distance.size());
     for (std::size_t n = 0; n < side.size(); ++n)
         side[n] = distance[n] < -out.rounding ? behind : distance[n] > out.rounding ? before : on;
-    bool touched = false, beyond = false;
+    bool touched = !out.stops.empty(), beyond = false;
     SparseCheck check(64);
     check_cancelled();
     for_each_element(mesh, [&](const Index* n, int corners) {
@@ -69,23 +69,53 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
             if (crossed || side[n[k]] == on) out.level[n[k]] = 0;
         touched = true;
     });
-    if (!touched) throw ToolError(why_missed(mesh, blade, distance, out.tolerance, beyond));
+    for (const CellType type : {CellType::line, CellType::line3})
+        for (Index c = 0; c < mesh.block(type).size(); ++c) {
+            const auto ends = mesh.block(type).nodes(c).first(2);
+            beyond = beyond || (side[ends[0]] | side[ends[1]]) == (behind | before);
+            for (const Index n : ends) {
+                if (side[n] != on) continue;
+                if (blade.bound && blade.bound(mesh.points[n]) > out.rounding) {
+                    beyond = true;
+                } else {
+                    out.level[n] = 0;
+                    touched = true;
+                }
+            }
+        }
+    if (!touched) throw ToolError(why_missed(mesh, blade, distance, out.tolerance, beyond && blade.bound));
 }
 
 }  // namespace
 
-Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency) {
-    Location out;
-    out.level.assign(mesh.points.size(), -1);
-    if (mesh.points.empty()) throw ToolError("the mesh is empty: there is nothing to cut");
+Reach reach_of_rounding(const Mesh& mesh) {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (const Vec3& x : mesh.points) {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
-    out.tolerance = 1e-10 * (high - low).norm();
+    const double tolerance = 1e-10 * (high - low).norm();
     // In the direction of a tool's normal, the roundings of three coordinates add up.
-    out.rounding = std::max(out.tolerance, 2 * coordinate_rounding(mesh.points));
+    return {tolerance, std::max(tolerance, 2 * coordinate_rounding(mesh.points))};
+}
+
+Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency,
+                std::span<const Index> stops) {
+    Location out;
+    out.level.assign(mesh.points.size(), -1);
+    if (mesh.points.empty()) throw ToolError("the mesh is empty: there is nothing to cut");
+    const auto [tolerance, rounding] = reach_of_rounding(mesh);
+    out.tolerance = tolerance;
+    out.rounding = rounding;
+    if (!stops.empty()) {
+        const NumberIndex numbers(mesh);
+        for (const Index number : stops)
+            if (const auto n = numbers.node(number)) {
+                out.stops.push_back(*n);
+                out.level[*n] = 0;
+            }
+        std::ranges::sort(out.stops);
+    }
     for (const Blade& blade : blades) {
         std::vector<double> distance(mesh.points.size());
         SparseCheck check(256);  // distances to CAD faces take their time

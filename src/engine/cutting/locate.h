@@ -13,21 +13,33 @@ namespace femscalpel {
 
 /// Where tools meet a mesh (resources/docs/architecture.md, "locate").
 struct Location {
-    std::vector<double> distance;  ///< signed, to the first tool, by node
-    std::vector<std::int8_t>
-        level;             ///< 0: node of an element the tool touches; k: k edges away; -1: farther than `levels`
+    std::vector<double> distance = {};  ///< signed, to the first tool, by node
+    std::vector<std::int8_t> level =
+        {};                ///< 0: node of an element the tool touches; k: k edges away; -1: farther than `levels`
     double tolerance = 0;  ///< what is nearer than this lies on the tool
     double rounding =
         0;  ///< coordinate_rounding() of the mesh, at least `tolerance`: nodes nearer than this are on the tool
-    Index crossed = 0;  ///< triangles and tetrahedra a tool passes through
+    std::vector<Index> stops = {};  ///< indices, ascending, of the nodes with the numbers `stops`
+    Index crossed = 0;              ///< triangles and tetrahedra a tool passes through
 };
 
-/// Measures all nodes and finds those within `levels` edges of the elements the blades touch. One pass
+/// How near to a tool something lies on it: Location::tolerance and ::rounding.
+struct Reach {
+    double tolerance;
+    double rounding;
+};
+Reach reach_of_rounding(const Mesh& mesh);
+
+/// Measures all nodes and finds those within `levels` edges of the elements the blades touch, of segments
+/// those on them. One pass
 /// over the nodes, one over the elements and one per level, unless `adjacency` (elements around nodes) is
 /// given, which makes the levels cost only the band.
 ///
+/// Nodes with the numbers `stops` are on the tools, too.
+///
 /// Throws ToolError when a tool parts no nodes of an element and none lie on it: why_missed().
-Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr);
+Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, const Adjacency* adjacency = nullptr,
+                std::span<const Index> stops = {});
 
 /// The paper's bandwidth: largest distance between an interface node and the tool, in mean edge lengths; at least 2.
 int bandwidth(const Location& location, const Mesh& mesh);

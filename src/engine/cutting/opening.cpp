@@ -10,6 +10,7 @@
 
 #include "cancel.h"
 #include "cutting/node_parts.h"
+#include "deformation/curved_shape.h"
 #include "mesh/chains.h"
 
 namespace femscalpel {
@@ -41,6 +42,7 @@ public:
         find_open_edges();
         for (const int v : out_.interface_nodes) part_node(v);
         place_attached();
+        for (const int v : f_.beam_nodes) part_beams(v);
         make_lips();
         if (f_.patched) chain_front();
         return std::move(out_);
@@ -222,6 +224,16 @@ private:
         }
     }
 
+    /// The side a segment lies on: of a beam, that of its end or middle farthest from the tool.
+    int line_side(int l) const {
+        const auto& n = band_.lines[l];
+        if (!f_.d.constraints.is_beam(band_.lines.origin(l))) return side(n);
+        double farthest = f_.tool->distance(mid_side(f_.d, n[0], n[1]).at);
+        for (const int v : n)
+            if (std::abs(f_.distance[v]) > std::abs(farthest)) farthest = f_.distance[v];
+        return std::abs(farthest) <= std::max(f_.tolerance, f_.d.rounding) ? 0 : farthest > 0 ? 1 : -1;
+    }
+
     /// Elements that share an edge at v belong together, unless the edge is open and they are on different sides of it.
     void join(NodeParts& parts, int item, int v, const auto& nodes, int where) {
         const int half = where > 0 ? 1 : -1;
@@ -297,11 +309,11 @@ private:
             if (!band_.lines.alive(l) || !any_doubled(band_.lines[l])) continue;
             if (f_.d.constraints.is_loose(band_.lines.origin(l))) {
                 // A beam or spring follows its other end's side.
-                int where = side(band_.lines[l]);
+                int where = line_side(l);
+                loose += where == 0 || !f_.d.constraints.is_beam(band_.lines.origin(l));
                 if (where == 0)
                     for (const int v : band_.lines[l]) where += balance(v);
                 if (where > 0) move_to_positive(out_.lines[l]);
-                ++loose;
                 continue;
             }
             const auto found = images(band_.lines[l]);
@@ -317,9 +329,10 @@ private:
             points_positive += positive;
         }
         if (loose > 0)
-            out_.warnings.push_back(
-                std::to_string(loose) +
-                " segment element(s) (beam, spring) end on doubled nodes; each stays on the side it lies on");
+            out_.warnings.push_back(std::to_string(loose) +
+                                    " segment element(s) (springs, gaps, beams in the tool) end on doubled nodes; each "
+                                    "stays on the side it lies "
+                                    "on, or on that with more elements there");
         if (points > 0)
             out_.warnings.push_back(std::to_string(points) +
                                     " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole "
@@ -331,6 +344,38 @@ private:
                 out_.warnings.push_back(std::to_string(flat) +
                                         " shell element(s) lie in the tool's surface; they stay on the " +
                                         (where < 0 ? "negative" : "positive") + " side");
+    }
+
+    void part_beams(int v) {
+        bool others[2] = {}, beams[2] = {};
+        const auto note = [](bool(&sides)[2], int side) {
+            if (side != 0) sides[side > 0] = true;
+        };
+        for (const int t : band_.tetras.around(v)) note(others, side(band_.tetras[t]));
+        for (const int t : band_.triangles.around(v))
+            if (is_shell(t)) note(others, shell_side(t));
+        for (const int l : band_.lines.around(v))
+            if (f_.d.constraints.is_beam(band_.lines.origin(l))) note(beams, line_side(l));
+        if (doubled_[v]) return list_ends(v);
+        if (others[0] && others[1]) return;  // where a crack ends, what it does not reach holds them together
+        const bool positive_goes = !others[1];
+        if (!beams[positive_goes] || !(beams[!positive_goes] || others[!positive_goes])) return;
+        const int copy = band_.size() + static_cast<int>(out_.copy_of.size());
+        out_.copy_of.push_back(v);
+        for (const int l : band_.lines.around(v))
+            if (f_.d.constraints.is_loose(band_.lines.origin(l)) && line_side(l) == (positive_goes ? 1 : -1))
+                std::ranges::replace(out_.lines[l], v, copy);
+        list_ends(v);
+    }
+
+    /// The ends of beams in a node and its copies.
+    void list_ends(int v) {
+        for (const int l : band_.lines.around(v)) {
+            const int where = line_side(l);
+            if (where == 0 || !f_.d.constraints.is_beam(band_.lines.origin(l))) continue;
+            const std::size_t place = band_.lines[l][0] == v ? 0 : 1;
+            out_.ends.push_back({out_.lines[l][place], where > 0});
+        }
     }
 
     void make_lips() {

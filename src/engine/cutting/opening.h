@@ -43,6 +43,13 @@ struct Opening {
     std::vector<Face<3>> faces;  ///< normals out of the material
     std::vector<Face<2>> edges;
 
+    /// An end of a beam where that was cut, in `group` as Face::group.
+    struct End {
+        int node;
+        int group;
+    };
+    std::vector<End> ends;
+
     std::vector<int> interface_nodes;  ///< nodes of open faces and edges, ascending
     /// The front inside a solid as chains of nodes, each joined to the next by an edge; a closed one ends where it
     /// begins. Only of a crack that is bounded by a patch.
@@ -57,7 +64,10 @@ struct Opening {
 /// by other faces and edges; the largest part on the negative side keeps the node, every other gets a
 /// copy. Nodes with one part (a front) stay single.
 ///
-/// Discrete elements that end on a doubled node stay whole, on one side, and a warning says so: a beam or spring on
+/// Beams in a node of Workpiece::beam_nodes come apart there from others on the other side, and from elements that are
+/// all on that; these keep the node, else the beams on the negative side do.
+///
+/// Other discrete elements that end on a doubled node stay whole, on one side, and a warning says so: a spring on
 /// the side its other end is on, a mass or spring to ground, and what has all its nodes on the tool, on the side with
 /// most elements there, the negative one if they are as many.
 Opening open_lips(const Workpiece& workpiece);

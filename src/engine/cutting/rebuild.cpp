@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <unordered_map>
 
 #include "cancel.h"
@@ -213,8 +215,15 @@ private:
             check();
             if (!list.alive(s)) continue;
             const CellRef& cell = cells[list.origin(s)];
-            const std::vector<Index> nodes = connectivity(cell.type, list[s], images[s]);
             CellBlock& block = mesh.block(cell.type);
+            std::vector<Index> nodes;
+            if (N == 2 && f_.d.constraints.is_loose(list.origin(s))) {
+                // Its mid-side node is its own, and stays.
+                nodes.assign(block.nodes(cell.cell).begin(), block.nodes(cell.cell).end());
+                for (std::size_t k = 0; k < N; ++k) nodes[k] = out_.node[images[s][k]];
+            } else {
+                nodes = connectivity(cell.type, list[s], images[s]);
+            }
             if (!seated[list.origin(s)]) {
                 seated[list.origin(s)] = 1;
                 written[s] = cell.cell;
@@ -258,13 +267,23 @@ private:
         Mesh& mesh = out_.mesh;
         const GroupIndex first = static_cast<GroupIndex>(mesh.groups.size());
         std::vector<std::vector<GroupIndex>> members;
+        std::set<std::string> of_elements, of_ends;
+        const auto note = [&](const auto& list, std::set<std::string>& names) {
+            for (const auto& one : list) names.insert(groups[one.group].begin(), groups[one.group].end());
+        };
+        note(opening_.faces, of_elements);
+        note(opening_.edges, of_elements);
+        note(opening_.ends, of_ends);
+        const auto kind_of = [&](const std::string& name) {
+            return of_ends.contains(name) && !of_elements.contains(name) ? GroupKind::node : GroupKind::element;
+        };
         for (const auto& names : groups) {
             members.emplace_back();
             for (const std::string& name : names) {
                 GroupIndex g = first;
                 while (g < static_cast<GroupIndex>(mesh.groups.size()) && mesh.groups[g].name != name) ++g;
                 members.back().push_back(
-                    g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, GroupKind::element));
+                    g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, kind_of(name)));
             }
         }
         const auto with_groups = [&](FamilyIndex family, int face_group) {
@@ -308,6 +327,11 @@ private:
         write(
             opening_.edges, [&](int s) { return band_.line_cells[band_.lines.origin(s)]; }, line_cell_, line_twin_,
             CellType::line, CellType::line3);
+        for (const Opening::End& end : opening_.ends)
+            for (const GroupIndex g : members[end.group])
+                if (FamilyIndex& family = mesh.node_families[out_.node[end.node]];
+                    mesh.groups[g].kind == GroupKind::node)
+                    family = mesh.families.with(family, g);
     }
 
     /// Segments along the front. One that is already there is taken; order then follows the numbers.

@@ -34,6 +34,8 @@ struct Rebuilt {
 /// parent; a node born on an edge is in the node groups of both ends; a copied node is in all groups of its original.
 /// New nodes and elements are numbered from `numbering` on.
 ///
+/// A group that has no faces or edges to hold, but ends of beams (Opening::ends), is one of these nodes.
+///
 /// The segments of Opening::front_chains go to the element group `front`, in their order.
 ///
 /// Mid-side nodes follow their edges in the band, see mid_side(); or lie where Workpiece::mid_side says.

@@ -47,8 +47,25 @@ public:
         drop_tags(band_.cut_faces);
         drop_tags(band_.cut_edges);
         make_walls(tetras, shells);
+        const int beams = take_beams();
         take_out(tetras, shells);
-        return static_cast<int>(tetras.size() + shells.size());
+        return static_cast<int>(tetras.size() + shells.size()) + beams;
+    }
+
+    /// Beams inside, which were divided at the walls.
+    int take_beams() {
+        int count = 0;
+        for (int l = 0; l < band_.lines.size(); ++l) {
+            if (!band_.lines.alive(l) || !is_beam(l) || !is_inside(band_.lines[l])) continue;
+            for (const int v : band_.lines[l]) {
+                const auto nearest = std::ranges::min_element(
+                    value_, {}, [&](const std::vector<double>& value) { return std::abs(value[v]); });
+                f_.beam_ends.push_back({v, first_tag_ + static_cast<int>(nearest - value_.begin())});
+            }
+            take(band_.lines, band_.line_cells, l);
+            ++count;
+        }
+        return count;
     }
 
     /// Takes these out, whose place is filled.
@@ -61,19 +78,28 @@ public:
 private:
     bool is_shell(int t) const { return f_.d.constraints.is_shell(band_.triangles.origin(t)); }
 
-    /// On the negative side of every tool. Where all nodes lie on a (curved) tool, the middle decides.
+    bool is_beam(int l) const { return f_.d.constraints.is_beam(band_.lines.origin(l)); }
+
+    /// On the negative side of every tool. Where all nodes lie on a (curved) tool, and of beams where it is farther
+    /// off, the middle decides.
     bool is_inside(const auto& nodes) const {
         for (std::size_t k = 0; k < tools_.size(); ++k) {
             double furthest = 0;
             for (const int v : nodes)
                 if (std::abs(value_[k][v]) > std::abs(furthest)) furthest = value_[k][v];
-            if (std::abs(furthest) <= f_.tolerance) furthest = tools_[k]->distance(middle(nodes));
+            constexpr bool beam = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>> == 2;
+            if (beam || std::abs(furthest) <= f_.tolerance) {
+                const double inside = tools_[k]->distance(middle(nodes));
+                if (std::abs(inside) > std::abs(furthest)) furthest = inside;
+            }
             if (furthest > 0) return false;
         }
         return true;
     }
 
     Vec3 middle(const auto& nodes) const {
+        if constexpr (std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>> == 2)
+            return mid_side(f_.d, nodes[0], nodes[1]).at;
         Vec3 sum = Vec3::Zero();
         for (const int v : nodes) sum += band_.nodes[v].at;
         return sum / static_cast<double>(nodes.size());
@@ -88,7 +114,7 @@ private:
             const double off = std::abs(tools_[k]->distance(middle(nodes)));
             if (off >= nearest) continue;
             nearest = off;
-            best = static_cast<int>(k);
+            best = first_tag_ + static_cast<int>(k);
         }
         if (best < 0) {
             std::ostringstream message;
@@ -97,7 +123,7 @@ private:
                     << tools_[0]->kind() << " there. Refine it near the tool first";
             throw QualityError(message.str());
         }
-        return first_tag_ + best;
+        return best;
     }
 
     /// Faces collected on the way: of them only the walls count.
@@ -188,9 +214,10 @@ private:
                 note_taken(band_.lines, band_.line_cells, s);
                 return true;
             }
-            // A beam or spring goes if what carries one of its ends does.
-            const bool goes = std::ranges::any_of(
-                band_.lines[s], [&](int v) { return touched_[v] != 0 && bare(v) && is_inside(std::array{v}); });
+            // A spring goes if what carries one of its ends does.
+            const bool goes = (tools_.empty() || !is_beam(s)) && std::ranges::any_of(band_.lines[s], [&](int v) {
+                                  return touched_[v] != 0 && bare(v) && is_inside(std::array{v});
+                              });
             loose += goes;
             return goes;
         });
@@ -210,7 +237,7 @@ private:
         if (loose > 0)
             f_.warnings.push_back(
                 std::to_string(loose) +
-                " segment element(s) (beam, spring) of their own end inside what is removed, and are removed with it");
+                " segment element(s) (spring, gap) of their own end inside what is removed, and are removed with it");
         if (points > 0)
             f_.warnings.push_back(std::to_string(points) +
                                   " point element(s) sit inside what is removed, and are removed with it");
@@ -324,6 +351,8 @@ Opening open_walls(const Workpiece& f) {
     for (int s = 0; s < band.cut_edges.size(); ++s)
         if (band.cut_edges.alive(s))
             for (const int l : band.lines.around(band.cut_edges[s][0])) line_at.emplace(sorted(band.lines[l]), l);
+    for (const auto& [node, tag] : f.beam_ends)
+        if (!band.lines.around(node).empty()) out.ends.push_back({node, tag});
     std::set<int> nodes;
     SparseCheck check(64);
     for (int s = 0; s < band.cut_faces.size(); ++s) {

@@ -10,7 +10,7 @@
 
 namespace femscalpel {
 
-/// A mesh some of whose elements became simplices.
+/// A mesh some of whose elements were divided: into simplices, or beams into beams.
 struct Simplified {
     Mesh mesh;
     std::vector<CellRef> before;                     ///< those elements (indices in the input)
@@ -19,6 +19,7 @@ struct Simplified {
     Index pyramids = 0;                              ///< that stand on faces of elements that stayed
     Index nodes_added = 0;
     Index nodes_removed = 0;     ///< in the middle of elements or faces, that nothing needs any more
+    Index beams_cut = 0;         ///< places where a tool passes through a beam
     std::vector<CellRef> unfit;  ///< elements in which pyramids came out poor (indices in the input)
     Changes changes;             ///< where new nodes and elements come from, by number
 };

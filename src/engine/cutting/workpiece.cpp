@@ -72,6 +72,8 @@ void split_at_fixed_middles(Workpiece& f, const Blade& blade, const Mesh& mesh) 
     for (const auto& [key, middle] : band.mid_nodes) {
         const std::array<int, 2> e{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)};
         if (!f.d.constraints.has_fixed_middle(e[0], e[1])) continue;
+        const int beam = band.lines.find(e);
+        if (beam >= 0 && f.d.constraints.is_beam(band.lines.origin(beam))) continue;  // which was divided before
         const Vec3 &a = band.nodes[e[0]].at, &b = band.nodes[e[1]].at;
         const double at_a = blade.tool->distance(a), at_b = blade.tool->distance(b);
         if (std::min(at_a, at_b) >= -f.tolerance || std::max(at_a, at_b) <= f.tolerance) continue;

@@ -82,6 +82,8 @@ struct Workpiece {
     std::vector<std::vector<int>> at_stop = {};
     /// By such a node: whether a border, feature line or group held it on its surface before it was held at its stop.
     std::map<int, bool> bound_at_stop = {};
+    std::vector<int> beam_nodes = {};  ///< on the first tool, where it is wanted, that beams end in; ascending
+    std::vector<std::pair<int, int>> beam_ends = {};  ///< where beams were cut off: node, and tag of the tool
     bool patched = false;  ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened
 
     /// Whether a border, feature line or group holds a node on its surface.

@@ -38,6 +38,7 @@ bool holds(const DeckElementType& said, CellType type) {
 
 std::string deck_label_for(std::string_view written, CellType type) {
     const std::string label = deck_key(written);
+    if (const auto said = deck_element_type(written); said && said->cell == type) return label;
     const bool heat = label.starts_with("DC") || label.starts_with("DS");
     std::size_t digits = 0;
     for (const Family& f : families)
@@ -59,17 +60,28 @@ std::optional<DeckElementType> deck_element_type(std::string_view written) {
     struct Named {
         std::string_view label;
         CellType cell;
+        bool whole = false;
     };
     static constexpr Named named[] = {
-        {"B31", CellType::line},       {"B31R", CellType::line},      {"B32", CellType::line3},
-        {"B32R", CellType::line3},     {"B21", CellType::line},       {"T2D2", CellType::line},
-        {"T3D2", CellType::line},      {"T3D3", CellType::line3},     {"D", CellType::line3},
-        {"GAPUNI", CellType::line},    {"SPRINGA", CellType::line},   {"SPRING2", CellType::line},
-        {"DASHPOTA", CellType::line},  {"SPRING1", CellType::vertex}, {"MASS", CellType::vertex},
+        {"B31", CellType::line},
+        {"B31R", CellType::line},
+        {"B32", CellType::line3},
+        {"B32R", CellType::line3},
+        {"B21", CellType::line},
+        {"T2D2", CellType::line},
+        {"T3D2", CellType::line},
+        {"T3D3", CellType::line3},
+        {"D", CellType::line3, true},
+        {"GAPUNI", CellType::line, true},
+        {"SPRINGA", CellType::line, true},
+        {"SPRING2", CellType::line, true},
+        {"DASHPOTA", CellType::line, true},
+        {"SPRING1", CellType::vertex},
+        {"MASS", CellType::vertex},
         {"DCOUP3D", CellType::vertex},
     };
     for (const Named& n : named)
-        if (label == n.label) return DeckElementType{n.cell, false};
+        if (label == n.label) return DeckElementType{n.cell, false, n.whole};
     if (label.starts_with("DC") || label.starts_with("DS")) label.erase(0, 1);  // heat transfer, as CalculiX does
     for (const Family& f : families) {
         if (!label.starts_with(f.prefix)) continue;

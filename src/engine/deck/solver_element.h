@@ -18,6 +18,7 @@ struct DeckElementType {
     /// Plane stress, plane strain and axisymmetric elements count their edges S1, S2, ... and call their
     /// faces SN and SP; shells count negative and positive side first.
     bool plane = false;
+    bool whole = false;  ///< a spring, dashpot, gap or fluid pipe, whose parts would be something else
 };
 
 /// Element types CalculiX 2.20 knows, and C3D5; suffixes for integration and formulation (R, I, T, H,

@@ -387,20 +387,35 @@ std::vector<std::vector<Index>> members_by_card(const Mesh& mesh, const SolverIn
     return out;
 }
 
-std::vector<char> plane_families(const Mesh& mesh, const SolverInput& input) {
-    std::unordered_set<std::string_view> plane_groups;
+namespace {
+
+/// By family: its elements are under an *ELEMENT card of a type that `is` takes.
+std::vector<char> families_under(const Mesh& mesh, const SolverInput& input, auto is) {
+    std::unordered_set<std::string_view> groups;
     for (const Card& card : input.cards())
         if (card.keyword == "ELEMENT" && card.parameter("TYPE")) {
             const auto type = deck_element_type(*card.parameter("TYPE"));
-            if (type && type->plane) plane_groups.insert(card.group);
+            if (type && is(*type)) groups.insert(card.group);
         }
-    std::vector<char> group_is_plane(mesh.groups.size());
+    std::vector<char> is_one(mesh.groups.size());
     for (std::size_t g = 0; g < mesh.groups.size(); ++g)
-        group_is_plane[g] = mesh.groups[g].hidden && plane_groups.contains(mesh.groups[g].name);
+        is_one[g] = mesh.groups[g].hidden && groups.contains(mesh.groups[g].name);
     std::vector<char> out(static_cast<std::size_t>(mesh.families.size()));
     for (FamilyIndex f = 0; f < mesh.families.size(); ++f)
-        for (GroupIndex g : mesh.families.groups(f)) out[f] |= group_is_plane[g];
+        for (GroupIndex g : mesh.families.groups(f)) out[f] |= is_one[g];
     return out;
+}
+
+}  // namespace
+
+std::vector<char> plane_families(const Mesh& mesh, const SolverInput& input) {
+    return families_under(mesh, input, [](const DeckElementType& type) { return type.plane; });
+}
+
+std::vector<char> families_of_whole_elements(const Mesh& mesh) {
+    const SolverInput* input = solver_input(mesh);
+    if (!input) return {};
+    return families_under(mesh, *input, [](const DeckElementType& type) { return type.whole; });
 }
 
 }  // namespace femscalpel

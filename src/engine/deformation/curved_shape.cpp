@@ -157,6 +157,10 @@ Contact edge_tools(const Deformable& d, int a, int b) {
 
 MidSide mid_side(const Deformable& d, int a, int b) {
     const BandNode &na = d.band.nodes[a], &nb = d.band.nodes[b];
+    // Beams have a shape of their own.
+    if (!d.band.lines.around(a).empty())
+        if (const int l = d.band.lines.find({a, b}); l >= 0 && d.constraints.is_beam(d.band.lines.origin(l)))
+            return {(na.at + nb.at) / 2 + d.mids.bulge(a, b), true};
     const bool untouched = !d.band.is_new(a) && !d.band.is_new(b) && na.at == na.start && nb.at == nb.start;
     if (untouched && !d.contact[a].common(d.contact[b])) return {(na.at + nb.at) / 2 + d.mids.bulge(a, b), true};
     if (d.mids.is_straightened(a, b)) return straight_middle(d, a, b);

@@ -22,7 +22,8 @@ struct ConstraintOptions {
     std::vector<Index> related;  ///< nodes (as pinned): one born on the skin between two of them must not move, so that
                                  ///< matching sides keep matching
     std::vector<Index>
-        on_shortcuts;  ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
+        on_shortcuts;         ///< numbers of nodes, ascending, whose node groups have no boundary there: BandBoundaries
+    std::vector<char> whole;  ///< by family: elements that cannot be divided, or empty (families_of_whole_elements())
     const CadShape* shape =
         nullptr;           ///< what the mesh was made from: its skin is taken to be this, where it lies on it
     double tolerance = 0;  ///< what is nearer than this to something lies on it

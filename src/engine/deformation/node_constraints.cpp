@@ -169,7 +169,7 @@ NodeConstraints::NodeConstraints(const BandMesh& band, const Mesh& mesh, const C
     close_ = std::max({1e-10 * geometry_.size, options.tolerance, options.rounding});
     nodes_.resize(static_cast<std::size_t>(band.size()));
     find_shells(band);
-    find_loose(band);
+    find_loose(band, mesh, options);
     find_isolated(band, boundaries, options);
     find_freedom(band, options);
     find_exterior();
@@ -188,12 +188,15 @@ void NodeConstraints::find_shells(const BandMesh& band) {
 }
 
 /// Segments that hang loose hold what they are attached to.
-void NodeConstraints::find_loose(const BandMesh& band) {
+void NodeConstraints::find_loose(const BandMesh& band, const Mesh& mesh, const ConstraintOptions& options) {
     loose_.assign(static_cast<std::size_t>(band.lines.size()), 0);
     for (int l = 0; l < band.lines.size(); ++l) {
         const auto& v = band.lines[l];
         if (share(band.tetras, v[0], v[1]) || share(band.triangles, v[0], v[1])) continue;
-        loose_[l] = 1;
+        const CellRef& cell = band.line_cells[l];
+        const bool whole = !options.whole.empty() && options.whole[mesh.block(cell.type).families[cell.cell]];
+        const double length = (band.nodes[v[0]].at - band.nodes[v[1]].at).norm();
+        loose_[l] = whole || length <= close_ ? other : beam;
         for (int n : v) fix_node(n);
     }
 }

@@ -144,9 +144,12 @@ public:
     /// Whether the segment in this slot is no edge of a tetrahedron or triangle (a beam, a spring, ...).
     bool is_loose(int line_origin) const { return loose_[line_origin] != 0; }
 
+    /// Whether such a segment is a beam, truss, rod or cable: it has a length, and may be divided.
+    bool is_beam(int line_origin) const { return loose_[line_origin] == beam; }
+
 private:
     void find_shells(const BandMesh& band);
-    void find_loose(const BandMesh& band);
+    void find_loose(const BandMesh& band, const Mesh& mesh, const ConstraintOptions& options);
     void find_isolated(const BandMesh& band, const BandBoundaries& boundaries, const ConstraintOptions& options);
     void find_freedom(const BandMesh& band, const ConstraintOptions& options);
     void find_exterior();
@@ -166,6 +169,7 @@ private:
     std::vector<char> related_;  // nodes related by equations, and those born between them; empty if none
     std::vector<char> exterior_;
     std::vector<char> shell_;
+    enum : char { attached, other, beam };
     std::vector<char> loose_;
     FamilyTable kinds_;
     std::vector<std::pair<int, int>> isolated_;  // input nodes in IE, ascending, and their kinds

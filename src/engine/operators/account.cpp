@@ -334,6 +334,7 @@ void Account::join_refinement(const Rebuilt& rebuilt) {
     const Refined& refined = *refined_;
     report_.refinement = refined.summary;
     report_.converted = refined.report.converted;
+    report_.beams_cut = refined.report.beams_cut;
     Index nodes = 0, elements = 0;
     for (Index n = 0; n < before.node_count(); ++n)
         nodes += before.node_ids[n] >= refined.numbering.node && rebuilt.kept_node(n) < 0;

@@ -170,7 +170,7 @@ bool has_elements(const BandMesh& band) {
             if (list.alive(s)) return true;
         return false;
     };
-    return any(band.tetras) || any(band.triangles);
+    return any(band.tetras) || any(band.triangles) || any(band.lines);
 }
 
 class Carve final : public Recipe {
@@ -197,6 +197,8 @@ public:
 
     std::vector<RefineZone> zones() const override { return zones_of(all_, options_.refine); }
     std::span<const Blade> blades() const override { return blades_; }
+
+    bool cuts_beams() const override { return true; }
 
     Naming naming() const override {
         Naming out;
@@ -251,6 +253,7 @@ private:
         std::vector<bool> used(blades_.size(), false);
         for (const auto& face : walls.faces) used[static_cast<std::size_t>(face.group)] = true;
         for (const auto& edge : walls.edges) used[static_cast<std::size_t>(edge.group)] = true;
+        for (const auto& end : walls.ends) used[static_cast<std::size_t>(end.group)] = true;
         std::size_t tag = 0;
         for (const Body& body : bodies_)
             for (const Body::Wall& wall : body.walls)

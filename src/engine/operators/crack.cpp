@@ -210,6 +210,8 @@ public:
 
     std::span<const Blade> blades() const override { return {&blade_, 1}; }
 
+    bool cuts_beams() const override { return true; }
+
     Naming naming() const override {
         return {.groups = {{options_.name + "_N"}, {options_.name + "_P"}}, .front = options_.name + "_FRONT"};
     }

@@ -41,7 +41,9 @@ struct CrackOptions : OperatorOptions {
 /// A tool that passes between quadrangles, prisms or hexahedra only, through none, opens the faces that lie on it and
 /// converts nothing (crack_between_elements()).
 ///
-/// Free segments (beams, springs: edges of no triangle or tetrahedron) are not cut; they bridge the crack.
+/// Beams (trusses, rods, cables: segments that are no edges of other elements, find_beam_cuts()) are divided on the
+/// tool and come apart there, from each other and from elements that are all on the other side. Where nothing else
+/// opens, NAME_N and NAME_P are node groups of their ends. Springs, dashpots and gaps of a solver's input stay whole.
 ///
 /// Throws ToolError (bad name, `preserve` names no group, tool misses the mesh), UnsupportedElementError (the band
 /// reaches elements other than triangles and tetrahedra), QualityError (no valid mesh can be made).

@@ -8,6 +8,8 @@
 #include <set>
 
 #include "cancel.h"
+#include "cutting/beams.h"
+#include "cutting/locate.h"
 #include "cutting/part_faces.h"
 #include "deck/carry_over.h"
 #include "deck/mark_deck.h"
@@ -172,15 +174,12 @@ std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool,
     check_options(options);
     (void)drifting_groups(mesh, options.preserve);  // whose names may be unknown
     std::vector<double> distance(mesh.points.size());
-    Eigen::AlignedBox3d box;
-    for (std::size_t n = 0; n < distance.size(); ++n) {
-        distance[n] = tool.distance(mesh.points[n]);
-        box.extend(mesh.points[n]);
-    }
-    const double rounding = std::max(1e-10 * box.diagonal().norm(), 2 * coordinate_rounding(mesh.points));
+    for (std::size_t n = 0; n < distance.size(); ++n) distance[n] = tool.distance(mesh.points[n]);
+    const double rounding = reach_of_rounding(mesh).rounding;
     if (passes_through(mesh, distance, rounding) || meets_shells(mesh, distance, rounding)) return {};
-    // Double nodes, with springs and equations, are followed the other way.
+    // Beams are cut, and double nodes, with springs and equations, followed the other way.
     const Blade blade{&tool, {}, {}, -1};
+    if (!find_beam_cuts(mesh, std::span(&blade, 1)).empty()) return {};
     if (WeldFirst weld(mesh, prepared); weld && weld.is_near(std::span(&blade, 1))) return {};
     return opened(
         mesh, options, prepared,

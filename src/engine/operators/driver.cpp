@@ -14,6 +14,7 @@
 #include "mesh/crop.h"
 #include "mesh/stopwatch.h"
 #include "operators/account.h"
+#include "operators/cut_beams_first.h"
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/weld_first.h"
@@ -34,16 +35,17 @@ std::vector<Blade> around(const Recipe& recipe) {
 /// Band, node constraints and contacts around the blades of a recipe.
 class Ground {
 public:
-    Ground(const OperatorOptions& options, Edit& edit, const Refined* refined, const std::vector<bool>& drifting)
-        : options_(options), edit_(edit), refined_(refined), drifting_(drifting) {}
+    Ground(const OperatorOptions& options, Edit& edit, const Prepared& known, const Refined* refined,
+           const std::vector<bool>& drifting)
+        : options_(options), edit_(edit), known_(known), refined_(refined), drifting_(drifting) {}
 
     /// Finds the band of the recipe's blades. With the option band_only, `edit` goes on with that alone.
     void find_band(const Recipe& recipe) {
         const std::vector<Blade> blades = around(recipe);
-        location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency());
+        location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency(), known_.beam_stops);
         if (!options_.transition && options_.method == Method::deform) {
             width_ = bandwidth(location_, edit_.mesh());
-            if (width_ > 2) location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency());
+            if (width_ > 2) location_ = locate(edit_.mesh(), blades, width_, edit_.adjacency(), known_.beam_stops);
         }
         removed_ = recipe.removed(edit_.whole(), location_.level);
         if (options_.band_only) edit_.keep_band(location_, removed_);
@@ -69,12 +71,22 @@ public:
             if (!blades.front().bound) put_on_tool(f, v, first);
             f.distance[v] = 0;
         }
+        find_beam_nodes(f, blades.front());
         check_input_shape(f, mesh);
         check_skin(f);
         return f;
     }
 
 private:
+    void find_beam_nodes(Workpiece& f, const Blade& blade) const {
+        const BandMesh& band = f.d.band;
+        for (int v = 0; v < band.size(); ++v)
+            if ((std::ranges::binary_search(location_.stops, band.nodes[v].global) ||
+                 (f.distance[v] == 0 && (!blade.bound || blade.bound(band.nodes[v].at) <= location_.rounding))) &&
+                std::ranges::any_of(band.lines.around(v), [&](int l) { return f.d.constraints.is_beam(l); }))
+                f.beam_nodes.push_back(v);
+    }
+
     ConstraintOptions constraints() const {
         ConstraintOptions out = edit_.constraints();
         out.feature_angle = options_.feature_angle;
@@ -88,6 +100,7 @@ private:
 
     const OperatorOptions& options_;
     Edit& edit_;
+    const Prepared& known_;
     const Refined* refined_;
     const std::vector<bool>& drifting_;
     int width_ = options_.transition.value_or(2);
@@ -108,7 +121,7 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
     if (mesh.companion) watch.lap("mark deck");
     const std::vector<bool> drifting = drifting_groups(edit.mesh(), options.preserve);
     edit.start_copy(!options.band_only);
-    Ground ground(options, edit, refined, drifting);
+    Ground ground(options, edit, known, refined, drifting);
     ground.find_band(recipe);
     watch.lap("locate");
     const std::span<const Blade> blades = recipe.blades();
@@ -181,7 +194,23 @@ namespace {
 /// On a mesh whose double nodes near the tool, if any, are single.
 Result perform_on(Recipe& recipe, const Mesh& input, const OperatorOptions& options, const Prepared& known,
                   Stopwatch::Time started) {
-    std::optional<Refined> converted = simplify_first(input, around(recipe), recipe.zones(), options, known), refined;
+    const auto renewed = [&](const Mesh& mesh) { return known.renewed ? known.renewed(mesh) : Prepared{}; };
+    std::optional<Refined> converted, refined;
+    std::vector<Index> stops;
+    if (recipe.cuts_beams())
+        if (auto beams = cut_beams_first(input, recipe.blades(), known)) {
+            converted = std::move(beams->divided);
+            stops = std::move(beams->stops);
+        }
+    if (converted) recipe.start(converted->mesh);
+    const auto known_of = [&](const Refined* first) {
+        Prepared out = first ? renewed(first->mesh) : known;
+        out.beam_stops = stops;
+        return out;
+    };
+    if (auto simplices = simplify_first(converted ? converted->mesh : input, around(recipe), recipe.zones(), options,
+                                        known_of(converted ? &*converted : nullptr)))
+        converted = converted ? joined(*converted, std::move(*simplices), options.strict) : std::move(*simplices);
     if (converted) {
         converted->converting = Stopwatch::since(started);
         started = Stopwatch::now();
@@ -204,14 +233,13 @@ Result perform_on(Recipe& recipe, const Mesh& input, const OperatorOptions& opti
         return true;
     };
     refine(recipe.zones());
-    const auto renewed = [&](const Mesh& mesh) { return known.renewed ? known.renewed(mesh) : Prepared{}; };
     for (;;) {
         const Refined* first = refined ? &*refined : converted ? &*converted : nullptr;
         const bool changed = first && !first->tried_in_vain;
         if (tried) started = Stopwatch::now();
         if (tried && changed) recipe.start(first->mesh);
-        if (auto result = attempt(recipe, changed ? first->mesh : input, options,
-                                  changed ? renewed(first->mesh) : known, first, started, refine))
+        if (auto result = attempt(recipe, changed ? first->mesh : input, options, known_of(changed ? first : nullptr),
+                                  first, started, refine))
             return std::move(*result);
     }
 }

@@ -49,6 +49,9 @@ public:
     /// Further surfaces that are not cut along, but whose elements are to be in the band; known after start().
     virtual std::span<const Blade> surroundings() const { return {}; }
 
+    /// Whether beams that a blade passes through are divided there first.
+    virtual bool cuts_beams() const { return false; }
+
     /// How what is made is called; known after start().
     virtual Naming naming() const = 0;
 

@@ -7,6 +7,7 @@
 #include "cutting/folded_input.h"
 #include "deck/carry_over.h"
 #include "deck/solver_input.h"
+#include "deck/solver_sets.h"
 
 namespace femscalpel {
 namespace {
@@ -48,8 +49,9 @@ void Edit::keep_band(Location& location, std::vector<CellRef>& removed) {
         c.cell = std::ranges::lower_bound(list, c.cell) - list.begin();
     }
     part_ = crop(whole(), cells);
-    Location part{{}, {}, location.tolerance, location.rounding, location.crossed};
+    Location part{.tolerance = location.tolerance, .rounding = location.rounding, .crossed = location.crossed};
     for (const Index n : part_->nodes) {
+        if (std::ranges::binary_search(location.stops, n)) part.stops.push_back(std::ssize(part.level));
         part.distance.push_back(location.distance[n]);
         part.level.push_back(location.level[n]);
     }
@@ -69,6 +71,7 @@ ConstraintOptions Edit::constraints() const {
     ConstraintOptions out;
     out.meaningless = meaningless_;
     out.kept_hidden = marks_->kept;
+    out.whole = families_of_whole_elements(mesh());
     out.pinned = in_part(marks_->pinned);
     out.related = in_part(marks_->related);
     return out;

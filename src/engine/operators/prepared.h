@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct Prepared {
     const Adjacency* adjacency = nullptr;
     const FamilyTotals* totals = nullptr;  ///< of the marked mesh, if `marks` have one
     const DeckMarks* marks = nullptr;
+    /// Numbers of nodes that an operation's tool passes so near by that beams are cut in them (BeamCuts::stops).
+    std::vector<std::int64_t> beam_stops = {};
     /// Where an operation adds what it changed, step by step, for a caller who carries the solver's input over himself
     /// and takes the hidden groups away.
     std::vector<Changes>* stages = nullptr;

@@ -91,6 +91,7 @@ struct Report {
     Index welded_pairs = 0;                ///< of double nodes that stayed pairs: each side did as the other
     /// Elements that became triangles, tetrahedra and pyramids first, by the names of their types.
     std::map<std::string, Index> converted;
+    Index beams_cut = 0;      ///< places where a tool passes through a beam: a segment that is no edge of others
     Index nodes_added = 0;    ///< by splitting and by doubling
     Index nodes_split = 0;    ///< of them, born on split edges
     Index nodes_doubled = 0;  ///< of them, copies of interface nodes

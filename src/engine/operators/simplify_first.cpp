@@ -6,10 +6,8 @@
 #include <unordered_map>
 
 #include "cutting/locate.h"
-#include "cutting/simplify.h"
 #include "deck/carry_over.h"
 #include "deck/fit_cards.h"
-#include "deck/mark_deck.h"
 #include "groups/group_report.h"
 
 namespace femscalpel {
@@ -31,9 +29,10 @@ bool has_simplices_alone(const Mesh& mesh) {
 /// Level >= 0 at the nodes around which there have to be simplices alone.
 std::vector<std::int8_t> levels_to_work_on(const Mesh& mesh, std::span<const Blade> blades,
                                            std::span<const RefineZone> zones, const OperatorOptions& options,
-                                           const Adjacency* adjacency) {
+                                           const Prepared& known) {
+    const Adjacency* adjacency = known.adjacency;
     int width = options.transition.value_or(2);
-    Location location = locate(mesh, blades, width, adjacency);
+    Location location = locate(mesh, blades, width, adjacency, known.beam_stops);
     std::vector<std::int8_t> longer(mesh.points.size(), -1);
     if (!zones.empty()) longer = levels_to_refine(mesh, zones, options);
     const bool refines = std::ranges::find(longer, 0) != longer.end();
@@ -49,6 +48,14 @@ std::vector<std::int8_t> levels_to_work_on(const Mesh& mesh, std::span<const Bla
     for (std::size_t n = 0; n < longer.size(); ++n)
         if (location.level[n] < 0) location.level[n] = longer[n];
     return std::move(location.level);
+}
+
+std::vector<PyramidRule> pyramid_rules(const Mesh& mesh, const DeckMarks& marks) {
+    if (marks.no_tips.empty()) return {};
+    std::vector<PyramidRule> rules(mesh.points.size(), PyramidRule::any);
+    for (const Index n : marks.no_tips) rules[n] = PyramidRule::no_tip;
+    for (const Index n : marks.no_bases) rules[n] = PyramidRule::no_tip_nor_base;
+    return rules;
 }
 
 /// What solvers make of it.
@@ -72,6 +79,7 @@ Report report_of(const Mesh& before, const FamilyTotals& totals, const Simplifie
     report.groups = compare_groups(before, totals, simplified.mesh, now);
     report.nodes_added = report.nodes_split = simplified.nodes_added;
     report.nodes_removed = simplified.nodes_removed;
+    report.beams_cut = simplified.beams_cut;
     report.elements_added = static_cast<Index>(simplified.after.size() - simplified.before.size());
     for (const CellTraits& t : all_cell_types())
         if (const Index count = simplified.converted[static_cast<int>(t.type)]; count > 0)
@@ -86,36 +94,43 @@ std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> b
                                       std::span<const RefineZone> zones, const OperatorOptions& options,
                                       const Prepared& known) {
     if (has_simplices_alone(mesh)) return {};
-    return simplify_first(mesh, levels_to_work_on(mesh, blades, zones, options, known.adjacency), known);
+    return simplify_first(mesh, levels_to_work_on(mesh, blades, zones, options, known), known);
 }
 
-std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance,
-                                      const BisectionOptions& options) {
+std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance, const BisectionOptions& options,
+                                      const Prepared& known) {
     if (has_simplices_alone(mesh)) return {};
     const std::vector<std::int8_t> others = corners_of_long_edges(mesh, distance, options, true);
     if (std::ranges::find(others, 0) == others.end()) return {};
     std::vector<std::int8_t> level = corners_of_long_edges(mesh, distance, options);
     spread_levels(mesh, level, rings_to_refine);
-    return simplify_first(mesh, level, {});
+    return simplify_first(mesh, level, known);
 }
 
 std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known) {
     std::vector<CellRef> unfit;
-    Conversion conversion = plan_conversion(mesh, level, known.adjacency);
-    if (conversion.empty()) return {};
     DeckMarks own;
     if (!known.marks) own = mark_deck(mesh);
     const DeckMarks& marks = known.marks ? *known.marks : own;
+    const std::vector<PyramidRule> rules = pyramid_rules(mesh, marks);
+    Conversion conversion = plan_conversion(mesh, level, known.adjacency, {}, rules);
+    if (conversion.empty()) return {};
+    const Mesh& marked = marks.mesh ? *marks.mesh : mesh;
+    const Numbering numbering = next_numbers(mesh);
+    Simplified simplified = simplify(marked, conversion, numbering, true);
+    for (int round = 1; round <= rounds_for_pyramids && !simplified.unfit.empty(); ++round) {
+        std::ranges::copy(simplified.unfit, std::back_inserter(unfit));
+        conversion = plan_conversion(mesh, level, known.adjacency, unfit, rules);
+        simplified = simplify(marked, conversion, numbering, round < rounds_for_pyramids);
+    }
+    return with_parts(mesh, std::move(simplified), marks, known);
+}
+
+Refined with_parts(const Mesh& mesh, Simplified simplified, const DeckMarks& marks, const Prepared& known) {
     const Mesh& marked = marks.mesh ? *marks.mesh : mesh;
     Refined out;
     out.numbering = next_numbers(mesh);
     out.deck = solver_input(mesh);
-    Simplified simplified = simplify(marked, conversion, out.numbering, true);
-    for (int round = 1; round <= rounds_for_pyramids && !simplified.unfit.empty(); ++round) {
-        std::ranges::copy(simplified.unfit, std::back_inserter(unfit));
-        conversion = plan_conversion(mesh, level, known.adjacency, unfit);
-        simplified = simplify(marked, conversion, out.numbering, round < rounds_for_pyramids);
-    }
     if (!marks.surface_sets.empty() && solver_input(mesh))
         renew_surface_sets(simplified.mesh, marks.surface_sets, *solver_input(mesh), simplified.after);
     out.trace.deck = carry_deck(marked, simplified.mesh, simplified.changes);
@@ -129,11 +144,15 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::i
 
 void add_conversion(const Refined& converted, bool strict, Report& report) {
     const Report& first = converted.report;
+    const auto add = [](auto& to, const auto& from) {
+        for (const auto& [type, count] : from) to[type] += count;
+    };
     std::vector<std::string> warnings = first.warnings;
     std::ranges::move(warnings_of(converted.trace.deck, strict), std::back_inserter(warnings));
     std::ranges::move(report.warnings, std::back_inserter(warnings));
     report.warnings = std::move(warnings);
-    report.converted = first.converted;
+    add(report.converted, first.converted);
+    report.beams_cut += first.beams_cut;
     report.nodes_added += first.nodes_added;
     report.nodes_split += first.nodes_split;
     report.nodes_removed += first.nodes_removed;

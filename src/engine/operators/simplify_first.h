@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "cutting/simplify.h"
 #include "cutting/workpiece.h"
+#include "deck/mark_deck.h"
 #include "operators/prepared.h"
 #include "operators/refine_first.h"
 
@@ -23,7 +25,11 @@ std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> b
 std::optional<Refined> simplify_first(const Mesh& mesh, const std::vector<std::int8_t>& level, const Prepared& known);
 
 /// The same for what a refinement would have to bisect. Nothing where that is simplices alone.
-std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance, const BisectionOptions& options);
+std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& distance, const BisectionOptions& options,
+                                      const Prepared& known);
+
+/// What became of some elements of `mesh`, or of its copy with marks, with the solver's input carried over.
+Refined with_parts(const Mesh& mesh, Simplified parts, const DeckMarks& marks, const Prepared& known);
 
 /// Makes the report of what was done to what a conversion made one of both.
 void add_conversion(const Refined& converted, bool strict, Report& report);

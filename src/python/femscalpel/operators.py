@@ -49,6 +49,10 @@ def crack(mesh: Mesh, tool: Union[Tool, Faces], within: Optional[Within] = None,
     Shells that lie in the tool's surface come apart from those that stand on them: a plate stays with the negative
     side, or, where others are joined to it on the negative side only, with the positive.
 
+    Beams (trusses, rods, cables: segments that are no edges of other elements) are divided on the tool and come apart
+    there; where nothing else opens, ``name_N`` and ``name_P`` are node groups of their ends. Springs, dashpots and gaps
+    of a CalculiX deck stay whole; other files do not tell them from beams.
+
     Parameters
     ----------
     mesh : Mesh
@@ -136,8 +140,9 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], depth: Optional[float]
     tools : Tool or sequence of Tool
         For example :class:`Cylinder`. Holes may overlap.
     name : str
-        Prefix of the new groups: ``name_WALL``, the faces (segments, in a shell mesh) on the tools, normals out of the
-        material; with several tools also one for each hole, ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
+        Prefix of the new groups: ``name_WALL``, the faces (segments, in a shell mesh; the ends of beams, where there is
+        nothing else) on the tools, normals out of the material; with several tools also one for each hole,
+        ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
     method : {"snap", "deform"}
         "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
     transition, feature_angle, strict, preserve, band_only, refine, skin

@@ -129,6 +129,7 @@ class Report:
     #: Quadrangles, prisms, pyramids, hexahedra near the tool that became triangles and tetrahedra first, by type: part
     #: of what the counts below say
     converted: Dict[str, int]
+    beams_cut: int  #: places where the tool passes through a beam: a segment that is no edge of another element
     nodes_added: int  #: by splitting and by doubling
     nodes_split: int  #: of them, born on split edges
     nodes_doubled: int  #: of them, copies of interface nodes
@@ -199,6 +200,8 @@ class Report:
             facts.insert(0, ("double nodes", f"{self.welded_pairs} pairs stayed pairs"))
         if self.converted:
             facts.insert(0, ("converted", f"first, to triangles or tetrahedra: {_counts(self.converted)}"))
+        if self.beams_cut:
+            facts.insert(0, ("beams", f"cut in {self.beams_cut} places"))
         title = f"{self.operation} {self.name}".rstrip()
         lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]
