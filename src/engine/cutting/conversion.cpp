@@ -14,7 +14,8 @@ bool has_middles(CellType type) { return type == CellType::hexahedron27 || type 
 
 class Planner {
 public:
-    Planner(const Mesh& mesh, std::span<const CellRef> unfit) : mesh_(mesh), unfit_(unfit) {
+    Planner(const Mesh& mesh, std::span<const CellRef> unfit, std::vector<PyramidRule> rules)
+        : mesh_(mesh), unfit_(unfit), rules_(std::move(rules)) {
         for (const CellBlock& b : mesh.blocks())
             if (!traits(b.type).simplex)
                 chosen_[static_cast<int>(b.type)].assign(static_cast<std::size_t>(b.size()), 0);
@@ -50,13 +51,19 @@ public:
         for (std::size_t t = 0; t < chosen_.size(); ++t)
             for (std::size_t c = 0; c < chosen_[t].size(); ++c)
                 if (chosen_[t][c]) out.cells[t].push_back(static_cast<Index>(c));
+        out.rules = std::move(rules_);
         return out;
     }
 
 private:
     /// For pyramids.
     bool has_no_room(const CellRef& cell) const {
-        return has_middles(cell.type) || std::ranges::find(unfit_, cell) != unfit_.end();
+        const CellTraits& t = traits(cell.type);
+        return has_middles(cell.type) || std::ranges::find(unfit_, cell) != unfit_.end() ||
+               (t.quadratic && !rules_.empty() &&
+                std::ranges::any_of(
+                    mesh_.block(cell.type).nodes(cell.cell).subspan(static_cast<std::size_t>(t.corners)),
+                    [&](Index n) { return rules_[n] == PyramidRule::no_tip_nor_base; }));
     }
 
     char& chosen(const CellRef& cell) {
@@ -107,6 +114,7 @@ private:
 
     const Mesh& mesh_;
     std::span<const CellRef> unfit_;
+    std::vector<PyramidRule> rules_;
     std::array<std::vector<char>, cell_type_count> chosen_;
 };
 
@@ -139,8 +147,8 @@ bool Conversion::empty() const {
 }
 
 Conversion plan_conversion(const Mesh& mesh, const std::vector<std::int8_t>& level, const Adjacency* adjacency,
-                           std::span<const CellRef> unfit) {
-    return Planner(mesh, unfit).run(level, adjacency);
+                           std::span<const CellRef> unfit, std::vector<PyramidRule> rules) {
+    return Planner(mesh, unfit, std::move(rules)).run(level, adjacency);
 }
 
 }  // namespace femscalpel

@@ -33,6 +33,7 @@ public:
           type_(cell.type),
           nodes_(mesh.block(cell.type).nodes(cell.cell)),
           cuts_(cuts),
+          rules_(conversion.rules),
           shape_(cell.type, nodes_),
           second_order_(traits(cell.type).quadratic) {
         for (const ElementFace& f : faces_of(mesh, cell)) {
@@ -50,7 +51,7 @@ public:
         for (int k = 0; k < traits(type_).corners; ++k) {
             if (std::ranges::find(tried, nodes_[k]) != tried.end()) continue;
             tried.push_back(nodes_[k]);
-            if (!sees_all(nodes_[k])) continue;
+            if (!sees_all(nodes_[k]) || !may_be_tip(nodes_[k])) continue;
             SolidParts parts = from_corner(nodes_[k]);
             if (parts.quality > best.quality * (1 + 1e-9)) best = std::move(parts);
         }
@@ -79,6 +80,11 @@ private:
                 return std::ranges::find(triangle, corner) != triangle.end();
             });
         });
+    }
+
+    bool may_be_tip(Index corner) const {
+        return rules_.empty() || rules_[corner] == PyramidRule::any ||
+               std::ranges::none_of(sides_, [&](const Side& s) { return s.is_base && !has(s.face, corner); });
     }
 
     std::vector<SolidPart> parts_to(Index tip) const {
@@ -223,6 +229,7 @@ private:
     CellType type_;
     std::span<const Index> nodes_;
     QuadCuts& cuts_;
+    const std::vector<PyramidRule>& rules_;
     ShapeBlend shape_;
     bool second_order_;
     std::vector<Side> sides_;

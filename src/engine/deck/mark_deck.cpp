@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "deck/bound_nodes.h"
 #include "deck/rules/marking.h"
 #include "deck/rules/rules.h"
 
@@ -16,7 +17,13 @@ DeckMarks mark_deck(const Mesh& mesh) {
     for (std::size_t c = 0; c < cards.size(); ++c)
         if (CardRule* rule = rules.find(cards[c])) rule->mark(c, cards[c], marking);
     for (const auto& rule : rules.all()) rule->end_marking(marking);
-    return marking.result();
+    DeckMarks marks = marking.result();
+    const BoundNodes bound(mesh);
+    for (Index n = 0; n < mesh.node_count() && !bound.empty(); ++n) {
+        if (bound.is_bound(mesh.node_ids[n])) marks.no_tips.push_back(n);
+        if (bound.is_related(mesh.node_ids[n])) marks.no_bases.push_back(n);
+    }
+    return marks;
 }
 
 void remove_marks(Mesh& mesh) {

@@ -20,7 +20,10 @@ struct DeckMarks {
     std::vector<SurfaceSet> surface_sets;  ///< element groups whose boundary means nothing, see renew_surface_sets()
     std::vector<Index> related;  ///< of them, those related by equations: nodes born between two of them on the skin
                                  ///< must not move either
-    std::vector<Index> pinned;   ///< nodes (indices, ascending) that must not move: a force, a term of an equation
+    /// Nodes (as `pinned`) that cards relate to others (BoundNodes): not to be the tips of pyramids; of them, those
+    /// that are not to be at the base of one, if they are mid-side nodes.
+    std::vector<Index> no_tips, no_bases;
+    std::vector<Index> pinned;  ///< nodes (indices, ascending) that must not move: a force, a term of an equation
     /// Of `pinned`, those that may after all move, each with others, as all that they are in are equations with nodes
     /// at the same place.
     std::map<Index, std::vector<Index>> together;
@@ -38,6 +41,7 @@ inline constexpr std::string_view mark_prefix = "*MARK#";
 /// - Element sets that exist only for surfaces are found: they constrain nothing, and follow the surfaces.
 /// - Nodes with concentrated loads and terms of equations by number, reference nodes, and nodes of elements
 ///   outside the mesh are pinned.
+/// - Nodes that may be dependent are found.
 DeckMarks mark_deck(const Mesh& mesh);
 
 /// Takes the hidden groups of mark_deck() out of a mesh.

@@ -5,12 +5,9 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <set>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "cancel.h"
-#include "deck/deck_view.h"
+#include "deck/bound_nodes.h"
 
 namespace femscalpel {
 namespace {
@@ -55,74 +52,6 @@ std::map<Index, Edge> edges_to_tie(const Mesh& mesh) {
     return out;
 }
 
-/// What of nodes (by number) is set otherwise.
-class Bound {
-public:
-    explicit Bound(const Mesh& mesh) {
-        if (solver_input(mesh)) collect(DeckView(mesh));
-    }
-
-    bool contains(Index node, int freedom) const {
-        return wholly_.contains(node) || freedoms_.contains({node, freedom});
-    }
-
-private:
-    void collect(const DeckView& deck) {
-        for (const Card& card : deck.cards()) {
-            CardReader line(card);
-            if (card.keyword == "BOUNDARY")
-                while (const auto what = next_entry(line)) add_support(nodes_of(deck, *what), line);
-            else if (card.keyword == "EQUATION" || card.keyword == "MPC")
-                while (line.next_data_line())
-                    while (!line.at_end())
-                        if (Index number = 0; line.integer(number))
-                            wholly_.insert(number);
-                        else
-                            add_set(deck, line.field());
-            else if (card.keyword == "TIE" && line.next_data_line())
-                add_set(deck, line.field());
-            for (const char* name : {"SURFACE", "NSET", "ELSET"})
-                if (const std::string* set = card.parameter(name);
-                    set && (card.keyword == "COUPLING" || card.keyword == "RIGIDBODY"))
-                    add_set(deck, *set);
-        }
-    }
-
-    static std::vector<Index> nodes_of(const DeckView& deck, const NumberOrSet& what) {
-        if (what.is_number()) return {what.number};
-        const auto group = deck.group(DeckSetType::nset, what.set);
-        return group ? deck.members(*group) : std::vector<Index>();
-    }
-
-    void add_support(const std::vector<Index>& nodes, CardReader& line) {
-        Index first = 1, last = 11;
-        if (line.integer(first) && !line.integer(last)) last = first;
-        for (const Index node : nodes)
-            for (Index freedom = first; freedom <= std::min<Index>(last, 11); ++freedom)
-                freedoms_.insert({node, static_cast<int>(freedom)});
-    }
-
-    /// All nodes of a set or surface, whatever its kind; of surfaces those of the elements.
-    void add_set(const DeckView& deck, const std::string& name) {
-        const Mesh& mesh = deck.mesh();
-        const auto add_cell = [&](CellType type, Index cell) {
-            for (const Index n : mesh.block(type).nodes(cell)) wholly_.insert(mesh.node_ids[n]);
-        };
-        for (const DeckSetType type : {DeckSetType::nset, DeckSetType::node_surface})
-            if (const auto group = deck.group(type, name))
-                wholly_.insert(deck.members(*group).begin(), deck.members(*group).end());
-        if (const auto group = deck.group(DeckSetType::element_surface, name))
-            for (const Facet& f : mesh.facets)
-                if (mesh.families.contains(f.family, *group)) add_cell(f.type, f.cell);
-        if (const auto group = deck.group(DeckSetType::elset, name))
-            for (const Index element : deck.members(*group))
-                if (const auto cell = deck.numbers().cell(element)) add_cell(cell->type, cell->cell);
-    }
-
-    std::unordered_set<Index> wholly_;
-    std::set<std::pair<Index, int>> freedoms_;
-};
-
 /// Degrees of freedom that a deck computes.
 std::vector<int> freedoms_of(const Mesh& mesh) {
     bool heat = false, motion = false;
@@ -149,7 +78,7 @@ std::string pyramid_ties(const Mesh& mesh) {
     if (mesh.block(CellType::pyramid13).size() == 0) return "";
     const std::map<Index, Edge> edges = edges_to_tie(mesh);
     if (edges.empty()) return "";
-    const Bound bound(mesh);
+    const BoundNodes bound(mesh);
     std::string out;
     for (const auto& [middle, edge] : edges)
         for (const int freedom : freedoms_of(mesh)) {

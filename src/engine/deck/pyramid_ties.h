@@ -16,8 +16,7 @@ namespace femscalpel {
 /// both fit; a linear displacement is exact, which it is not without. The card is no part of the deck: it is left out
 /// where a deck is read (remove_pyramid_ties()), and made anew where it is written.
 ///
-/// Left out are degrees of freedom that *BOUNDARY sets, and nodes that another relation may set: in *EQUATION, *MPC,
-/// *RIGID BODY, *COUPLING and slave surfaces of *TIE.
+/// Left out are BoundNodes: degrees of freedom that *BOUNDARY sets, and nodes that another relation may set.
 std::string pyramid_ties(const Mesh& mesh);
 
 /// Takes such cards out; comments behind them go to the card before.

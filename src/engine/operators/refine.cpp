@@ -201,13 +201,13 @@ std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceF
 namespace {
 
 /// On a mesh whose double nodes, if any, are single. What changed is added to `stages`.
-Result refine_on(const Mesh& input, const DistanceField& distance, const RefineOptions& options,
+Result refine_on(const Mesh& input, const DistanceField& distance, const RefineOptions& options, const Prepared& known,
                  std::vector<Changes>& stages, Stopwatch::Time started) {
     Laps seconds;
     Stopwatch watch(seconds, started);
     Trace trace;
     watch.lap("locate");
-    const std::optional<Refined> converted = simplify_first(input, distance, options);
+    const std::optional<Refined> converted = simplify_first(input, distance, options, known);
     watch.lap(converted ? "convert" : "locate");
     if (auto result = refine_where_needed(converted ? converted->mesh : input, distance, options, trace)) {
         if (converted) stages.push_back(converted->trace.changes);
@@ -248,16 +248,16 @@ Result refine_pairs(const Mesh& input, const DistanceField& distance, const Refi
     Prepared known;
     known.stages = &stages;
     WeldFirst weld(input, known);
-    if (!weld) return refine_on(input, distance, options, stages, started);
+    if (!weld) return refine_on(input, distance, options, {}, stages, started);
     std::vector<Changes> of_welded;
-    Result result = refine_on(weld.mesh(), distance, options, of_welded, Stopwatch::now());
+    Result result = refine_on(weld.mesh(), distance, options, weld.known(), of_welded, Stopwatch::now());
     if (of_welded.empty()) {
         result.mesh = input;
         return result;
     }
     std::ranges::move(of_welded, std::back_inserter(weld.stages()));
     if (weld.finish(result, options.strict)) return result;
-    return refine_on(input, distance, options, stages, started);
+    return refine_on(input, distance, options, {}, stages, started);
 }
 
 }  // namespace

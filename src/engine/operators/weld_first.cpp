@@ -97,6 +97,8 @@ void WeldFirst::find_marks() {
     };
     on_welded_.related = held(marks_->related);
     on_welded_.pinned = held(marks_->pinned);
+    on_welded_.no_tips = single(marks_->no_tips);
+    on_welded_.no_bases = single(marks_->no_bases);
     pin_fronts();
 }
 
@@ -195,6 +197,8 @@ Prepared WeldFirst::known() {
         on_changed_.surface_sets = on_welded_.surface_sets;
         on_changed_.related = nodes_of(numbers, numbers_of(mesh(), on_welded_.related));
         on_changed_.pinned = nodes_of(numbers, numbers_of(mesh(), on_welded_.pinned));
+        on_changed_.no_tips = nodes_of(numbers, numbers_of(mesh(), on_welded_.no_tips));
+        on_changed_.no_bases = nodes_of(numbers, numbers_of(mesh(), on_welded_.no_bases));
         Prepared renewed;
         renewed.marks = &on_changed_;
         renewed.stages = &stages_;

@@ -2,6 +2,8 @@
 #include "deck/rules/element_loads.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
@@ -57,6 +59,7 @@ void ElementLoads::carry(std::size_t c, const Card& card, Carrying& carrying) {
 
 std::vector<ElementLoads::LoadLine> ElementLoads::read(const DeckView& deck, std::size_t c, const Card& card) {
     std::vector<LoadLine> out;
+    std::map<std::string, std::set<std::pair<Index, int>>> loaded;  // by group
     CardReader line(card);
     while (line.next_data_line()) {
         const CardReader start = line;
@@ -67,6 +70,13 @@ std::vector<ElementLoads::LoadLine> ElementLoads::read(const DeckView& deck, std
         find_faces(deck, l);
         if (!l.faces.empty())
             l.group = group_name(l.faces.front().second > 0 ? "FACES" : "ELEMENTS", c, l.label, l.rest);
+        // What is loaded again is so much more loaded.
+        const auto again = [&] {
+            const auto& before = loaded[l.group];
+            return std::ranges::any_of(l.faces, [&](const auto& f) { return before.contains(f); });
+        };
+        while (again()) l.group += "#AGAIN";
+        if (!l.faces.empty()) loaded[l.group].insert(l.faces.begin(), l.faces.end());
         out.push_back(std::move(l));
     }
     return out;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <set>
+#include <string>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "deck/deck_view.h"
+
+namespace femscalpel {
+
+/// Nodes, by number, whose displacement a deck's cards set or relate to that of others, so that CalculiX may take them
+/// for dependent.
+class BoundNodes {
+public:
+    /// Nodes of *EQUATION, *MPC, *RIGID BODY, *COUPLING, of the slave surfaces of *TIE, and supported ones under
+    /// *TRANSFORM wholly; the degrees of freedom that *BOUNDARY names. None without a deck.
+    explicit BoundNodes(const Mesh& mesh);
+
+    bool contains(Index node, int freedom) const { return is_bound(node) || freedoms_.contains({node, freedom}); }
+    /// In all degrees of freedom.
+    bool is_bound(Index node) const { return wholly_.contains(node); }
+    /// So that it need not move with its neighbours in one body: as by *EQUATION, *MPC and *TIE.
+    bool is_related(Index node) const { return related_.contains(node); }
+
+    bool empty() const { return wholly_.empty(); }
+
+private:
+    using Numbers = std::unordered_set<Index>;
+
+    void collect(const DeckView& deck);
+    void add_support(const std::vector<Index>& nodes, CardReader& line);
+    static void add_set(const DeckView& deck, const std::string& name, Numbers& to);
+
+    Numbers wholly_, related_;
+    std::set<std::pair<Index, int>> freedoms_;
+};
+
+}  // namespace femscalpel
