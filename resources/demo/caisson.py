@@ -16,9 +16,11 @@ NODE_GROUPS = ("SUPPORT", "POINT", "GAUGE")
 TYPES = {
     1: ("line", [0, 1]),
     2: ("triangle", [0, 1, 2]),
+    3: ("quad", [0, 1, 2, 3]),
     4: ("tetra", [0, 1, 2, 3]),
     8: ("line3", [0, 1, 2]),
     9: ("triangle6", [0, 1, 2, 3, 4, 5]),
+    16: ("quad8", [0, 1, 2, 3, 4, 5, 6, 7]),
     11: ("tetra10", [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
 }
 
@@ -33,14 +35,17 @@ class Model:
     groups: dict[str, tuple[str, np.ndarray]] = field(default_factory=dict)  # name -> (kind, numbers)
 
 
-def make_model(solid: bool, size: float, order: int) -> Model:
-    """Meshes the caisson with element size `size` in mm: tetrahedra if `solid`, else shell triangles."""
+def make_model(solid: bool, size: float, order: int, quadrangles: bool = False) -> Model:
+    """Meshes the caisson with element size `size` in mm: tetrahedra if `solid`, else shell triangles, or `quadrangles`
+    with a triangle here and there."""
     arguments = ["gmsh", "-v", "2"]
     for name, value in (("solid", int(solid)), ("size", size), ("order", order)):
         arguments += ["-setnumber", name, str(value)]
     gmsh.initialize(arguments)
     try:
         gmsh.open(str(GEOMETRY))
+        gmsh.option.setNumber("Mesh.RecombineAll", int(quadrangles))
+        gmsh.option.setNumber("Mesh.SecondOrderIncomplete", int(quadrangles))  # eight nodes, not nine
         gmsh.model.mesh.generate(3 if solid else 2)
         return _from_gmsh()
     finally:

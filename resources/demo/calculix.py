@@ -10,7 +10,14 @@ import numpy as np
 
 from caisson import Model
 
-ELEMENT_TYPES = {"tetra": "C3D4", "tetra10": "C3D10", "triangle": "S3", "triangle6": "S6"}
+ELEMENT_TYPES = {
+    "tetra": "C3D4",
+    "tetra10": "C3D10",
+    "triangle": "S3",
+    "triangle6": "S6",
+    "quad": "S4",
+    "quad8": "S8R",
+}
 
 # Corners of face 1 to 4 of a tetrahedron, as CalculiX numbers them.
 TETRA_FACES = np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
@@ -54,18 +61,19 @@ def write_deck(model: Model, path: Path) -> None:
 
     Groups of the body's elements become ELSETs, groups of faces of a solid SURFACEs, all others NSETs.
     """
-    body = next(name for name in ELEMENT_TYPES if name in model.cells)
-    solid = body.startswith("tetra")
-    body_ids = model.cell_ids[body]
+    solid = any(name.startswith("tetra") for name in model.cells)
+    bodies = [n for n in ELEMENT_TYPES if n in model.cells and n.startswith("tetra") == solid]
+    body_ids = np.concatenate([model.cell_ids[name] for name in bodies])
     lines = ["*HEADING", f"Caisson hung on six T stiffeners, {'solid' if solid else 'shell'} model; mm, N, MPa, t"]
     lines.append("*NODE, NSET=ALL_NODES")
-    used = np.unique(model.cells[body])
+    used = np.unique(np.concatenate([model.cells[name].ravel() for name in bodies]))
     lines += ["%d, %.17g, %.17g, %.17g" % (n + 1, *model.points[n]) for n in used.tolist()]
-    lines.append(f"*ELEMENT, TYPE={ELEMENT_TYPES[body]}, ELSET=ALL")
-    # CalculiX's node order in a C3D10 is VTK's.
-    table = np.column_stack([body_ids, model.cells[body] + 1])
-    lines += [", ".join(map(str, row)) for row in table.tolist()]
-    faces = _faces_of_tetrahedra(model, body) if solid else {}
+    for name in bodies:
+        lines.append(f"*ELEMENT, TYPE={ELEMENT_TYPES[name]}, ELSET=ALL")
+        # CalculiX's node order in a C3D10 is VTK's.
+        table = np.column_stack([model.cell_ids[name], model.cells[name] + 1])
+        lines += [", ".join(map(str, row)) for row in table.tolist()]
+    faces = _faces_of_tetrahedra(model, bodies[0]) if solid else {}
     rows = {name: dict(zip(ids.tolist(), range(len(ids)))) for name, ids in model.cell_ids.items()}
     for name, (kind, ids) in model.groups.items():
         if kind == "node":

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """FemScalpel's demo: cracks a stiffener of a caisson, as shell and as solid model, and solves it before and after.
 
-    demo.py OUTPUT_FOLDER
+    demo.py [--quadrangles] OUTPUT_FOLDER
 
-Started by run.sh, which builds the package and gives the pictures a (virtual) display.
+With --quadrangles, the shell model is of quadrangles instead of triangles. Started by run.sh, which builds the package
+and gives the pictures a (virtual) display.
 """
 
+import argparse
 import os
 import subprocess
 import sys
@@ -79,10 +81,18 @@ def compare(
     return lines + [f"    {label:55} {a:10.{digits}f} {b:10.{digits}f}" for label, a, b, digits in pairs]
 
 
-def run_variant(solid: bool, size: float, out: Path) -> None:
+def count_elements(mesh: fs.Mesh) -> str:
+    """Elements of the body, as "6214 triangles"."""
+    names = {"tetra": "tetrahedra"} if any(k.startswith("tetra") for k in mesh.cells) else {}
+    names = names or {"quad": "quadrangles", "triangle": "triangles"}
+    counts = {k.rstrip("0123456789"): len(ids) for k, ids in mesh.cell_ids.items()}
+    return " and ".join(f"{counts[k]} {word}" for k, word in names.items() if counts.get(k))
+
+
+def run_variant(solid: bool, size: float, out: Path, quadrangles: bool = False) -> None:
     kind = "solid" if solid else "shell"
     say(f"{kind}: meshing the caisson with Gmsh")
-    model = caisson.make_model(solid, size, order=2)
+    model = caisson.make_model(solid, size, order=2, quadrangles=quadrangles)
     mesh = fs.Mesh(model.points, model.cells, cell_ids=model.cell_ids, groups=model.groups, name=f"caisson_{kind}")
     mesh.unit = "mm"
     files = {
@@ -118,8 +128,7 @@ def run_variant(solid: bool, size: float, out: Path) -> None:
     print("\n" + "\n".join(compare(*solutions, deck, cracked_deck.mesh, STRESS_NAMES[kind])) + "\n", flush=True)
 
     say(f"{kind}: pictures")
-    elements = max(len(ids) for ids in result.mesh.cell_ids.values())
-    title = f"Caisson, {kind} model: {elements} {'tetrahedra' if solid else 'triangles'}, {len(mesh.groups)} groups"
+    title = f"Caisson, {kind} model: {count_elements(result.mesh)}, {len(mesh.groups)} groups"
     drawn = [pictures.prepare(m) for m in (mesh, result.mesh)]
     pictures.mesh_picture(out / f"caisson_{kind}_groups.png", title, *drawn)
     states = [
@@ -157,13 +166,14 @@ def write_document(out: Path) -> None:
 
 
 def main() -> int:
-    if len(sys.argv) != 2:
-        print(__doc__)
-        return 2
-    out = Path(sys.argv[1]).resolve()
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("output", type=Path)
+    arguments.add_argument("--quadrangles", action="store_true")
+    options = arguments.parse_args()
+    out = options.output.resolve()
     out.mkdir(parents=True, exist_ok=True)
     print(f"FemScalpel {fs.__version__} demo; results go to {out}")
-    run_variant(False, 36, out)
+    run_variant(False, 36, out, options.quadrangles)
     run_variant(True, 27, out)
     write_document(out)
     say("done. Look at:")

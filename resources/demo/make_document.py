@@ -53,7 +53,7 @@ def main():
         )
         if crack.FemMesh.NodeCount <= source.FemMesh.NodeCount:
             raise RuntimeError(f"{crack.Label} was not computed: {crack.State}")
-        if kind == "Shell":
+        if kind == "Shell" and not source.FemMesh.QuadrangleCount:  # shells are merged where they are triangles
             add_stiffener(doc, crack)
     doc.saveAs(os.path.join(out, "caisson.FCStd"))
     print("\ndocument saved")

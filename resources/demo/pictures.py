@@ -44,7 +44,7 @@ class Mesh:
 
     points: np.ndarray  # (n, 3)
     row_of: dict[int, int]  # node number -> row
-    surface: np.ndarray  # (m, 3) triangles of a shell, or of a solid's skin
+    surface: np.ndarray  # (m, 3 or 4) of a shell, or of a solid's skin; with 4, triangles have their last twice
     part: np.ndarray  # (m,) index into PARTS
     lines: dict[str, np.ndarray]  # edge group -> (k, 2)
     nodes: dict[str, np.ndarray]  # node group -> rows
@@ -56,18 +56,21 @@ def prepare(mesh) -> Mesh:
     cells = {name.rstrip("0123456789"): nodes for name, nodes in mesh.cells.items()}
     ids = {name.rstrip("0123456789"): numbers for name, numbers in mesh.cell_ids.items()}
     solid = "tetra" in cells
-    body = "tetra" if solid else "triangle"
     rows = {name: dict(zip(numbers.tolist(), range(len(numbers)))) for name, numbers in ids.items()}
-    part = np.zeros(len(ids[body]), int)
+    body = {"tetra": 4} if solid else {n: k for n, k in (("triangle", 3), ("quad", 4)) if n in cells}
+    body_ids = np.concatenate([ids[n] for n in body])
+    part = np.zeros(len(body_ids), int)
     for k, name in enumerate(PARTS):
-        part[np.isin(ids[body], mesh.groups[name].ids)] = k
+        part[np.isin(body_ids, mesh.groups[name].ids)] = k
     if solid:
-        faces = np.vstack([cells[body][:, f] for f in ([0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2])])
+        faces = np.vstack([cells["tetra"][:, f] for f in ([0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2])])
         _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
         skin = first[count == 1]
         surface, part = faces[skin], np.tile(part, 4)[skin]
     else:
-        surface = cells[body][:, :3]
+        width = max(body.values())
+        corners = [np.minimum(np.arange(width), k - 1) for k in body.values()]
+        surface = np.vstack([cells[n][:, c] for n, c in zip(body, corners)])
     row_of = dict(zip(mesh.node_ids.tolist(), range(len(mesh.node_ids))))
     lines, nodes, lips = {}, {}, np.empty((0, 2), int)
     for name in mesh.groups:
@@ -102,12 +105,12 @@ def _colours(names) -> np.ndarray:
     return (np.array([matplotlib.colors.to_rgb(n) for n in names]) * 255).astype(np.uint8)
 
 
-def _poly(points, triangles=None, lines=None) -> vtk.vtkPolyData:
+def _poly(points, faces=None, lines=None) -> vtk.vtkPolyData:
     poly = vtk.vtkPolyData()
     vtk_points = vtk.vtkPoints()
     vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
     poly.SetPoints(vtk_points)
-    for nodes, setter in ((triangles, poly.SetPolys), (lines, poly.SetLines)):
+    for nodes, setter in ((faces, poly.SetPolys), (lines, poly.SetLines)):
         if nodes is not None and len(nodes):
             width = nodes.shape[1]
             cells = vtk.vtkCellArray()
