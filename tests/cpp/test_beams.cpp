@@ -38,8 +38,7 @@ Mesh one_beam(bool second_order, double sag = 0) {
     mesh.add_node({4, 0, 0}, 2);
     if (second_order) mesh.add_node({2, sag, 0}, 3);
     const std::array<Index, 3> nodes{0, 1, 2};
-    mesh.add_cell(second_order ? CellType::line3 : CellType::line,
-                  std::span(nodes).first(second_order ? 3 : 2), 7);
+    mesh.add_cell(second_order ? CellType::line3 : CellType::line, std::span(nodes).first(second_order ? 3 : 2), 7);
     return mesh;
 }
 

@@ -16,7 +16,7 @@ protected:
         Conversion conversion;
         conversion.cells[static_cast<int>(type)] = {0};
         const auto n = mesh.block(type).nodes(0);
-        if (on_base) conversion.bases.insert(quad_key({n[0], n[1], n[2], n[3]}));
+        if (on_base) conversion.bases.emplace(quad_key({n[0], n[1], n[2], n[3]}), 1);
         mesh_ = std::move(mesh);
         QuadCuts cuts(mesh_, conversion.cells,
                       [&](const Blend& at, const auto&) { return mesh_.add_node(place_of(mesh_, at), ++number_); });

@@ -101,7 +101,9 @@ def tool_for(mesh, rng):
 def courses(mesh):
     """Points along each beam that is no edge of another element, by type and place."""
     out = {}
-    edges = {tuple(sorted(e)) for k, c in mesh.cells.items() if k not in ("line", "line3", "vertex") for e in sides(k, c)}
+    edges = {
+        tuple(sorted(e)) for k, c in mesh.cells.items() if k not in ("line", "line3", "vertex") for e in sides(k, c)
+    }
     for name in ("line", "line3"):
         for k, n in enumerate(mesh.cells.get(name, ())):
             if tuple(sorted(n[:2])) in edges:
@@ -118,7 +120,9 @@ def sides(kind, cells):
     corners = {"quad": 4, "triangle": 3, "triangle6": 3, "tetra": 4, "tetra10": 4, "pyramid": 5}.get(kind)
     pairs = {
         "quad": ((0, 1), (1, 2), (2, 3), (3, 0)),
-    }.get(kind) or [(a, b) for a in range(corners) for b in range(a)]
+    }.get(
+        kind
+    ) or [(a, b) for a in range(corners) for b in range(a)]
     return np.concatenate([cells[:, list(p)] for p in pairs]).tolist()
 
 

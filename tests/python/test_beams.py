@@ -12,9 +12,7 @@ from meshes import grid_box
 
 def chain(count=8, **kwargs):
     """Beams along x."""
-    return fs.Mesh(
-        [[x, 0.0, 0.0] for x in range(count + 1)], {"line": [[k, k + 1] for k in range(count)]}, **kwargs
-    )
+    return fs.Mesh([[x, 0.0, 0.0] for x in range(count + 1)], {"line": [[k, k + 1] for k in range(count)]}, **kwargs)
 
 
 @pytest.mark.parametrize("kind", beam_cases.KINDS)
@@ -65,7 +63,9 @@ def test_what_is_removed_of_beams(slot):
     assert np.allclose(x, [0, 1, 2, 3, 3.7, 4.7, 5, 6, 7, 8])
     walls = [g for g in result.mesh.groups if g not in ("ALL",)]
     on_walls = {n for g in walls for n in result.mesh.groups[g].ids}
-    assert len(on_walls) == 2 and all(result.mesh.groups[g].kind == "node" for g in walls if len(result.mesh.groups[g].ids))
+    assert len(on_walls) == 2 and all(
+        result.mesh.groups[g].kind == "node" for g in walls if len(result.mesh.groups[g].ids)
+    )
 
 
 def test_beam_that_stands_on_a_solid_in_the_plane():

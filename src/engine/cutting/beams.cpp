@@ -95,9 +95,11 @@ private:
         Course course{at(n[0]), at(n[1]), Vec3::Zero()};
         if (n.size() == 3) course.bulge = at(n[2]) - (course.from + course.to) / 2;
         std::vector<double> out;
-        for (const Blade& b : blades_) std::ranges::copy(Passages(course, b, rounding_).find(), std::back_inserter(out));
+        for (const Blade& b : blades_)
+            std::ranges::copy(Passages(course, b, rounding_).find(), std::back_inserter(out));
         std::ranges::sort(out);
-        out.erase(std::unique(out.begin(), out.end(), [](double a, double b) { return b - a < shortest_part; }), out.end());
+        out.erase(std::unique(out.begin(), out.end(), [](double a, double b) { return b - a < shortest_part; }),
+                  out.end());
         return out;
     }
 

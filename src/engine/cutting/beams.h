@@ -25,8 +25,8 @@ struct BeamCuts {
     bool empty() const { return cuts.empty() && stops.empty(); }
 };
 
-/// Finds where beams pass through blades, where these are wanted. What is nearer to a node of the beam than a thousandth
-/// of it is in that node.
+/// Finds where beams pass through blades, where these are wanted. What is nearer to a node of the beam than a
+/// thousandth of it is in that node.
 BeamCuts find_beam_cuts(const Mesh& mesh, std::span<const Blade> blades);
 
 }  // namespace femscalpel

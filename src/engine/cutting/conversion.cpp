@@ -8,7 +8,7 @@
 namespace femscalpel {
 namespace {
 
-using QuadSet = std::unordered_set<QuadKey, QuadKeyHash>;
+using QuadSet = QuadTable<char>;
 
 bool has_middles(CellType type) { return type == CellType::hexahedron27 || type == CellType::wedge18; }
 
@@ -32,7 +32,7 @@ public:
         // Those across from what was reached; of them, those in front of whose faces no pyramid can stand.
         std::vector<CellRef> beside, whole = reached;
         while (!whole.empty()) {
-            const QuadSet faces = quads_of(whole);
+            const QuadSet faces = outer_quads_of(whole);
             std::vector<CellRef> next;
             for_each_at(faces, 3, [&](const CellRef& cell) {
                 choose(cell, has_no_room(cell) ? next : beside);
@@ -40,14 +40,15 @@ public:
             });
             whole = std::move(next);
         }
-        const QuadSet rim = quads_of(beside);
+        const QuadSet rim = outer_quads_of(beside);
         for_each_at(rim, 3, [&](const CellRef& cell) {
             for (const ElementFace& f : faces_of(mesh_, cell))
-                if (f.count == 4 && rim.contains(quad_key(f.corners))) out.bases.insert(quad_key(f.corners));
+                if (f.count == 4 && rim.contains(quad_key(f.corners))) out.bases.emplace(quad_key(f.corners), 1);
         });
-        QuadSet cut = quads_of(reached);
-        for (const QuadKey& base : out.bases) cut.erase(base);
-        for_each_at(cut, 2, [&](const CellRef& cell) { choose(cell, reached); });
+        if (has_quadrangles()) {
+            const QuadSet cut = quads_of(reached, [&](const QuadKey& q) { return !out.bases.contains(q); });
+            for_each_at(cut, 2, [&](const CellRef& cell) { choose(cell, reached); });
+        }
         for (std::size_t t = 0; t < chosen_.size(); ++t)
             for (std::size_t c = 0; c < chosen_[t].size(); ++c)
                 if (chosen_[t][c]) out.cells[t].push_back(static_cast<Index>(c));
@@ -75,13 +76,40 @@ private:
         list.push_back(cell);
     }
 
-    QuadSet quads_of(const std::vector<CellRef>& cells) const {
+    bool has_quadrangles() const {
+        return std::ranges::any_of(mesh_.blocks(), [](const CellBlock& b) {
+            const CellTraits& t = traits(b.type);
+            return t.dimension == 2 && t.corners == 4 && b.size() > 0;
+        });
+    }
+
+    /// The quadrangular faces of some solids that `counts` takes.
+    QuadSet quads_of(const std::vector<CellRef>& cells, auto counts) const {
         QuadSet out;
         for (const CellRef& c : cells)
             if (traits(c.type).dimension == 3)
                 for (const ElementFace& f : faces_of(mesh_, c))
-                    if (f.count == 4) out.insert(quad_key(f.corners));
+                    if (f.count == 4)
+                        if (const QuadKey key = quad_key(f.corners); counts(key)) out.emplace(key, 1);
         return out;
+    }
+
+    /// Those that solids which are not chosen may have, too: they have all of their nodes.
+    QuadSet outer_quads_of(const std::vector<CellRef>& cells) const {
+        std::vector<char> outer(mesh_.points.size(), 0);
+        for (const CellBlock& b : mesh_.blocks()) {
+            const CellTraits& t = traits(b.type);
+            if (t.simplex || t.dimension != 3) continue;
+            SparseCheck check(1 << 12);
+            for (Index c = 0; c < b.size(); ++c) {
+                check();
+                if (chosen_[static_cast<int>(b.type)][static_cast<std::size_t>(c)]) continue;
+                for (const Index n : b.nodes(c).first(static_cast<std::size_t>(t.corners))) outer[n] = 1;
+            }
+        }
+        return quads_of(cells, [&](const QuadKey& q) {
+            return std::ranges::all_of(q, [&](std::int32_t n) { return outer[n] != 0; });
+        });
     }
 
     /// Visits the elements of a dimension that are not chosen yet and have (or are) one of some quadrangles.
@@ -89,8 +117,9 @@ private:
     void for_each_at(const QuadSet& quads, int dimension, Visit visit) {
         if (quads.empty()) return;
         std::vector<char> near(mesh_.points.size(), 0);
-        for (const QuadKey& q : quads)
-            for (const Index n : q) near[n] = 1;
+        quads.for_each([&](const QuadKey& q, char) {
+            for (const std::int32_t n : q) near[n] = 1;
+        });
         for (const CellBlock& b : mesh_.blocks()) {
             const CellTraits& t = traits(b.type);
             if (t.simplex || t.dimension != dimension || t.corners < 4) continue;
@@ -120,15 +149,11 @@ private:
 
 }  // namespace
 
-QuadKey quad_key(std::array<Index, 4> corners) {
-    std::ranges::sort(corners);
-    return corners;
-}
-
 std::vector<ElementFace> faces_of(const Mesh& mesh, const CellRef& cell) {
     const CellTraits& t = traits(cell.type);
     const auto n = mesh.block(cell.type).nodes(cell.cell);
     std::vector<ElementFace> out;
+    out.reserve(t.faces.size());
     for (std::size_t f = 0; f < t.faces.size(); ++f) {
         ElementFace face;
         face.number = static_cast<int>(f) + 1;

@@ -4,28 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
+#include "cutting/quad_table.h"
 #include "mesh/adjacency.h"
 #include "mesh/mesh.h"
 
 namespace femscalpel {
-
-/// Corners of a quadrangular face, ascending: its name.
-using QuadKey = std::array<Index, 4>;
-
-/// The name of a quadrangular face.
-QuadKey quad_key(std::array<Index, 4> corners);
-
-/// For hash tables by quadrangular face.
-struct QuadKeyHash {
-    std::size_t operator()(const QuadKey& key) const {
-        std::uint64_t h = 0;
-        for (const Index n : key) h = (h ^ static_cast<std::uint64_t>(n)) * 0x9e3779b97f4a7c15u;
-        return static_cast<std::size_t>(h ^ (h >> 32));
-    }
-};
 
 /// A face of an element by its corners, in the order of CellTraits::faces, without repeated ones: three or four.
 struct ElementFace {
@@ -46,7 +31,7 @@ enum class PyramidRule : char { any, no_tip, no_tip_nor_base };
 struct Conversion {
     CellLists cells;
     /// Quadrangular faces between these and solids that stay: pyramids stand on them.
-    std::unordered_set<QuadKey, QuadKeyHash> bases;
+    QuadTable<char> bases;
 
     std::vector<PyramidRule> rules = {};  ///< by node, or empty
 

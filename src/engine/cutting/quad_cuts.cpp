@@ -76,19 +76,20 @@ double QuadCuts::quality(const std::array<Index, 3>& triangle, Index a, Index c,
 
 /// The diagonal at the first or second of four corners.
 QuadCuts::Choice QuadCuts::choice(const std::array<Index, 4>& q, int first) const {
-    Choice out{{q[first], q[first + 2]}, {{q[first], 0.5}}, 0};
-    add(out.middle, {{q[first + 2], 0.5}});
+    Choice out{{q[first], q[first + 2]}, {}, 0};
     std::array<Index, 8> nodes{q[0], q[1], q[2], q[3]};
     bool second_order = true;
     for (int k = 0; k < 4; ++k) {
         nodes[4 + k] = middle(q[k], q[(k + 1) % 4]);
         second_order = second_order && nodes[4 + k] >= 0;
     }
-    if (!second_order) out.middle.clear();
-    if (const auto there = face_middles_.find(quad_key(q)); there != face_middles_.end())
-        out.middle = {{there->second, 1}};
-    else if (second_order)
+    if (const Index* there = face_middles_.find(quad_key(q))) {
+        out.middle = {{*there, 1}};
+    } else if (second_order) {
+        out.middle = {{q[first], 0.5}};
+        add(out.middle, {{q[first + 2], 0.5}});
         add(out.middle, ShapeBlend(CellType::quad8, nodes).bulge(Vec3::Zero()));
+    }
     const Vec3 at = second_order ? place_of(mesh_, out.middle) : Vec3::Zero();
     const Index a = out.ends[0], c = out.ends[1], b = q[first + 1], d = q[(first + 3) % 4];
     out.quality = std::min(quality({a, b, c}, a, c, at), quality({a, c, d}, a, c, at));
@@ -99,9 +100,9 @@ QuadCuts::Choice QuadCuts::choice(const std::array<Index, 4>& q, int first) cons
     return out;
 }
 
-const std::array<Index, 2>& QuadCuts::diagonal(const std::array<Index, 4>& corners) {
+std::array<Index, 2> QuadCuts::diagonal(const std::array<Index, 4>& corners) {
     const QuadKey key = quad_key(corners);
-    if (const auto known = diagonals_.find(key); known != diagonals_.end()) return known->second;
+    if (const auto* known = diagonals_.find(key)) return {(*known)[0], (*known)[1]};
     // The same to the last bit, whichever way the quadrangle runs.
     const auto number = [&](Index n) { return mesh_.node_ids[n]; };
     std::array<Index, 4> q = corners;
@@ -114,11 +115,12 @@ const std::array<Index, 2>& QuadCuts::diagonal(const std::array<Index, 4>& corne
         set_middle(best.ends[0], best.ends[1], best.middle.front().first);
     else if (!best.middle.empty())
         set_middle(best.ends[0], best.ends[1], add_node_(best.middle, q));
-    return diagonals_.emplace(key, best.ends).first->second;
+    diagonals_.emplace(key, {static_cast<std::int32_t>(best.ends[0]), static_cast<std::int32_t>(best.ends[1])});
+    return best.ends;
 }
 
 std::array<std::array<Index, 3>, 2> QuadCuts::triangles(const std::array<Index, 4>& q) {
-    const auto& ends = diagonal(q);
+    const std::array<Index, 2> ends = diagonal(q);
     if (std::ranges::find(ends, q[0]) != ends.end()) return {{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
     return {{{q[1], q[2], q[3]}, {q[1], q[3], q[0]}}};
 }

@@ -24,7 +24,7 @@ public:
 
     /// Ends of the diagonal of a quadrangle: that of the better triangles; where both are as good, at its node of the
     /// lowest number. The mid-side node is made if the edges have theirs.
-    const std::array<Index, 2>& diagonal(const std::array<Index, 4>& corners);
+    std::array<Index, 2> diagonal(const std::array<Index, 4>& corners);
 
     /// The two triangles of a quadrangle, running as it does.
     std::array<std::array<Index, 3>, 2> triangles(const std::array<Index, 4>& corners);
@@ -41,8 +41,8 @@ private:
     Mesh& mesh_;
     std::function<Index(const Blend&, const std::array<Index, 4>&)> add_node_;
     std::unordered_map<std::uint64_t, Index> middles_;
-    std::unordered_map<QuadKey, Index, QuadKeyHash> face_middles_;
-    std::unordered_map<QuadKey, std::array<Index, 2>, QuadKeyHash> diagonals_;
+    QuadTable<Index> face_middles_;
+    QuadTable<std::array<std::int32_t, 2>> diagonals_;
 };
 
 }  // namespace femscalpel

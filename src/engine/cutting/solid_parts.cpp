@@ -36,12 +36,13 @@ public:
           rules_(conversion.rules),
           shape_(cell.type, nodes_),
           second_order_(traits(cell.type).quadratic) {
-        for (const ElementFace& f : faces_of(mesh, cell)) {
-            Side side{f, f.count == 4 && conversion.bases.contains(quad_key(f.corners)), {}};
-            if (f.count == 3) side.triangles = {{f.corners[0], f.corners[1], f.corners[2]}};
+        const std::vector<ElementFace> faces = faces_of(mesh, cell);
+        sides_.reserve(faces.size());
+        for (const ElementFace& f : faces) {
+            Side& side = sides_.emplace_back(f, f.count == 4 && conversion.bases.contains(quad_key(f.corners)));
+            if (f.count == 3) side.cut[side.count++] = {f.corners[0], f.corners[1], f.corners[2]};
             if (f.count == 4 && !side.is_base)
-                for (const auto& triangle : cuts.triangles(f.corners)) side.triangles.push_back(triangle);
-            sides_.push_back(std::move(side));
+                for (const auto& triangle : cuts.triangles(f.corners)) side.cut[side.count++] = triangle;
         }
     }
 
@@ -64,7 +65,11 @@ private:
     struct Side {
         ElementFace face;
         bool is_base;
-        std::vector<std::array<Index, 3>> triangles;
+        std::array<std::array<Index, 3>, 2> cut{};
+        std::size_t count = 0;
+
+        Side(const ElementFace& f, bool base) : face(f), is_base(base) {}
+        std::span<const std::array<Index, 3>> triangles() const { return std::span(cut).first(count); }
     };
 
     static bool has(const ElementFace& face, Index node) {
@@ -76,7 +81,7 @@ private:
     bool sees_all(Index corner) const {
         return std::ranges::all_of(sides_, [&](const Side& s) {
             if (!has(s.face, corner) || s.face.count == 3) return true;
-            return !s.is_base && std::ranges::all_of(s.triangles, [&](const auto& triangle) {
+            return !s.is_base && std::ranges::all_of(s.triangles(), [&](const auto& triangle) {
                 return std::ranges::find(triangle, corner) != triangle.end();
             });
         });
@@ -89,9 +94,10 @@ private:
 
     std::vector<SolidPart> parts_to(Index tip) const {
         std::vector<SolidPart> out;
+        out.reserve(2 * sides_.size());
         for (const Side& s : sides_) {
             if (has(s.face, tip)) continue;
-            for (const auto& [a, b, c] : s.triangles) out.push_back({{a, b, c, tip}, 4});
+            for (const auto& [a, b, c] : s.triangles()) out.push_back({{a, b, c, tip}, 4});
             if (s.is_base) {
                 const auto& q = s.face.corners;
                 out.push_back({{q[0], q[1], q[2], q[3], tip}, 5});

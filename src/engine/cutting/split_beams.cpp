@@ -12,7 +12,8 @@ namespace {
 
 class BeamSplitter {
 public:
-    BeamSplitter(const Mesh& mesh, const Numbering& numbering) : next_node_(numbering.node), next_cell_(numbering.cell) {
+    BeamSplitter(const Mesh& mesh, const Numbering& numbering)
+        : next_node_(numbering.node), next_cell_(numbering.cell) {
         out_.mesh = mesh;
     }
 
@@ -76,8 +77,8 @@ private:
                 out_.after.push_back(c.beam);
             } else {
                 out_.changes.parts.push_back({next_cell_, number});
-                out_.after.push_back({c.beam.type, mesh.add_cell(c.beam.type, std::span(part).first(count),
-                                                                 next_cell_++, family)});
+                out_.after.push_back(
+                    {c.beam.type, mesh.add_cell(c.beam.type, std::span(part).first(count), next_cell_++, family)});
             }
             from = to;
             first = last;

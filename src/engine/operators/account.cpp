@@ -338,7 +338,8 @@ void Account::join_refinement(const Rebuilt& rebuilt) {
     Index nodes = 0, elements = 0;
     for (Index n = 0; n < before.node_count(); ++n)
         nodes += before.node_ids[n] >= refined.numbering.node && rebuilt.kept_node(n) < 0;
-    std::set<Index> left;
+    std::unordered_set<Index> left;
+    left.reserve(rebuilt.after.size());
     for (const CellRef& c : rebuilt.after) left.insert(rebuilt.mesh.block(c.type).ids[c.cell]);
     for (const CellRef& c : rebuilt.before)
         if (const Index id = before.block(c.type).ids[c.cell]; id >= refined.numbering.cell)

@@ -17,8 +17,8 @@ struct BeamsCut {
     std::vector<Index> stops;        ///< Prepared::beam_stops
 };
 
-/// Divides beams where an operation's blades pass through them (split_beams()); nothing where none does. `known` is what
-/// is known of `mesh`. Throws what carry_deck() does.
+/// Divides beams where an operation's blades pass through them (split_beams()); nothing where none does. `known` is
+/// what is known of `mesh`. Throws what carry_deck() does.
 std::optional<BeamsCut> cut_beams_first(const Mesh& mesh, std::span<const Blade> blades, const Prepared& known);
 
 }  // namespace femscalpel
