@@ -121,7 +121,7 @@ U
 
 
 def test_frame_of_calculix(tmp_path):
-    """A cut through the beam of a portal: sections follow, the spring stays whole, and both posts stand on their own."""
+    """A portal cut through its beam: sections follow, the spring stays whole, both posts stand on their own."""
     deck = tmp_path / "frame.inp"
     deck.write_text(FRAME)
     result = fs.crack(fs.read(str(deck)), fs.Plane((3, 0, 0), (1, 0, 0)))
