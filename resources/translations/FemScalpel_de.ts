@@ -632,6 +632,10 @@
       <translation>Das Netz hat keine Gruppe von Flächen oder Knoten. Machen Sie zuerst eine.</translation>
     </message>
     <message>
+      <source>The mesh has no such group any more.</source>
+      <translation>Diese Gruppe hat das Netz nicht mehr.</translation>
+    </message>
+    <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
     </message>
@@ -688,6 +692,10 @@
       <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt. Der Dateidialog zählt die Formate auf.</translation>
     </message>
     <message>
+      <source>all kept</source>
+      <translation>alle bleiben</translation>
+    </message>
+    <message>
       <source>became empty</source>
       <translation>leer geworden</translation>
     </message>
@@ -734,6 +742,10 @@
     <message>
       <source>kept</source>
       <translation>erhalten</translation>
+    </message>
+    <message>
+      <source>kept where ticked</source>
+      <translation>angekreuzte bleiben</translation>
     </message>
     <message>
       <source>mean ratio; line: before</source>
@@ -1034,6 +1046,10 @@
       <translation>Kantenwinkel</translation>
     </message>
     <message>
+      <source>Group borders</source>
+      <translation>Gruppenränder</translation>
+    </message>
+    <message>
       <source>Group name</source>
       <translation>Gruppenname</translation>
     </message>
@@ -1074,12 +1090,20 @@
       <translation>Die Analyse rechnet dann mit dem neuen Netz; Lasten, Lager und Werkstoffe bleiben, wie sie sind</translation>
     </message>
     <message>
+      <source>The borders of the ticked groups keep their shape; those of the others may drift</source>
+      <translation>Die Ränder der angekreuzten Gruppen behalten ihre Form; die der anderen dürfen sich verschieben</translation>
+    </message>
+    <message>
       <source>Transition</source>
       <translation>Übergang</translation>
     </message>
     <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
+    </message>
+    <message>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
+      <translation>Ob die Ränder aller Gruppen ihre Form behalten; wo manche sich verschieben dürfen, können Elemente besser werden</translation>
     </message>
     <message>
       <source>automatic</source>

@@ -632,6 +632,10 @@
       <translation>Le maillage n'a aucun groupe de faces ou de nœuds. Faites-en un d'abord.</translation>
     </message>
     <message>
+      <source>The mesh has no such group any more.</source>
+      <translation>Le maillage n'a plus ce groupe.</translation>
+    </message>
+    <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
     </message>
@@ -688,6 +692,10 @@
       <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format. Le dialogue de fichiers énumère les formats.</translation>
     </message>
     <message>
+      <source>all kept</source>
+      <translation>tous gardés</translation>
+    </message>
+    <message>
       <source>became empty</source>
       <translation>devenu vide</translation>
     </message>
@@ -734,6 +742,10 @@
     <message>
       <source>kept</source>
       <translation>gardé</translation>
+    </message>
+    <message>
+      <source>kept where ticked</source>
+      <translation>cochés gardés</translation>
     </message>
     <message>
       <source>mean ratio; line: before</source>
@@ -1034,6 +1046,10 @@
       <translation>Angle vif</translation>
     </message>
     <message>
+      <source>Group borders</source>
+      <translation>Bords de groupes</translation>
+    </message>
+    <message>
       <source>Group name</source>
       <translation>Nom du groupe</translation>
     </message>
@@ -1074,12 +1090,20 @@
       <translation>L'analyse calcule alors le nouveau maillage ; charges, appuis et matériaux restent tels quels</translation>
     </message>
     <message>
+      <source>The borders of the ticked groups keep their shape; those of the others may drift</source>
+      <translation>Les bords des groupes cochés gardent leur forme ; ceux des autres peuvent dériver</translation>
+    </message>
+    <message>
       <source>Transition</source>
       <translation>Transition</translation>
     </message>
     <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
+    </message>
+    <message>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
+      <translation>Si les bords de tous les groupes gardent leur forme ; là où certains peuvent dériver, les éléments peuvent être meilleurs</translation>
     </message>
     <message>
       <source>automatic</source>
