@@ -47,6 +47,8 @@ class ToolPanel(ViewPanel):
     TWO_SIDES = True
     #: Whether operation() gives the whole mesh, not just the band.
     WHOLE = False
+    #: Whether it gives no element that stays as it is.
+    CHANGED_ONLY = False
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object)
@@ -119,7 +121,8 @@ class ToolPanel(ViewPanel):
             o.method.setCurrentIndex(o.method.findData(obj.Method))
         if "transition" in self.OFFERED:
             o.transition.setValue(obj.Transition)
-        self._feature_angle.set(obj.FeatureAngle.Value)
+        if "feature_angle" in self.OFFERED:
+            self._feature_angle.set(obj.FeatureAngle.Value)
         if "refine" in self.OFFERED:
             o.refine.setCurrentIndex(o.refine.findData(obj.Refine))
             if obj.Refine == "Size":
@@ -284,8 +287,8 @@ class ToolPanel(ViewPanel):
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
-        self._ticket = self.worker.request(lambda: _preview(source, operate, surface, region, whole))
+        surface, region, kind = self.surface(tool), self.removed_region(tool), (self.WHOLE, self.CHANGED_ONLY)
+        self._ticket = self.worker.request(lambda: _preview(source, operate, surface, region, kind))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
@@ -474,7 +477,7 @@ class ToolPanel(ViewPanel):
         self._preserve = None
 
 
-def _preview(source, operate, surface, region, whole):
+def _preview(source, operate, surface, region, kind):
     """The PreviewData of what operate(scalpel) makes."""
     result = operate(source.scalpel)
-    return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)
+    return make_preview(source, result, surface(result) if callable(surface) else surface, region, *kind)

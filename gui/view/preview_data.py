@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the preview draws, as arrays. Made off the GUI thread; knows neither FreeCAD nor Coin."""
 
+import copy
 from dataclasses import dataclass, field
 from typing import Dict, List, Tuple
 
@@ -27,6 +28,11 @@ class Surface:
     def make(cls, points, faces, quality, family, lip=None):
         rows, used = mesh_faces.compact(faces, points)
         return cls(used, rows, quality, family, np.zeros(len(faces), bool) if lip is None else lip)
+
+    def without_lip(self):
+        """The faces that are not on the tool."""
+        kept = ~self.lip
+        return Surface(self.points, self.faces[kept], self.quality[kept], self.family[kept], self.lip[kept])
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,8 +91,11 @@ class Cells:
         self.ids = np.concatenate(ids) if ids else np.empty(0, np.int64)
         self.quality = np.concatenate(quality) if quality else np.empty(0)
         self.dimension = np.concatenate(dimension) if dimension else np.empty(0, np.int64)
-        order = np.argsort(self.ids)
-        self._order, self._ascending = order, self.ids[order]
+        self._index()
+
+    def _index(self):
+        self._order = np.argsort(self.ids)
+        self._ascending = self.ids[self._order]
 
     def __len__(self):
         return len(self.ids)
@@ -97,6 +106,17 @@ class Cells:
             return np.empty(0, np.int64)
         at = np.minimum(np.searchsorted(self._ascending, ids), len(self.ids) - 1)
         return self._order[at[self._ascending[at] == ids]]
+
+    def with_some_of(self, other, chosen):
+        """These, then the elements of another Cells with the same numbers of nodes that a mask chooses."""
+        out = copy.copy(self)
+        firsts = np.cumsum([0] + [len(nodes) for _, nodes in other.blocks])
+        rest = [(kind, nodes[chosen[first : first + len(nodes)]]) for (kind, nodes), first in zip(other.blocks, firsts)]
+        out.blocks = self.blocks + rest
+        for name in ("ids", "quality", "dimension"):
+            setattr(out, name, np.concatenate([getattr(self, name), getattr(other, name)[chosen]]))
+        out._index()
+        return out
 
     def per_cell(self, function):
         """function(connectivity) of every block, joined."""
@@ -196,7 +216,7 @@ def centres(faces, points):
     return total / np.where(triangle, 3.0, 4.0)[:, None]
 
 
-def make_preview(source, result, tool, removed_region=None, whole=False):
+def make_preview(source, result, tool, removed_region=None, whole=False, changed_only=False):
     """The PreviewData of a result.
 
     Parameters
@@ -210,6 +230,8 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
         Its distance(points) is negative where the operator removes material.
     whole : bool
         The result is of the whole mesh: elements that it lacks are gone.
+    changed_only : bool
+        The result has no element that is as it was: those it lacks stay.
     """
     mesh, report = result.mesh, result.report
     node_count = source.mesh.node_count
@@ -233,7 +255,9 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
 
     cells = Cells(mesh, lambda cell_type, nodes: near[number[nodes]].any(axis=1))
     cells.blocks = [(cell_type, number[nodes]) for cell_type, nodes in cells.blocks]
-    replaced = source.cells.per_cell(lambda nodes: near[nodes].any(axis=1)).astype(bool)
+    replaced = np.zeros(len(source.cells), bool)
+    if not changed_only:
+        replaced = source.cells.per_cell(lambda nodes: near[nodes].any(axis=1)).astype(bool)
     replaced[source.cells.find(cells.ids)] = True
     removed = Surface.make(points, np.empty((0, 4), np.int64), np.empty(0), np.empty(0, np.int64))
     if removed_region is not None:
@@ -243,8 +267,13 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
         removed = _removed(source, gone)
     if whole:
         replaced |= ~np.isin(source.cells.ids, np.concatenate(list(mesh.cell_ids.values())))
+    stays = ~replaced
 
     families = cells.families(mesh, source.families)
+    if changed_only:
+        beside = source.cells.per_cell(lambda nodes: near[nodes].any(axis=1)).astype(bool) & stays
+        cells, families = cells.with_some_of(source.cells, beside), np.append(families, source.cell_family[beside])
+        stays &= ~beside
     faces, owner, family = cells.surface(total, families)
     distance = tool.distance(points)
     on_tool = _all_corners(faces, np.abs(distance) <= 1e-7 * source.size)
@@ -264,7 +293,7 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
         Surface.make(points, faces[side], cells.quality[owner[side]], family[side], lip[side])
         for side in (~positive, positive)
     )
-    stays = ~replaced[source.skin_owner]
+    stays = stays[source.skin_owner]
     beyond = tool.distance(source.skin_centres) > 0
     rest = tuple(
         Surface.make(source.points, source.skin[side], source.skin_quality[side], source.skin_family[side])

@@ -100,7 +100,8 @@ class PreviewScene(Picture):
             self.ghost.hide()
         elif cut_away:
             self._fill(self.rest, [negative], data)
-            self._fill(self.ghost, [positive, data.band[1]], None)
+            # Not its lip, which is where that of the other side is.
+            self._fill(self.ghost, [positive, data.band[1].without_lip()], None)
         elif through and self.look == LOOKS[0]:
             self.rest.hide()
             self._fill(self.ghost, [negative, positive], None)

@@ -174,6 +174,21 @@
     </message>
   </context>
   <context>
+    <name>FaceGroupInput</name>
+    <message>
+      <source>Faces</source>
+      <translation>Flächen</translation>
+    </message>
+    <message>
+      <source>Faces of</source>
+      <translation>Flächen von</translation>
+    </message>
+    <message>
+      <source>The group whose faces come apart: of faces inside the part (of a shell: edges), or of their nodes</source>
+      <translation>Die Gruppe, deren Flächen sich trennen: von Flächen im Bauteil (einer Schale: Kanten) oder von ihren Knoten</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
     <message>
       <source>%1 cannot be added. Click another FEM mesh.</source>
@@ -328,12 +343,20 @@
       <translation>Riss</translation>
     </message>
     <message>
+      <source>Crack along faces</source>
+      <translation>Riss entlang Flächen</translation>
+    </message>
+    <message>
       <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
       <translation>Reißt das FEM-Netz entlang eines Zylinders auf und erhält seine Gruppen</translation>
     </message>
     <message>
       <source>Cracks the FEM mesh along a plane and keeps its groups</source>
       <translation>Reißt das FEM-Netz entlang einer Ebene auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
+      <translation>Reißt das FEM-Netz entlang vorhandener Flächen auf, denen einer Gruppe</translation>
     </message>
     <message>
       <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
@@ -476,6 +499,10 @@
       <translation>Verschiebt, was eine Gruppe bedeckt: die Wand einer Bohrung auf einen anderen Radius, eine Fläche auf eine andere Ebene, um einen Vektor oder um einen Punkt skaliert. Der Dialog beginnt mit der Ebene, dem Zylinder oder der Kugel, auf der die Wand liegt. Die Elemente ringsum folgen so weit wie nötig und werden geteilt oder vereinigt, wo sie schlecht würden. Alle Gruppen behalten ihren Sinn.</translation>
     </message>
     <message>
+      <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
+      <translation>Keine Gruppe des Netzes bedeckt Flächen in seinem Inneren (einer Schale: Kanten). Machen Sie erst eine davon oder von ihren Knoten.</translation>
+    </message>
+    <message>
       <source>No preview.</source>
       <translation>Keine Vorschau.</translation>
     </message>
@@ -510,6 +537,10 @@
     <message>
       <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
       <translation>Öffnet das FEM-Netz entlang einer Ebene. Die Ebene durch Zahlen angeben, aus der Ansicht holen (drei Knoten, ebene Fläche, Kante, Bezugselement, Skizze, Blickrichtung) oder an den Griffen ziehen; die Vorschau zeigt das Netz, wie es wird. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang von Flächen zwischen seinen Elementen. Wählen Sie eine Gruppe solcher Flächen (einer Schale: von Kanten) oder ihrer Knoten; die Elemente dürfen von jedem Typ sein, keines wird verschoben oder geteilt. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>

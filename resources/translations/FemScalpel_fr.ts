@@ -174,6 +174,21 @@
     </message>
   </context>
   <context>
+    <name>FaceGroupInput</name>
+    <message>
+      <source>Faces</source>
+      <translation>Faces</translation>
+    </message>
+    <message>
+      <source>Faces of</source>
+      <translation>Faces de</translation>
+    </message>
+    <message>
+      <source>The group whose faces come apart: of faces inside the part (of a shell: edges), or of their nodes</source>
+      <translation>Le groupe dont les faces se séparent : de faces dans la pièce (d'une coque : d'arêtes), ou de leurs nœuds</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
     <message>
       <source>%1 cannot be added. Click another FEM mesh.</source>
@@ -328,12 +343,20 @@
       <translation>Fissure</translation>
     </message>
     <message>
+      <source>Crack along faces</source>
+      <translation>Fissure le long de faces</translation>
+    </message>
+    <message>
       <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
       <translation>Fissure le maillage EF le long d'un cylindre en gardant ses groupes</translation>
     </message>
     <message>
       <source>Cracks the FEM mesh along a plane and keeps its groups</source>
       <translation>Fissure le maillage EF le long d'un plan en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
+      <translation>Fissure le maillage EF le long de faces existantes, celles d'un groupe</translation>
     </message>
     <message>
       <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
@@ -476,6 +499,10 @@
       <translation>Déplace ce qu'un groupe couvre : la paroi d'un trou à un autre rayon, une face sur un autre plan, d'un vecteur, ou à l'échelle autour d'un point. Le panneau commence par le plan, le cylindre ou la sphère où se trouve la paroi. Les éléments voisins suivent autant qu'il faut et sont divisés ou réunis là où ils deviendraient mauvais. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
+      <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
+      <translation>Aucun groupe du maillage ne couvre de faces intérieures (d'une coque : d'arêtes). Créez-en d'abord un, ou un groupe de leurs nœuds.</translation>
+    </message>
+    <message>
       <source>No preview.</source>
       <translation>Pas d'aperçu.</translation>
     </message>
@@ -510,6 +537,10 @@
     <message>
       <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
       <translation>Ouvre le maillage EF le long d'un plan. Donnez le plan par des nombres, prenez-le dans la vue (trois nœuds, une face plane, une arête, une référence, une esquisse, la direction de vue) ou tirez les poignées ; l'aperçu montre le maillage tel qu'il sera. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long de faces entre ses éléments. Choisissez un groupe de telles faces (d'une coque : d'arêtes) ou de leurs nœuds ; les éléments peuvent être de tout type, aucun n'est déplacé ni divisé. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
