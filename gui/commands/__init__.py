@@ -4,6 +4,7 @@
 import FreeCADGui
 
 from .crack import Crack
+from .curved_crack import CurvedCrack
 from .cylindrical_crack import CylindricalCrack
 from .drill import Drill
 from .example import Example
@@ -22,6 +23,7 @@ COMMANDS = (
     Crack,
     FaceCrack,
     CylindricalCrack,
+    CurvedCrack,
     Drill,
     Incision,
     Merge,
