@@ -16,4 +16,4 @@ class CurvedCrackPanel(AlongToolPanel):
     SHAPES = sorted((name for name in TOOLS if name != "Plane"), key=lambda name: name != "Sphere")
 
     def operation(self, tool, options):
-        return lambda scalpel: scalpel.crack(tool, band_only=True, **options)
+        return lambda scalpel, band_only: scalpel.crack(tool, band_only=band_only, **options)

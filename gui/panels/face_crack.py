@@ -16,7 +16,6 @@ class FaceCrackPanel(ToolPanel):
     ICON = "FemScalpel_FaceCrack"
     GROUP_NAME, OBJECT_NAME, MAKE = "CRACK", "FaceCrack", "makeFaceCrack"
     OFFERED = ("group_name",)  # nothing moves
-    CHANGED_ONLY = True
 
     def make_geometry(self):
         return FaceGroupInput(self.source_object)
@@ -40,7 +39,7 @@ class FaceCrackPanel(ToolPanel):
         return lambda result: Lips(result.mesh, result.report.name)
 
     def operation(self, tool, options):
-        return lambda scalpel: scalpel.crack(tool, name=options["name"], band_only=True)
+        return lambda scalpel, band_only: scalpel.crack(tool, name=options["name"], band_only=band_only)
 
     def arguments(self):
         return {"group": repr(self.geometry.group()), **super().arguments()}

@@ -5,7 +5,7 @@ import FreeCADGui
 from FreeCAD import Vector
 
 from femscalpel.tools import DIRECTION, FACE, POINT, TOOLS
-from femscalpelobjects.tool_properties import face_of, property_of
+from femscalpelobjects.tool_properties import direction_of, face_of, property_of
 
 from ..translate import QT_TRANSLATE_NOOP, form, translate
 from ..view import picking
@@ -96,7 +96,9 @@ class ToolInput(AxisInput):
             return face_of(self._faces)
         if parameter.kind is POINT:
             return self.origin()
-        return self.direction() if parameter.kind is DIRECTION else self._number(parameter.asked_as)
+        if parameter.kind is DIRECTION:
+            return direction_of(self.placement())  # to the last bit what the document object cuts with
+        return self._number(parameter.asked_as)
 
     def _number(self, asked):
         return self.radius() if asked == "radius" else self._numbers[asked].value
@@ -134,7 +136,7 @@ class ToolInput(AxisInput):
     def _text(self, parameter, text_of):
         if parameter.kind is FACE:
             return f"({text_of(self._faces[0])}, {self._faces[1]!r})"
-        value = self._value(parameter)
+        value = self.direction() if parameter.kind is DIRECTION else self._value(parameter)
         return repr(tuple(value) if parameter.kind in (POINT, DIRECTION) else value)
 
     def error(self):

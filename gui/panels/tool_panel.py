@@ -45,10 +45,8 @@ class ToolPanel(ViewPanel):
     OFFERED = tuple(OPTION_ROWS)
     #: Whether the operator's surface has two sides, one of which can be cut away to look at it.
     TWO_SIDES = True
-    #: Whether operation() gives the whole mesh, not just the band.
+    #: Whether operation() gives the whole mesh always.
     WHOLE = False
-    #: Whether it gives no element that stays as it is.
-    CHANGED_ONLY = False
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object)
@@ -109,7 +107,7 @@ class ToolPanel(ViewPanel):
 
     def operation(self, tool, options):
         """A function of a femscalpel.Scalpel that returns the Result; called on another thread, so it must not look at
-        the panel."""
+        the panel. Unless WHOLE, it takes the operator's `band_only` as its second argument."""
         raise NotImplementedError
 
     def read(self, obj):
@@ -287,8 +285,8 @@ class ToolPanel(ViewPanel):
             self._ticket = self._settled = 0
             self._place_error(error)
             return
-        surface, region, kind = self.surface(tool), self.removed_region(tool), (self.WHOLE, self.CHANGED_ONLY)
-        self._ticket = self.worker.request(lambda: _preview(source, operate, surface, region, kind))
+        surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
+        self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
@@ -477,7 +475,10 @@ class ToolPanel(ViewPanel):
         self._preserve = None
 
 
-def _preview(source, operate, surface, region, kind):
-    """The PreviewData of what operate(scalpel) makes."""
-    result = operate(source.scalpel)
-    return make_preview(source, result, surface(result) if callable(surface) else surface, region, *kind)
+def preview_of(source, operate, surface, region, whole):
+    """The PreviewData of what operate() makes of the Scalpel."""
+    result = operate(source.scalpel) if whole else operate(source.scalpel, True)
+    if not whole and (result.report.refinement or result.report.converted):
+        # Elements away from the tool were divided, too; the band lacks them.
+        result, whole = operate(source.scalpel, False), True
+    return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)

@@ -74,3 +74,18 @@ def _second_order(points, cells, edges):
     unique, inverse = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
     middles = len(points) + inverse.reshape(-1, len(edges))
     return np.concatenate([points, points[unique].mean(axis=1)]), np.column_stack([cells, middles])
+
+
+def plate_with_beams():
+    """The plate of quadrangles, with the beams POST, 3 high, on the node in the middle, and segments RIM at y = 0."""
+    plate = mesh_of("quad")
+    foot = np.flatnonzero((plate.points == (3, 2, 0)).all(axis=1))[0]
+    rim = np.flatnonzero(plate.points[:, 1] == 0)
+    nodes = [foot, *(len(plate.points) + np.arange(3))]
+    lines = [*zip(nodes, nodes[1:]), *zip(rim, rim[1:])]
+    points = np.concatenate([plate.points, [(3, 2, z) for z in (1.0, 2.0, 3.0)]])
+    mesh = fs.Mesh(points, {"quad": plate.cells["quad"], "line": lines})
+    mesh.add_group("POST", "element", mesh.cell_ids["line"][:3])
+    mesh.add_group("RIM", "element", mesh.cell_ids["line"][3:])
+    mesh.add_group("SECTION", "node", mesh.node_ids[points[:, 0] == 3])
+    return mesh
