@@ -16,6 +16,7 @@ class RefinePanel(AlongToolPanel):
     ICON = "FemScalpel_Refine"
     GROUP_NAME, OBJECT_NAME, MAKE = "REFINED", "Refine", "makeRefine"
     SHAPES = tuple(sorted(TOOLS, key=lambda name: name != "Cylinder"))
+    WHOLE = True
     OFFERED = ("feature_angle",)  # refining makes no groups and knows one method
 
     def add_inputs(self):
