@@ -792,7 +792,7 @@
     </message>
     <message>
       <source>all kept</source>
-      <translation>tous gardés</translation>
+      <translation>tous</translation>
     </message>
     <message>
       <source>became empty</source>
@@ -844,7 +844,7 @@
     </message>
     <message>
       <source>kept where ticked</source>
-      <translation>cochés gardés</translation>
+      <translation>cochés</translation>
     </message>
     <message>
       <source>mean ratio; line: before</source>
