@@ -4,10 +4,12 @@
 import FreeCADGui
 
 from .crack import Crack
+from .curved_crack import CurvedCrack
 from .cylindrical_crack import CylindricalCrack
 from .drill import Drill
 from .example import Example
 from .export import Export
+from .face_crack import FaceCrack
 from .fillet import Fillet
 from .group_inspector import GroupInspector
 from .incision import Incision
@@ -19,7 +21,9 @@ from .reshape import Reshape
 #: In the order of menu and toolbar; None is a separator.
 COMMANDS = (
     Crack,
+    FaceCrack,
     CylindricalCrack,
+    CurvedCrack,
     Drill,
     Incision,
     Merge,

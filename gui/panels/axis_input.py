@@ -27,9 +27,11 @@ class AxisInput(GeometryInput):
         self._radius.set(radius)
 
     def error(self):
-        return super().error() or (
-            "" if self.radius() > 0 else translate("FemScalpel", "The radius must be larger than 0.")
-        )
+        return super().error() or self.radius_error()
+
+    def radius_error(self):
+        """What is wrong with the radius, "" when nothing is."""
+        return "" if self.radius() > 0 else translate("FemScalpel", "The radius must be larger than 0.")
 
     def _make_handles(self, view):
         return AxisHandles(view, self.size, self._dragged)

@@ -116,7 +116,7 @@ class CrackPanel(PlanePanel):
 
     def operation(self, tool, options):
         within = self._within()
-        return lambda scalpel: scalpel.crack(tool, within=within, band_only=True, **options)
+        return lambda scalpel, band_only: scalpel.crack(tool, within=within, band_only=band_only, **options)
 
     def read(self, obj):
         super().read(obj)

@@ -4,6 +4,7 @@
 import FreeCAD
 
 import femscalpel
+from femscalpelobjects.tool_properties import direction_of
 
 from .axis_input import AxisInput
 from .tool_panel import ToolPanel
@@ -16,7 +17,8 @@ class CylinderPanel(ToolPanel):
         return AxisInput(self.source_object)
 
     def tool(self):
-        return femscalpel.Cylinder(self.geometry.origin(), self.geometry.direction(), self.geometry.radius())
+        # To the last bit what the document object cuts with.
+        return femscalpel.Cylinder(self.geometry.origin(), direction_of(self.placement()), self.geometry.radius())
 
     def read(self, obj):
         super().read(obj)

@@ -32,7 +32,7 @@ class DrillPanel(CylinderPanel):
 
     def operation(self, tool, options):
         depth = self._depth_or_none()
-        return lambda scalpel: scalpel.drill(tool, depth=depth, band_only=True, **options)
+        return lambda scalpel, band_only: scalpel.drill(tool, depth=depth, band_only=band_only, **options)
 
     def read(self, obj):
         super().read(obj)

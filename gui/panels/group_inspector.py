@@ -78,6 +78,7 @@ class GroupInspectorPanel(InspectionPanel):
     def loaded(self):
         whole = self.source.whole()
         self.scene.ghost.show(whole.points, whole.faces)
+        self.scene.beams.show(whole.beams)
         self._measures = femscalpel.measure(self.source.mesh)
         self._list()
 

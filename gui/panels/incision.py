@@ -61,7 +61,7 @@ class IncisionPanel(PlanePanel):
 
     def operation(self, tool, options):
         width, bottom = self._width.value, self._bottom()
-        return lambda scalpel: scalpel.cut(tool, width=width, bottom=bottom, band_only=True, **options)
+        return lambda scalpel, band_only: scalpel.cut(tool, width=width, bottom=bottom, band_only=band_only, **options)
 
     def surface(self, tool):
         return _Walls(tool, self._width.value)

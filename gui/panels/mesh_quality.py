@@ -55,6 +55,7 @@ class MeshQualityPanel(InspectionPanel):
         self.values = self._ids = self._types = np.empty(0)
 
     def loaded(self):
+        self.scene.beams.show(self.source.whole().beams)
         self._measure()
 
     def _chosen(self):

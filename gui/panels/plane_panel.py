@@ -4,6 +4,7 @@
 import FreeCAD
 
 import femscalpel
+from femscalpelobjects.tool_properties import direction_of
 
 from .plane_input import PlaneInput
 from .tool_panel import ToolPanel
@@ -16,7 +17,8 @@ class PlanePanel(ToolPanel):
         return PlaneInput(self.source_object)
 
     def tool(self):
-        return femscalpel.Plane(self.geometry.origin(), self.geometry.direction())
+        # To the last bit what the document object cuts with.
+        return femscalpel.Plane(self.geometry.origin(), direction_of(self.placement()))
 
     def read(self, obj):
         super().read(obj)

@@ -17,7 +17,7 @@ class ReshapePanel(ToolPanel):
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Reshape")
     ICON = "FemScalpel_Reshape"
     GROUP_NAME, OBJECT_NAME, MAKE = "SHAPE", "Reshape", "makeReshape"
-    OFFERED = ("group_name", "feature_angle")
+    OFFERED = ("group_name", "feature_angle", "preserve")
     TWO_SIDES = False
     WHOLE = True
 
@@ -46,7 +46,7 @@ class ReshapePanel(ToolPanel):
         return lambda result: MadeNodes(result.mesh, nodes, "node")
 
     def operation(self, tool, options):
-        group, values = self.geometry.group(), {k: options[k] for k in ("name", "feature_angle")}
+        group, values = self.geometry.group(), {k: options[k] for k in ("name", "feature_angle", "preserve")}
         return lambda scalpel: scalpel.reshape(group, **dict([tool]), **values)
 
     def read(self, obj):

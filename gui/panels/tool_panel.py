@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The task panel of an operator: geometry, options, live preview. One subclass per operator says what is special."""
 
-from collections import Counter
-
 import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
@@ -12,12 +10,14 @@ from femscalpelobjects import operator_options
 
 from .. import preferences
 from ..macro import record_import
-from ..translate import QT_TRANSLATE_NOOP, form, icon, translate
+from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.preview_data import group_in_preview, make_preview
 from . import fields, group_table
 from .histogram import Histogram
 from .placements import as_text
+from .preserve_input import PreserveInput
+from .summary import sentence, summary
 from .view_panel import ViewPanel, abort_transaction
 
 #: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
@@ -27,9 +27,10 @@ OPTION_ERRORS = {
     "transition": "methodError",
     "feature_angle": "methodError",
     "refine": "refineError",
+    "preserve": "preserveError",
 }
 #: Rows of the options in their form.
-OPTION_ROWS = {"group_name": 0, "method": 2, "transition": 4, "feature_angle": 5, "refine": 6}
+OPTION_ROWS = {"group_name": 0, "method": 2, "transition": 4, "feature_angle": 5, "refine": 6, "preserve": 9}
 
 
 class ToolPanel(ViewPanel):
@@ -44,7 +45,7 @@ class ToolPanel(ViewPanel):
     OFFERED = tuple(OPTION_ROWS)
     #: Whether the operator's surface has two sides, one of which can be cut away to look at it.
     TWO_SIDES = True
-    #: Whether operation() gives the whole mesh, not just the band.
+    #: Whether operation() gives the whole mesh always.
     WHOLE = False
 
     def __init__(self, source_object, edited=None):
@@ -106,7 +107,7 @@ class ToolPanel(ViewPanel):
 
     def operation(self, tool, options):
         """A function of a femscalpel.Scalpel that returns the Result; called on another thread, so it must not look at
-        the panel."""
+        the panel. Unless WHOLE, it takes the operator's `band_only` as its second argument."""
         raise NotImplementedError
 
     def read(self, obj):
@@ -118,15 +119,19 @@ class ToolPanel(ViewPanel):
             o.method.setCurrentIndex(o.method.findData(obj.Method))
         if "transition" in self.OFFERED:
             o.transition.setValue(obj.Transition)
-        self._feature_angle.set(obj.FeatureAngle.Value)
+        if "feature_angle" in self.OFFERED:
+            self._feature_angle.set(obj.FeatureAngle.Value)
         if "refine" in self.OFFERED:
             o.refine.setCurrentIndex(o.refine.findData(obj.Refine))
             if obj.Refine == "Size":
                 self._refine_size.set(obj.RefineSize.Value)
+        if "preserve" in self.OFFERED:
+            self._preserve.set(obj.PreservedGroups)
 
     def arguments(self):
         """Arguments of the function ObjectsFemScalpel.MAKE, as Python text by name, without document and source."""
-        return {name: repr(value) for name, value in self._given().items() if (name, value) != ("refine", None)}
+        given = self._given().items()
+        return {name: repr(value) for name, value in given if value is not None or name not in ("refine", "preserve")}
 
     def settings(self):
         """Properties of the document object as Python text by name."""
@@ -141,6 +146,7 @@ class ToolPanel(ViewPanel):
             "group_name": options["name"],
             "feature_angle": options["feature_angle"],
             "refine": options["refine"],
+            "preserve": options["preserve"],
         }
         return {name: value for name, value in given.items() if name in self.OFFERED}
 
@@ -176,6 +182,7 @@ class ToolPanel(ViewPanel):
         self._refine_size = fields.Number(o.refineSize, self.update, self.geometry.size / 50)
         o.refine.currentIndexChanged.connect(lambda *_: self._choose_refinement())
         self._choose_refinement()
+        self._preserve = PreserveInput(o, self._group_names(), self.update)
         o.groupName.setText(self._free_name())
         o.groupName.textChanged.connect(lambda *_: self.update())
         o.method.currentIndexChanged.connect(lambda *_: self.update())
@@ -192,8 +199,13 @@ class ToolPanel(ViewPanel):
             box.setVisible(self.options.refine.currentData() == "Size")
         self.update()
 
+    def _group_names(self):
+        """Names of the groups of the source, each once."""
+        femmesh = self.source_object.FemMesh
+        return list(dict.fromkeys(femmesh.getGroupName(g) for g in femmesh.Groups))
+
     def _free_name(self):
-        taken = {self.source_object.FemMesh.getGroupName(g) for g in self.source_object.FemMesh.Groups}
+        taken = self._group_names()
         name, number = self.GROUP_NAME, 2
         while any(t.startswith(name + "_") for t in taken):
             name, number = f"{self.GROUP_NAME}{number}", number + 1
@@ -243,7 +255,8 @@ class ToolPanel(ViewPanel):
         self._no_result(str(error))
 
     def entered(self):
-        """What the options say: name, method, transition (None: automatic), feature_angle, refine (None: automatic)."""
+        """What the options say: name, method, transition (None: automatic), feature_angle, refine (None: automatic),
+        preserve (None: all groups)."""
         o = self.options
         refine = {"Automatic": None, "Never": False, "Size": self._refine_size.value}[o.refine.currentData()]
         return {
@@ -252,6 +265,7 @@ class ToolPanel(ViewPanel):
             "transition": o.transition.value() or None,
             "feature_angle": self._feature_angle.value,
             "refine": refine,
+            "preserve": self._preserve.value(),
         }
 
     def update(self):
@@ -272,7 +286,7 @@ class ToolPanel(ViewPanel):
             self._place_error(error)
             return
         surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
-        self._ticket = self.worker.request(lambda: _preview(source, operate, surface, region, whole))
+        self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
@@ -285,7 +299,7 @@ class ToolPanel(ViewPanel):
         self.histogram.show_counts(report.quality.after.histogram, report.quality.before.histogram)
         group_table.fill(self.result.groups, report.groups)
         self._light_up()
-        self._status(_summary(report))
+        self._status(summary(report))
 
     def failed(self, ticket, error):
         if ticket < self._settled or not self._ticket:
@@ -322,7 +336,7 @@ class ToolPanel(ViewPanel):
     def _place_error(self, error):
         """Shows an error at the field that caused it."""
         self._clear_errors()
-        text, parameter = _sentence(str(error)), getattr(error, "parameter", None)
+        text, parameter = sentence(str(error)), getattr(error, "parameter", None)
         label = OPTION_ERRORS.get(parameter)
         if label is None and isinstance(error, femscalpel.QualityError) and "method" in self.OFFERED:
             label = "methodError"
@@ -389,7 +403,7 @@ class ToolPanel(ViewPanel):
                 )
         except Exception as error:
             abort_transaction(self.document)
-            fields.show_error(self.result.resultError, _sentence(str(error)))
+            fields.show_error(self.result.resultError, sentence(str(error)))
             return False
         self.document.commitTransaction()
         self.leave()
@@ -458,57 +472,13 @@ class ToolPanel(ViewPanel):
 
     def forget_widgets(self):
         self.options = self.result = self.histogram = self._feature_angle = self._refine_size = None
+        self._preserve = None
 
 
-def _preview(source, operate, surface, region, whole):
-    """The PreviewData of what operate(scalpel) makes."""
-    result = operate(source.scalpel)
+def preview_of(source, operate, surface, region, whole):
+    """The PreviewData of what operate() makes of the Scalpel."""
+    result = operate(source.scalpel) if whole else operate(source.scalpel, True)
+    if not whole and (result.report.refinement or result.report.converted):
+        # Elements away from the tool were divided, too; the band lacks them.
+        result, whole = operate(source.scalpel, False), True
     return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)
-
-
-def _sentence(text):
-    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
-
-
-# What Report.converted counts.
-_KINDS = {
-    "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
-    "quad": QT_TRANSLATE_NOOP("FemScalpel", "quadrangles"),
-    "pyramid": QT_TRANSLATE_NOOP("FemScalpel", "pyramids"),
-    "wedge": QT_TRANSLATE_NOOP("FemScalpel", "prisms"),
-    "hexahedron": QT_TRANSLATE_NOOP("FemScalpel", "hexahedra"),
-}
-
-
-def _summary(report):
-    after = report.quality.after
-    text = translate(
-        "FemScalpel", "%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6)."
-    )
-    numbers = (
-        report.nodes_moved,
-        report.nodes_added,
-        report.elements_added,
-        report.elements_removed,
-        f"{after.minimum:.2f}",
-        f"{report.quality.before.minimum:.2f}",
-    )
-    for k, number in enumerate(numbers, 1):
-        text = text.replace(f"%{k}", str(number))
-    if report.converted:
-        counts = Counter()
-        for kind, count in report.converted.items():
-            counts[kind.rstrip("0123456789")] += count
-        kinds = ", ".join(f"{count} {translate('FemScalpel', _KINDS[kind])}" for kind, count in counts.items())
-        text += " " + translate("FemScalpel", "First became triangles or tetrahedra: %1.").replace("%1", kinds)
-    if after.minimum < preferences.quality_threshold():
-        text += (
-            " <b style='color:#b3261e'>"
-            + translate("FemScalpel", "Worse than your threshold of %1.").replace(
-                "%1", f"{preferences.quality_threshold():g}"
-            )
-            + "</b>"
-        )
-    for warning in report.warnings:
-        text += f"<br><span style='color:#8a5a00'>{_sentence(warning)}</span>"
-    return text

@@ -40,7 +40,11 @@ class ViewPanel(QtCore.QObject):
         self._forms = list(self.form)
         self._forms[0].destroyed.connect(lambda *_: self._died())
         femmesh = self.source_object.FemMesh
-        self._reading = self.worker.request(lambda: PreviewSource(femmesh_bridge.from_femmesh(femmesh)))
+        self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
+
+    def read_mesh(self, femmesh):
+        """The PreviewSource of a FemMesh; called on another thread."""
+        return PreviewSource(femmesh_bridge.from_femmesh(femmesh))
 
     def loaded(self):
         """The mesh was read: `source` is there."""

@@ -10,7 +10,7 @@ from ..translate import QT_TRANSLATE_NOOP, form, translate
 from ..view import picking, wall
 from . import fields
 from .axis_input import AxisInput
-from .refine import SHAPES
+from .tool_input import ROUND, name_of
 
 MOTIONS = (
     ("Onto", QT_TRANSLATE_NOOP("FemScalpel", "onto a surface")),
@@ -31,8 +31,8 @@ class WallInput(AxisInput):
         self.wall.pickWall.clicked.connect(self._starter("wall"))
         for data, text in MOTIONS:
             self.wall.motion.addItem(translate("FemScalpel", text), data)
-        for shape in SHAPES:
-            self.wall.onto.addItem(translate("FemScalpel", shape), shape)
+        for shape in ROUND:
+            self.wall.onto.addItem(name_of(shape), shape)
         self._factor = fields.Number(self.moving.scaleFactor, self._tell, 1.1, 0.1)
         step = fields.round_step(self.size / 50)
         boxes = [getattr(self.moving, "vector" + axis) for axis in "XYZ"]

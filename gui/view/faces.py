@@ -90,20 +90,48 @@ def outer_faces(blocks, node_count):
             faces, owner = faces_of(cell_type, connectivity)
             (solids if CELL_TYPES[cell_type][0] == 3 else shells).append((faces, owner + first))
         first += len(connectivity)
-    faces, owner = _joined(solids)
+    faces, owner = joined(solids)
     keys = face_keys(faces, node_count)
     outer = once(keys)
-    shell_faces, shell_owner = _joined(shells)
+    shell_faces, shell_owner = joined(shells)
     if len(faces) and len(shell_faces):
         free = ~np.isin(face_keys(shell_faces, node_count), keys)
         shell_faces, shell_owner = shell_faces[free], shell_owner[free]
     return np.concatenate([faces[outer], shell_faces]), np.concatenate([owner[outer], shell_owner])
 
 
-def _joined(parts):
+def joined(parts):
+    """Pairs of faces and their owners as one."""
     if not parts:
         return np.empty((0, 4), np.int64), np.empty(0, np.int64)
     return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
+
+
+def find(keys, among):
+    """Which of `keys` are among others, and where there."""
+    if not len(among):
+        return np.zeros(len(keys), bool), np.zeros(len(keys), np.int64)
+    order = np.argsort(among)
+    at = order[np.minimum(np.searchsorted(among[order], keys), len(among) - 1)]
+    return among[at] == keys, at
+
+
+def with_parts(faces):
+    """Faces, then the four triangles that each quadrangle may be cut into, whichever way: (faces, row of the face that
+    each is or is part of)."""
+    quads = np.flatnonzero(faces[:, 3] >= 0)
+    parts = [np.column_stack([np.delete(faces[quads], k, axis=1), np.full(len(quads), -1)]) for k in range(4)]
+    return np.concatenate([faces, *parts]), np.concatenate([np.arange(len(faces)), np.tile(quads, 4)])
+
+
+def free_lines(lines, faces, node_count):
+    """Mask of the lines (k, 2) that are no edge of a face."""
+    if not len(lines):
+        return np.zeros(0, bool)
+    edges, _ = face_edges(faces)
+    lines = np.sort(lines, axis=1)
+    base = node_count + 1
+    return ~np.isin(lines[:, 0] * base + lines[:, 1], edges[:, 0] * base + edges[:, 1])
 
 
 def face_edges(faces):

@@ -13,15 +13,17 @@ NAME = "FemScalpelInspector"
 
 
 class GroupScene(Picture):
-    """The nodes under one separator called "FemScalpelInspector": FemScalpelGhost, and one FemScalpelShape for each
-    shape."""
+    """The nodes under one separator called "FemScalpelInspector": FemScalpelGhost, FemScalpelBeams, and one
+    FemScalpelShape for each shape."""
 
     def __init__(self, view):
         super().__init__(view, NAME)
         self._shapes = coin.SoSeparator()
         self.root.addChild(self._shapes)
         self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.75)
-        self.root.addChild(self.ghost.root)
+        self.beams = LineNode("FemScalpelBeams", colours.BEAM, 4.0)
+        for part in (self.ghost, self.beams):
+            self.root.addChild(part.root)
         self.label = LabelNode("FemScalpelLabel")
         self.root.addChild(self.label.root)
         self.open()

@@ -5,9 +5,11 @@ import FreeCAD
 import numpy as np
 from pivy import coin
 
+from . import faces as mesh_faces
 from .colours import GRIP, HIGHLIGHT, TOOL
-from .nodes import PointNode, material, paint, style, two_sided
+from .nodes import PointNode, material, paint, set_values, style, two_sided
 from .overlay import Overlay, unpickable
+from .profiles import ENDLESS, PROFILES, revolved
 
 NAME = "FemScalpelHandles"
 _Z = FreeCAD.Vector(0, 0, 1)
@@ -275,20 +277,20 @@ class PlaneHandles(Handles):
 
 class AxisHandles(Handles):
     """Four arrows to move the axis sideways, ball to tilt it, arrows on the wall for the radius; the cylinder itself as
-    a pane."""
+    a pane. For other surfaces of revolution also arrows along the axis."""
 
     def _add_tool_shape(self, pane):
         axis = coin.SoSeparator()
         paint(axis, TOOL, style(1.5))
         axis.addChild(_line((0, 0, -0.6 * self._size), (0, 0, 0.6 * self._size)))
-        pane.addChild(axis)
-        pane.addChild(_turned((0, 1, 0), (0, 0, 1)))
-        pane.addChild(two_sided())
-        pane.addChild(material(TOOL, 0.85))
-        self._cylinder = coin.SoCylinder()
-        self._cylinder.height = 1.2 * self._size
-        self._cylinder.parts = coin.SoCylinder.SIDES
-        pane.addChild(self._cylinder)
+        self._axis = coin.SoSwitch()
+        self._axis.addChild(axis)
+        self._axis.whichChild = coin.SO_SWITCH_ALL
+        pane.addChild(self._axis)
+        self._wall_points, self._wall_faces = coin.SoCoordinate3(), coin.SoIndexedFaceSet()
+        self._shape, self._values = "Cylinder", {}
+        for node in (self._wall_points, two_sided(), material(TOOL, 0.85), self._wall_faces):
+            pane.addChild(node)
 
     def _make_draggers(self):
         self._wall = coin.SoTranslation()
@@ -301,14 +303,29 @@ class AxisHandles(Handles):
         self._add("tilt", coin.SoRotateSphericalDragger(), ball, _ball)
         four = [(direction, ball / cross, 1) for direction in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
         self._add("move", coin.SoTranslate2Dragger(), cross, lambda rgb: _arrows(rgb, *four))
+        two = [(direction, ball / cross, 1) for direction in ((1, 0, 0), (-1, 0, 0))]
+        along = _turned((1, 0, 0), (0, 0, 1))
+        self._add("along", coin.SoTranslate1Dragger(), cross, lambda rgb: _arrows(rgb, *two), (along,))
+        self._switch("along", False)
+
+    def show_shape(self, shape, values, tilted):
+        """Says what tool it is, by the name of its class, with its `values` beside the radius; whether it can be
+        `tilted`. set_pose() is to follow."""
+        self._shape, self._values = shape, values
+        self._switch("along", shape not in ENDLESS)
+        self._switch("tilt", tilted)
+        self._axis.whichChild = coin.SO_SWITCH_ALL if tilted else coin.SO_SWITCH_NONE
 
     def set_pose(self, position, rotation, radius=0.0):
         super().set_pose(position, rotation, radius)
-        self._cylinder.radius = max(radius, 1e-6 * self._size)
+        profile = PROFILES.get(self._shape, lambda *_: ())(max(radius, 1e-6 * self._size), self._values, self._size)
+        points, faces = revolved(profile)
+        set_values(self._wall_points.point, np.ascontiguousarray(points, np.float32))
+        set_values(self._wall_faces.coordIndex, mesh_faces.coin_index(faces)[0])
         # Beyond the ball, which takes every click within it.
         self._wall.translation.setValue(max(radius, 0.045 * self._size) + 0.05 * self._size, 0, 0)
 
     def _local(self):
         shift = self._shift("move")
         radius = max(self._radius + self._shift("radius").x, 1e-3 * self._size)
-        return FreeCAD.Vector(shift.x, shift.y, 0), self._turn("tilt"), radius
+        return FreeCAD.Vector(shift.x, shift.y, self._shift("along").x), self._turn("tilt"), radius

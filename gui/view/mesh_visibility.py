@@ -10,6 +10,7 @@ class HiddenMeshes:
 
     def __init__(self, document, source):
         self._document = document
+        self._beside = []
         self._before = [
             (o.Name, o.ViewObject.SwitchNode, o.ViewObject.SwitchNode.whichChild.getValue())
             for o in document.Objects
@@ -31,8 +32,23 @@ class HiddenMeshes:
         for mesh in meshes:
             mesh.ViewObject.SwitchNode.whichChild = self._mode
 
+    def hide_beside(self, objects):
+        """Hides these objects of the document, too, and shows again others that were hidden so."""
+        self._show_beside()
+        self._beside = [(o.Name, o.ViewObject.SwitchNode.whichChild.getValue()) for o in objects]
+        for obj in objects:
+            obj.ViewObject.SwitchNode.whichChild = -1
+
+    def _show_beside(self):
+        for name, mode in self._beside:
+            obj = self._document.getObject(name)
+            if obj is not None and obj.ViewObject.Visibility:
+                obj.ViewObject.SwitchNode.whichChild = mode
+        self._beside = []
+
     def restore(self):
         """Shows again what is meant to be shown."""
+        self._show_beside()
         for name, switch, mode in self._before:
             obj = self._document.getObject(name)
             if obj is not None and obj.ViewObject.Visibility:

@@ -4,8 +4,9 @@
 Each function takes Clicks and raises PickError, which says what to pick instead.
 """
 
+import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import FreeCAD
 import numpy as np
@@ -21,12 +22,14 @@ class PickError(ValueError):
 
 @dataclass(frozen=True)
 class Picked:
-    """A point and a direction; for an axis also a radius, None where nothing says one; of a sketch its Outline."""
+    """A point and a direction; for an axis also a radius, None where nothing says one; of a sketch its Outline; for a
+    tool its further lengths and angles by what femscalpel.tools asks them as."""
 
     origin: FreeCAD.Vector
     direction: FreeCAD.Vector
     radius: object = None
     outline: object = None
+    values: dict = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -133,6 +136,34 @@ def axis(click, source):
             raise PickError(translate("FemScalpel", "That edge is curved. Pick a straight or a circular edge."))
         return Picked(shape.valueAt(shape.FirstParameter), shape.tangentAt(shape.FirstParameter))
     raise PickError(_pick_axis())
+
+
+def tool(click, source):
+    """As axis(), and what the face of a torus or cone says more."""
+    shape = None if click.on_mesh or _is_sketch(click.obj) else _shape(click)
+    surface = shape.Surface if shape is not None and shape.ShapeType == "Face" else None
+    if hasattr(surface, "MinorRadius") and hasattr(surface, "Center"):
+        values = {"tube_radius": float(surface.MinorRadius)}
+        return Picked(surface.Center, surface.Axis, float(surface.MajorRadius), values=values)
+    if hasattr(surface, "SemiAngle"):
+        slope = math.tan(surface.SemiAngle)
+        centre, radius = surface.Center, float(surface.Radius)
+        if radius < 1e-6 * shape.BoundBox.DiagonalLength:  # it begins at the tip
+            height = (shape.CenterOfMass - centre).dot(surface.Axis)
+            centre, radius = centre + surface.Axis * height, radius + height * slope
+        opens = surface.Axis if slope > 0 else surface.Axis.negative()
+        return Picked(centre, opens, radius, values={"half_angle": abs(math.degrees(surface.SemiAngle))})
+    return axis(click, source)
+
+
+def face(click):
+    """The object whose face was clicked at, and the face's name; "" for all faces of an object clicked at in the
+    tree."""
+    name = click.name.split(".")[-1]
+    has_faces = not click.on_mesh and getattr(getattr(click.obj, "Shape", None), "Faces", None)
+    if not has_faces or name and not name.startswith("Face"):
+        raise PickError(translate("FemScalpel", "That is no face of a part. Click one."))
+    return click.obj, name
 
 
 def _pick_plane():

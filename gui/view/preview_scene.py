@@ -20,8 +20,8 @@ COLOURINGS = ("quality", "groups")
 class PreviewScene(Picture):
     """The nodes of the preview, under one separator called "FemScalpelPreview".
 
-    Its parts are called FemScalpelBand, ...Rest, ...Ghost, ...Borders, ...Outline, ...Front, ...Moved, ...Removed,
-    ...Worst and ...Highlight.
+    Its parts are called FemScalpelBand, ...Rest, ...Ghost, ...Borders, ...Beams, ...Outline, ...Front, ...Moved,
+    ...Removed, ...Worst and ...Highlight.
     """
 
     def __init__(self, view):
@@ -34,6 +34,7 @@ class PreviewScene(Picture):
         self.ghost = FaceNode("FemScalpelGhost", colours.NEUTRAL, transparency=0.82)
         self.removed = FaceNode("FemScalpelRemoved", preferences.colour("Removed", colours.REMOVED), transparency=0.75)
         self.borders = LineNode("FemScalpelBorders", preferences.colour("Border", colours.BORDER), 2.5)
+        self.beams = LineNode("FemScalpelBeams", colours.BEAM, 4.0)
         self.outline = LineNode("FemScalpelOutline", preferences.colour("Interface", colours.INTERFACE), 4.0)
         self.front = LineNode("FemScalpelFront", preferences.colour("Front", colours.FRONT), 5.0)
         self.moved = PointNode("FemScalpelMoved", preferences.colour("Moved", colours.MOVED), 4.0)
@@ -52,6 +53,7 @@ class PreviewScene(Picture):
             self.rest,
             self.band,
             self.borders,
+            self.beams,
             self.outline,
             self.front,
             self.moved,
@@ -79,6 +81,7 @@ class PreviewScene(Picture):
         ):
             part.hide()
         self.rest.show(surface.points, surface.faces)
+        self.beams.show(surface.beams)
         if beside is not None:
             self.ghost.show(beside.points, beside.faces)
 
@@ -100,7 +103,8 @@ class PreviewScene(Picture):
             self.ghost.hide()
         elif cut_away:
             self._fill(self.rest, [negative], data)
-            self._fill(self.ghost, [positive, data.band[1]], None)
+            # Not its lip, which is where that of the other side is.
+            self._fill(self.ghost, [positive, data.band[1].without_lip()], None)
         elif through and self.look == LOOKS[0]:
             self.rest.hide()
             self._fill(self.ghost, [negative, positive], None)
@@ -110,6 +114,7 @@ class PreviewScene(Picture):
         self._fill(self.band, data.band[:1] if cut_away else data.band, data, self.colouring == "quality")
         self.removed.show(data.removed.points, data.removed.faces)
         self.borders.show(data.borders)
+        self.beams.show(data.beams)
         self.outline.show(data.outline)
         self.front.show(data.front)
         self.moved.show(data.moved) if self.show_moved else self.moved.hide()

@@ -11,7 +11,9 @@ from ..translate import icon, translate
 #: Type of the object's proxy: (icon, module of panels, class).
 PANELS = {
     "FemScalpel::Crack": ("FemScalpel_Crack", "crack", "CrackPanel"),
+    "FemScalpel::FaceCrack": ("FemScalpel_FaceCrack", "face_crack", "FaceCrackPanel"),
     "FemScalpel::CylindricalCrack": ("FemScalpel_CylindricalCrack", "cylindrical_crack", "CylindricalCrackPanel"),
+    "FemScalpel::CurvedCrack": ("FemScalpel_CurvedCrack", "curved_crack", "CurvedCrackPanel"),
     "FemScalpel::Drill": ("FemScalpel_Drill", "drill", "DrillPanel"),
     "FemScalpel::Cut": ("FemScalpel_Incision", "incision", "IncisionPanel"),
     "FemScalpel::Merge": ("FemScalpel_Merge", "merge", "MergePanel"),

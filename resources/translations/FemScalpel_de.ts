@@ -174,6 +174,21 @@
     </message>
   </context>
   <context>
+    <name>FaceGroupInput</name>
+    <message>
+      <source>Faces</source>
+      <translation>Flächen</translation>
+    </message>
+    <message>
+      <source>Faces of</source>
+      <translation>Flächen von</translation>
+    </message>
+    <message>
+      <source>The group whose faces come apart: of faces inside the part (of a shell: edges), or of their nodes</source>
+      <translation>Die Gruppe, deren Flächen sich trennen: von Flächen im Bauteil (einer Schale: Kanten) oder von ihren Knoten</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
     <message>
       <source>%1 cannot be added. Click another FEM mesh.</source>
@@ -182,6 +197,10 @@
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 Elemente; kleinster Wert %2, Mittel %3.</translation>
+    </message>
+    <message>
+      <source>%1 faces of %2</source>
+      <translation>%1 Flächen von %2</translation>
     </message>
     <message>
       <source>%1 groups, %2 nodes, %3 elements.</source>
@@ -214,6 +233,10 @@
     <message>
       <source>%1 picked places</source>
       <translation>%1 gewählte Stellen</translation>
+    </message>
+    <message>
+      <source>1 node</source>
+      <translation>1 Knoten</translation>
     </message>
     <message>
       <source>1 picked place</source>
@@ -272,6 +295,10 @@
       <translation>Nach Güte</translation>
     </message>
     <message>
+      <source>CAD face</source>
+      <translation>CAD-Fläche</translation>
+    </message>
+    <message>
       <source>Centre</source>
       <translation>Mitte</translation>
     </message>
@@ -292,12 +319,24 @@
       <translation>Klicken Sie auf eine Zylinderfläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche (die Achse steht senkrecht darauf). Escape bricht ab.</translation>
     </message>
     <message>
+      <source>Click a face of a part, or a part in the tree. Escape stops.</source>
+      <translation>Klicken Sie auf die Fläche eines Teils oder auf ein Teil im Baum. Escape bricht ab.</translation>
+    </message>
+    <message>
       <source>Click a face of the mesh. Escape stops.</source>
       <translation>Klicken Sie auf eine Fläche des Netzes. Escape beendet.</translation>
     </message>
     <message>
+      <source>Click a node of the mesh. Escape stops.</source>
+      <translation>Klicken Sie auf einen Knoten des Netzes. Escape bricht ab.</translation>
+    </message>
+    <message>
       <source>Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.</source>
       <translation>Klicken Sie auf eine ebene Fläche, eine Kante (die Ebene steht senkrecht darauf), einen Bezug oder eine Skizze. Escape bricht ab.</translation>
+    </message>
+    <message>
+      <source>Click a round face, a straight or circular edge, a datum line, or a point on a face. Escape stops.</source>
+      <translation>Klicken Sie auf eine runde Fläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche. Escape bricht ab.</translation>
     </message>
     <message>
       <source>Click node %1 of %2 on the mesh. Escape stops.</source>
@@ -324,8 +363,16 @@
       <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
     </message>
     <message>
+      <source>Cone</source>
+      <translation>Kegel</translation>
+    </message>
+    <message>
       <source>Crack</source>
       <translation>Riss</translation>
+    </message>
+    <message>
+      <source>Crack along faces</source>
+      <translation>Riss entlang Flächen</translation>
     </message>
     <message>
       <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
@@ -336,8 +383,20 @@
       <translation>Reißt das FEM-Netz entlang einer Ebene auf und erhält seine Gruppen</translation>
     </message>
     <message>
+      <source>Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups</source>
+      <translation>Reißt das FEM-Netz entlang einer Kugel, eines Torus, eines Kegels oder der Fläche eines Teils auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
+      <translation>Reißt das FEM-Netz entlang vorhandener Flächen auf, denen einer Gruppe</translation>
+    </message>
+    <message>
       <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
       <translation>Reißt, bohrt und schneidet FEM-Netze und erhält ihre Gruppen</translation>
+    </message>
+    <message>
+      <source>Curved crack</source>
+      <translation>Gekrümmter Riss</translation>
     </message>
     <message>
       <source>Cut away</source>
@@ -360,8 +419,8 @@
       <translation>Zylindrischer Riss</translation>
     </message>
     <message>
-      <source>Divides the elements near a cylinder, sphere or plane until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
-      <translation>Teilt die Elemente nahe einem Zylinder, einer Kugel oder einer Ebene, bis ihre Kanten so kurz sind wie verlangt; zum übrigen Netz hin wachsen sie mit der Abstufung. Dort nützlich, wo ein Riss oder eine Bohrung ein feineres Netz um sich braucht. Alle Gruppen behalten ihre Bedeutung.</translation>
+      <source>Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
+      <translation>Teilt die Elemente nahe einem Zylinder, einer Kugel, einer Ebene, einer CAD-Fläche oder einem anderen Werkzeug, bis ihre Kanten so kurz sind wie verlangt; zum übrigen Netz hin wachsen sie mit der Abstufung. Dort nützlich, wo ein Riss oder eine Bohrung ein feineres Netz um sich braucht. Alle Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
       <source>Double-click to change the colour</source>
@@ -476,6 +535,10 @@
       <translation>Verschiebt, was eine Gruppe bedeckt: die Wand einer Bohrung auf einen anderen Radius, eine Fläche auf eine andere Ebene, um einen Vektor oder um einen Punkt skaliert. Der Dialog beginnt mit der Ebene, dem Zylinder oder der Kugel, auf der die Wand liegt. Die Elemente ringsum folgen so weit wie nötig und werden geteilt oder vereinigt, wo sie schlecht würden. Alle Gruppen behalten ihren Sinn.</translation>
     </message>
     <message>
+      <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
+      <translation>Keine Gruppe des Netzes bedeckt Flächen in seinem Inneren (einer Schale: Kanten). Machen Sie erst eine davon oder von ihren Knoten.</translation>
+    </message>
+    <message>
       <source>No preview.</source>
       <translation>Keine Vorschau.</translation>
     </message>
@@ -512,6 +575,14 @@
       <translation>Öffnet das FEM-Netz entlang einer Ebene. Die Ebene durch Zahlen angeben, aus der Ansicht holen (drei Knoten, ebene Fläche, Kante, Bezugselement, Skizze, Blickrichtung) oder an den Griffen ziehen; die Vorschau zeigt das Netz, wie es wird. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
+      <source>Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will be; the faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang einer Kugel, eines Torus, eines Kegels oder eines Zylinders, durch Zahlen angegeben, aus der Ansicht gewählt oder an den Griffen gezogen; oder entlang von Flächen eines in FreeCAD gezeichneten Teils: so weit diese reichen, und wo sie im Material enden, ist die Rissfront. Vorher gewählte Flächen werden genommen. Die Vorschau zeigt das Netz, wie es wird; die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang von Flächen zwischen seinen Elementen. Wählen Sie eine Gruppe solcher Flächen (einer Schale: von Kanten) oder ihrer Knoten; die Elemente dürfen von jedem Typ sein, keines wird verschoben oder geteilt. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+    <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
       <translation>Wählen Sie eine Zylinderfläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche.</translation>
     </message>
@@ -528,8 +599,28 @@
       <translation>Ebene</translation>
     </message>
     <message>
+      <source>Press Pick and click a face of a part.</source>
+      <translation>Drücken Sie Wählen und klicken Sie auf die Fläche eines Teils.</translation>
+    </message>
+    <message>
       <source>Press Pick and click near the edge, or choose a group.</source>
       <translation>Drücken Sie Wählen und klicken Sie nahe an die Kante, oder wählen Sie eine Gruppe.</translation>
+    </message>
+    <message>
+      <source>Radius of the circle in the middle of the tube</source>
+      <translation>Radius des Kreises in der Mitte des Rohrs</translation>
+    </message>
+    <message>
+      <source>Radius of the cone at the point; it opens along the axis</source>
+      <translation>Radius des Kegels am Punkt; er öffnet sich entlang der Achse</translation>
+    </message>
+    <message>
+      <source>Radius of the cylinder</source>
+      <translation>Radius des Zylinders</translation>
+    </message>
+    <message>
+      <source>Radius of the sphere</source>
+      <translation>Radius der Kugel</translation>
     </message>
     <message>
       <source>Reading the mesh…</source>
@@ -540,8 +631,8 @@
       <translation>Verfeinern</translation>
     </message>
     <message>
-      <source>Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups</source>
-      <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder Ebene und erhält seine Gruppen</translation>
+      <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
+      <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder anderem Werkzeug und erhält seine Gruppen</translation>
     </message>
     <message>
       <source>Reshape</source>
@@ -600,6 +691,10 @@
       <translation>Diese Fläche ist in keiner Gruppe. Klicken Sie auf eine andere, oder machen Sie zuerst eine Gruppe daraus.</translation>
     </message>
     <message>
+      <source>That is no face of a part. Click one.</source>
+      <translation>Das ist keine Fläche eines Teils. Klicken Sie auf eine.</translation>
+    </message>
+    <message>
       <source>That is not the mesh. Click a face of the mesh.</source>
       <translation>Das ist nicht das Netz. Klicken Sie auf eine Fläche des Netzes.</translation>
     </message>
@@ -632,6 +727,10 @@
       <translation>Das Netz hat keine Gruppe von Flächen oder Knoten. Machen Sie zuerst eine.</translation>
     </message>
     <message>
+      <source>The mesh has no such group any more.</source>
+      <translation>Diese Gruppe hat das Netz nicht mehr.</translation>
+    </message>
+    <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
     </message>
@@ -654,6 +753,10 @@
     <message>
       <source>Through the whole part</source>
       <translation>Durch das ganze Teil</translation>
+    </message>
+    <message>
+      <source>Torus</source>
+      <translation>Torus</translation>
     </message>
     <message>
       <source>Type</source>
@@ -686,6 +789,10 @@
     <message>
       <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
       <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt. Der Dateidialog zählt die Formate auf.</translation>
+    </message>
+    <message>
+      <source>all kept</source>
+      <translation>alle bleiben</translation>
     </message>
     <message>
       <source>became empty</source>
@@ -734,6 +841,10 @@
     <message>
       <source>kept</source>
       <translation>erhalten</translation>
+    </message>
+    <message>
+      <source>kept where ticked</source>
+      <translation>angekreuzte bleiben</translation>
     </message>
     <message>
       <source>mean ratio; line: before</source>
@@ -1034,6 +1145,10 @@
       <translation>Kantenwinkel</translation>
     </message>
     <message>
+      <source>Group borders</source>
+      <translation>Gruppenränder</translation>
+    </message>
+    <message>
       <source>Group name</source>
       <translation>Gruppenname</translation>
     </message>
@@ -1074,12 +1189,20 @@
       <translation>Die Analyse rechnet dann mit dem neuen Netz; Lasten, Lager und Werkstoffe bleiben, wie sie sind</translation>
     </message>
     <message>
+      <source>The borders of the ticked groups keep their shape; those of the others may drift</source>
+      <translation>Die Ränder der angekreuzten Gruppen behalten ihre Form; die der anderen dürfen sich verschieben</translation>
+    </message>
+    <message>
       <source>Transition</source>
       <translation>Übergang</translation>
     </message>
     <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
+    </message>
+    <message>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
+      <translation>Ob die Ränder aller Gruppen ihre Form behalten; wo manche sich verschieben dürfen, können Elemente besser werden</translation>
     </message>
     <message>
       <source>automatic</source>
@@ -1243,10 +1366,6 @@
       <translation>Längste gewünschte Kante am Werkzeug</translation>
     </message>
     <message>
-      <source>Near</source>
-      <translation>Nahe</translation>
-    </message>
-    <message>
       <source>Reach</source>
       <translation>Reichweite</translation>
     </message>
@@ -1257,10 +1376,6 @@
     <message>
       <source>The edge size holds up to this distance from the tool</source>
       <translation>Die Kantenlänge gilt bis zu diesem Abstand vom Werkzeug</translation>
-    </message>
-    <message>
-      <source>What is refined around; a plane has the axis as its normal</source>
-      <translation>Worum verfeinert wird; eine Ebene hat die Achse als Normale</translation>
     </message>
   </context>
   <context>
@@ -1338,6 +1453,56 @@
     <message>
       <source>Width</source>
       <translation>Breite</translation>
+    </message>
+  </context>
+  <context>
+    <name>ToolInput</name>
+    <message>
+      <source>Tool</source>
+      <translation>Werkzeug</translation>
+    </message>
+    <message>
+      <source>What the tool is</source>
+      <translation>Was das Werkzeug ist</translation>
+    </message>
+  </context>
+  <context>
+    <name>ToolValues</name>
+    <message>
+      <source>Between the axis of the cone and its side</source>
+      <translation>Zwischen der Achse des Kegels und seiner Seite</translation>
+    </message>
+    <message>
+      <source>Clear</source>
+      <translation>Löschen</translation>
+    </message>
+    <message>
+      <source>Click a face of a part in the 3-D view; further ones of the same part that meet it smoothly are added</source>
+      <translation>Klicken Sie in der 3D-Ansicht auf die Fläche eines Teils; weitere desselben Teils, die glatt anschließen, kommen hinzu</translation>
+    </message>
+    <message>
+      <source>Forgets what was picked</source>
+      <translation>Vergisst, was gewählt wurde</translation>
+    </message>
+    <message>
+      <source>Half angle</source>
+      <translation>Halber Winkel</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Wählen</translation>
+    </message>
+    <message>
+      <source>Radius of the tube around the circle</source>
+      <translation>Radius des Rohrs um den Kreis</translation>
+    </message>
+    <message>
+      <source>Tool</source>
+      <translation>Werkzeug</translation>
+    </message>
+    <message>
+      <source>Tube radius</source>
+      <translation>Rohrradius</translation>
     </message>
   </context>
   <context>

@@ -174,6 +174,21 @@
     </message>
   </context>
   <context>
+    <name>FaceGroupInput</name>
+    <message>
+      <source>Faces</source>
+      <translation>Faces</translation>
+    </message>
+    <message>
+      <source>Faces of</source>
+      <translation>Faces de</translation>
+    </message>
+    <message>
+      <source>The group whose faces come apart: of faces inside the part (of a shell: edges), or of their nodes</source>
+      <translation>Le groupe dont les faces se séparent : de faces dans la pièce (d'une coque : d'arêtes), ou de leurs nœuds</translation>
+    </message>
+  </context>
+  <context>
     <name>FemScalpel</name>
     <message>
       <source>%1 cannot be added. Click another FEM mesh.</source>
@@ -182,6 +197,10 @@
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 éléments ; minimum %2, moyenne %3.</translation>
+    </message>
+    <message>
+      <source>%1 faces of %2</source>
+      <translation>%1 faces de %2</translation>
     </message>
     <message>
       <source>%1 groups, %2 nodes, %3 elements.</source>
@@ -214,6 +233,10 @@
     <message>
       <source>%1 picked places</source>
       <translation>%1 endroits choisis</translation>
+    </message>
+    <message>
+      <source>1 node</source>
+      <translation>1 nœud</translation>
     </message>
     <message>
       <source>1 picked place</source>
@@ -272,6 +295,10 @@
       <translation>Par qualité</translation>
     </message>
     <message>
+      <source>CAD face</source>
+      <translation>Face CAO</translation>
+    </message>
+    <message>
       <source>Centre</source>
       <translation>Centre</translation>
     </message>
@@ -292,12 +319,24 @@
       <translation>Cliquez sur une face cylindrique, une arête droite ou circulaire, une ligne de référence ou un point d'une face (l'axe lui est normal). Échap arrête.</translation>
     </message>
     <message>
+      <source>Click a face of a part, or a part in the tree. Escape stops.</source>
+      <translation>Cliquez sur une face d'une pièce, ou sur une pièce dans l'arbre. Échap arrête.</translation>
+    </message>
+    <message>
       <source>Click a face of the mesh. Escape stops.</source>
       <translation>Cliquez sur une face du maillage. Échap arrête.</translation>
     </message>
     <message>
+      <source>Click a node of the mesh. Escape stops.</source>
+      <translation>Cliquez sur un nœud du maillage. Échap arrête.</translation>
+    </message>
+    <message>
       <source>Click a planar face, an edge (the plane is normal to it), a datum or a sketch. Escape stops.</source>
       <translation>Cliquez sur une face plane, une arête (le plan lui est normal), une référence ou une esquisse. Échap arrête.</translation>
+    </message>
+    <message>
+      <source>Click a round face, a straight or circular edge, a datum line, or a point on a face. Escape stops.</source>
+      <translation>Cliquez sur une face ronde, une arête droite ou circulaire, une ligne de référence ou un point d'une face. Échap arrête.</translation>
     </message>
     <message>
       <source>Click node %1 of %2 on the mesh. Escape stops.</source>
@@ -324,8 +363,16 @@
       <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
     </message>
     <message>
+      <source>Cone</source>
+      <translation>Cône</translation>
+    </message>
+    <message>
       <source>Crack</source>
       <translation>Fissure</translation>
+    </message>
+    <message>
+      <source>Crack along faces</source>
+      <translation>Fissure le long de faces</translation>
     </message>
     <message>
       <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
@@ -336,8 +383,20 @@
       <translation>Fissure le maillage EF le long d'un plan en gardant ses groupes</translation>
     </message>
     <message>
+      <source>Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups</source>
+      <translation>Fissure le maillage EF le long d'une sphère, d'un tore, d'un cône ou d'une face de pièce et garde ses groupes</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
+      <translation>Fissure le maillage EF le long de faces existantes, celles d'un groupe</translation>
+    </message>
+    <message>
       <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
       <translation>Fissure, perce et coupe des maillages EF en gardant leurs groupes</translation>
+    </message>
+    <message>
+      <source>Curved crack</source>
+      <translation>Fissure courbe</translation>
     </message>
     <message>
       <source>Cut away</source>
@@ -360,8 +419,8 @@
       <translation>Fissure cylindrique</translation>
     </message>
     <message>
-      <source>Divides the elements near a cylinder, sphere or plane until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
-      <translation>Divise les éléments proches d'un cylindre, d'une sphère ou d'un plan jusqu'à ce que leurs arêtes soient aussi courtes que demandé ; vers le reste du maillage elles grandissent selon la gradation. Utile là où une fissure ou un perçage demande un maillage plus fin autour de lui. Tous les groupes gardent leur sens.</translation>
+      <source>Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
+      <translation>Divise les éléments près d'un cylindre, d'une sphère, d'un plan, d'une face CAO ou d'un autre outil jusqu'à ce que leurs arêtes soient aussi courtes que demandé, en grandissant vers le reste du maillage selon la gradation. Utile là où une fissure ou un trou demande un maillage plus fin autour de lui. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>Double-click to change the colour</source>
@@ -476,6 +535,10 @@
       <translation>Déplace ce qu'un groupe couvre : la paroi d'un trou à un autre rayon, une face sur un autre plan, d'un vecteur, ou à l'échelle autour d'un point. Le panneau commence par le plan, le cylindre ou la sphère où se trouve la paroi. Les éléments voisins suivent autant qu'il faut et sont divisés ou réunis là où ils deviendraient mauvais. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
+      <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
+      <translation>Aucun groupe du maillage ne couvre de faces intérieures (d'une coque : d'arêtes). Créez-en d'abord un, ou un groupe de leurs nœuds.</translation>
+    </message>
+    <message>
       <source>No preview.</source>
       <translation>Pas d'aperçu.</translation>
     </message>
@@ -512,6 +575,14 @@
       <translation>Ouvre le maillage EF le long d'un plan. Donnez le plan par des nombres, prenez-le dans la vue (trois nœuds, une face plane, une arête, une référence, une esquisse, la direction de vue) ou tirez les poignées ; l'aperçu montre le maillage tel qu'il sera. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
     </message>
     <message>
+      <source>Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will be; the faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long d'une sphère, d'un tore, d'un cône ou d'un cylindre, donné par des nombres, choisi dans la vue ou tiré par ses poignées ; ou le long de faces d'une pièce dessinée dans FreeCAD : jusqu'où elles vont, et là où elles finissent dans la matière se trouve le front de fissure. Les faces sélectionnées avant sont prises. L'aperçu montre le maillage tel qu'il sera ; les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long de faces entre ses éléments. Choisissez un groupe de telles faces (d'une coque : d'arêtes) ou de leurs nœuds ; les éléments peuvent être de tout type, aucun n'est déplacé ni divisé. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
+    </message>
+    <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
       <translation>Choisissez une face cylindrique, une arête droite ou circulaire, une ligne de référence ou un point d'une face.</translation>
     </message>
@@ -528,8 +599,28 @@
       <translation>Plan</translation>
     </message>
     <message>
+      <source>Press Pick and click a face of a part.</source>
+      <translation>Appuyez sur Choisir et cliquez sur une face d'une pièce.</translation>
+    </message>
+    <message>
       <source>Press Pick and click near the edge, or choose a group.</source>
       <translation>Pressez Choisir et cliquez près de l'arête, ou choisissez un groupe.</translation>
+    </message>
+    <message>
+      <source>Radius of the circle in the middle of the tube</source>
+      <translation>Rayon du cercle au milieu du tube</translation>
+    </message>
+    <message>
+      <source>Radius of the cone at the point; it opens along the axis</source>
+      <translation>Rayon du cône au point ; il s'ouvre le long de l'axe</translation>
+    </message>
+    <message>
+      <source>Radius of the cylinder</source>
+      <translation>Rayon du cylindre</translation>
+    </message>
+    <message>
+      <source>Radius of the sphere</source>
+      <translation>Rayon de la sphère</translation>
     </message>
     <message>
       <source>Reading the mesh…</source>
@@ -540,8 +631,8 @@
       <translation>Raffiner</translation>
     </message>
     <message>
-      <source>Refines the FEM mesh near a cylinder, sphere or plane and keeps its groups</source>
-      <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un plan en gardant ses groupes</translation>
+      <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
+      <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un autre outil et garde ses groupes</translation>
     </message>
     <message>
       <source>Reshape</source>
@@ -600,6 +691,10 @@
       <translation>Cette face n'est dans aucun groupe. Cliquez sur une autre, ou faites-en d'abord un groupe.</translation>
     </message>
     <message>
+      <source>That is no face of a part. Click one.</source>
+      <translation>Ce n'est pas une face d'une pièce. Cliquez sur une face.</translation>
+    </message>
+    <message>
       <source>That is not the mesh. Click a face of the mesh.</source>
       <translation>Ce n'est pas le maillage. Cliquez sur une face du maillage.</translation>
     </message>
@@ -632,6 +727,10 @@
       <translation>Le maillage n'a aucun groupe de faces ou de nœuds. Faites-en un d'abord.</translation>
     </message>
     <message>
+      <source>The mesh has no such group any more.</source>
+      <translation>Le maillage n'a plus ce groupe.</translation>
+    </message>
+    <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
     </message>
@@ -654,6 +753,10 @@
     <message>
       <source>Through the whole part</source>
       <translation>À travers toute la pièce</translation>
+    </message>
+    <message>
+      <source>Torus</source>
+      <translation>Tore</translation>
     </message>
     <message>
       <source>Type</source>
@@ -686,6 +789,10 @@
     <message>
       <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
       <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format. Le dialogue de fichiers énumère les formats.</translation>
+    </message>
+    <message>
+      <source>all kept</source>
+      <translation>tous</translation>
     </message>
     <message>
       <source>became empty</source>
@@ -734,6 +841,10 @@
     <message>
       <source>kept</source>
       <translation>gardé</translation>
+    </message>
+    <message>
+      <source>kept where ticked</source>
+      <translation>cochés</translation>
     </message>
     <message>
       <source>mean ratio; line: before</source>
@@ -1034,6 +1145,10 @@
       <translation>Angle vif</translation>
     </message>
     <message>
+      <source>Group borders</source>
+      <translation>Bords de groupes</translation>
+    </message>
+    <message>
       <source>Group name</source>
       <translation>Nom du groupe</translation>
     </message>
@@ -1074,12 +1189,20 @@
       <translation>L'analyse calcule alors le nouveau maillage ; charges, appuis et matériaux restent tels quels</translation>
     </message>
     <message>
+      <source>The borders of the ticked groups keep their shape; those of the others may drift</source>
+      <translation>Les bords des groupes cochés gardent leur forme ; ceux des autres peuvent dériver</translation>
+    </message>
+    <message>
       <source>Transition</source>
       <translation>Transition</translation>
     </message>
     <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
+    </message>
+    <message>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
+      <translation>Si les bords de tous les groupes gardent leur forme ; là où certains peuvent dériver, les éléments peuvent être meilleurs</translation>
     </message>
     <message>
       <source>automatic</source>
@@ -1243,10 +1366,6 @@
       <translation>Plus longue arête voulue près de l'outil</translation>
     </message>
     <message>
-      <source>Near</source>
-      <translation>Près de</translation>
-    </message>
-    <message>
       <source>Reach</source>
       <translation>Portée</translation>
     </message>
@@ -1257,10 +1376,6 @@
     <message>
       <source>The edge size holds up to this distance from the tool</source>
       <translation>La taille d'arête vaut jusqu'à cette distance de l'outil</translation>
-    </message>
-    <message>
-      <source>What is refined around; a plane has the axis as its normal</source>
-      <translation>Autour de quoi raffiner ; un plan a l'axe pour normale</translation>
     </message>
   </context>
   <context>
@@ -1338,6 +1453,56 @@
     <message>
       <source>Width</source>
       <translation>Largeur</translation>
+    </message>
+  </context>
+  <context>
+    <name>ToolInput</name>
+    <message>
+      <source>Tool</source>
+      <translation>Outil</translation>
+    </message>
+    <message>
+      <source>What the tool is</source>
+      <translation>Ce qu'est l'outil</translation>
+    </message>
+  </context>
+  <context>
+    <name>ToolValues</name>
+    <message>
+      <source>Between the axis of the cone and its side</source>
+      <translation>Entre l'axe du cône et son côté</translation>
+    </message>
+    <message>
+      <source>Clear</source>
+      <translation>Effacer</translation>
+    </message>
+    <message>
+      <source>Click a face of a part in the 3-D view; further ones of the same part that meet it smoothly are added</source>
+      <translation>Cliquez sur une face d'une pièce dans la vue 3D ; d'autres de la même pièce, qui la joignent sans arête, s'ajoutent</translation>
+    </message>
+    <message>
+      <source>Forgets what was picked</source>
+      <translation>Oublie ce qui a été choisi</translation>
+    </message>
+    <message>
+      <source>Half angle</source>
+      <translation>Demi-angle</translation>
+    </message>
+    <message>
+      <source>Pick</source>
+      <translation>Choisir</translation>
+    </message>
+    <message>
+      <source>Radius of the tube around the circle</source>
+      <translation>Rayon du tube autour du cercle</translation>
+    </message>
+    <message>
+      <source>Tool</source>
+      <translation>Outil</translation>
+    </message>
+    <message>
+      <source>Tube radius</source>
+      <translation>Rayon du tube</translation>
     </message>
   </context>
   <context>

@@ -88,6 +88,11 @@ def to_properties(given):
     return out
 
 
+def property_of(asked):
+    """Name of the property that holds an input, a parameter's `asked_as`."""
+    return _INPUTS[asked].name
+
+
 def direction_of(placement):
     """The z axis of a placement."""
     return placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1))
@@ -110,11 +115,11 @@ def _value(obj, parameter) -> Any:
     if parameter.kind == DIRECTION:
         return direction_of(obj.AxisPlacement)
     value = getattr(obj, _INPUTS[parameter.asked_as].name)
-    return _face(value) if parameter.kind == FACE else value.Value
+    return face_of(value) if parameter.kind == FACE else value.Value
 
 
-def _face(link):
-    """The shape that a property of type LinkSub means."""
+def face_of(link):
+    """The shape that a property of type LinkSub means. Raises ValueError where there is none."""
     if link is None:
         raise ValueError("ToolFace is not set; choose the face of the geometry to cut with")
     part, names = link

@@ -13,6 +13,7 @@ import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
 
+from .all_elements import SOLIDS, mesh_of
 from .documents import DocumentTest, content
 from .meshes import box_with_groups, tetra_volumes
 
@@ -113,6 +114,18 @@ class Operators(DocumentTest):
             crack.Group = group
             self.doc.recompute()
             self.assertIn(text, crack.getStatusString())
+
+    def test_crack_along_faces_between_elements_of_all_types(self):
+        for kind in (*SOLIDS, "triangle", "quad", "quad8"):
+            with self.subTest(kind=kind):
+                mesh = mesh_of(kind)
+                crack = ObjectsFemScalpel.makeFaceCrack(self.doc, self.add_source(mesh), "SECTION")
+                self.doc.recompute()
+                expected = fs.crack(mesh, fs.Faces("SECTION"))
+                made = femmesh_bridge.from_femmesh(crack.FemMesh)
+                self.assertEqual(made.node_count, expected.mesh.node_count)
+                np.testing.assert_array_equal(made.cells[kind], expected.mesh.cells[kind])
+                self.assertEqual(crack.NodesDoubled, expected.report.nodes_doubled)
 
     def test_refinement_first(self):
         for refine in (None, False, 0.4):

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the panels say of a report, above its histogram and its table of groups."""
+
+from collections import Counter
+
+from .. import preferences
+from ..translate import QT_TRANSLATE_NOOP, translate
+
+
+def sentence(text):
+    """`text` with a capital letter first and a full stop behind it."""
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
+
+
+# What Report.converted counts.
+_KINDS = {
+    "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
+    "quad": QT_TRANSLATE_NOOP("FemScalpel", "quadrangles"),
+    "pyramid": QT_TRANSLATE_NOOP("FemScalpel", "pyramids"),
+    "wedge": QT_TRANSLATE_NOOP("FemScalpel", "prisms"),
+    "hexahedron": QT_TRANSLATE_NOOP("FemScalpel", "hexahedra"),
+}
+
+
+def summary(report):
+    """What was done, how good it is, and the warnings; as rich text."""
+    after = report.quality.after
+    text = translate(
+        "FemScalpel", "%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6)."
+    )
+    numbers = (
+        report.nodes_moved,
+        report.nodes_added,
+        report.elements_added,
+        report.elements_removed,
+        f"{after.minimum:.2f}",
+        f"{report.quality.before.minimum:.2f}",
+    )
+    for k, number in enumerate(numbers, 1):
+        text = text.replace(f"%{k}", str(number))
+    if report.converted:
+        counts = Counter()
+        for kind, count in report.converted.items():
+            counts[kind.rstrip("0123456789")] += count
+        kinds = ", ".join(f"{count} {translate('FemScalpel', _KINDS[kind])}" for kind, count in counts.items())
+        text += " " + translate("FemScalpel", "First became triangles or tetrahedra: %1.").replace("%1", kinds)
+    if after.minimum < preferences.quality_threshold():
+        text += (
+            " <b style='color:#b3261e'>"
+            + translate("FemScalpel", "Worse than your threshold of %1.").replace(
+                "%1", f"{preferences.quality_threshold():g}"
+            )
+            + "</b>"
+        )
+    for warning in report.warnings:
+        text += f"<br><span style='color:#8a5a00'>{sentence(warning)}</span>"
+    return text

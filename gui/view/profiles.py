@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Outlines of tools that are surfaces of revolution, by the names of their classes, for what is seen of them."""
+
+import math
+
+import numpy as np
+
+
+def _cylinder(radius, values, size):
+    return (radius, -0.6 * size), (radius, 0.6 * size)
+
+
+def _sphere(radius, values, size):
+    angles = np.linspace(-np.pi / 2, np.pi / 2, 25)
+    return radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def _torus(radius, values, size):
+    angles = np.linspace(0, 2 * np.pi, 25)
+    return np.array((radius, 0)) + values["tube_radius"] * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def _cone(radius, values, size):
+    slope = math.tan(math.radians(values["half_angle"]))
+    if not 0 < slope < 1e6:
+        return ()
+    # From the tip, or 0.6 * size below, to as far above, or as wide.
+    low, high = max(-radius / slope, -0.6 * size), min(0.6 * size, max(size - radius, 0) / slope)
+    return (radius + low * slope, low), (radius + high * slope, high)
+
+
+def _plane(radius, values, size):
+    return (0, 0), (0.5 * size, 0)
+
+
+#: Function of the radius, of further values by what femscalpel.tools asks them as, and of the size of the part.
+PROFILES = {"Cylinder": _cylinder, "Sphere": _sphere, "Torus": _torus, "Cone": _cone, "Plane": _plane}
+
+#: Those that stay what they are when they move along their axis.
+ENDLESS = ("Cylinder",)
+
+
+def revolved(profile, steps=48):
+    """Points (n, 3) and quadrangles (m, 4) of what a profile of (radius, height) makes when it turns about z."""
+    profile = np.asarray(profile, float).reshape(-1, 2)
+    angles = np.linspace(0, 2 * np.pi, steps, endpoint=False)
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    points = np.concatenate([np.column_stack([r * ring, np.full(steps, z)]) for r, z in profile] or [np.empty((0, 3))])
+    lower = np.arange(max(len(profile) - 1, 0) * steps)
+    after = lower // steps * steps + (lower + 1) % steps
+    return points, np.column_stack([lower, after, after + steps, lower + steps])
