@@ -157,6 +157,7 @@ void bind_options(py::module_& module) {
         .def_readwrite("strict", &OperatorOptions::strict)
         .def_readwrite("preserve", &OperatorOptions::preserve)
         .def_readwrite("band_only", &OperatorOptions::band_only)
+        .def_readwrite("second_order", &OperatorOptions::second_order)
         .def_property("refine", refine, set_refine, "Nothing: automatic; 0: never; or a length.")
         .def_property(
             "skin", [](const OperatorOptions& o) { return o.skin; },

@@ -7,7 +7,7 @@ import pytest
 import femscalpel as fs
 import beam_cases
 from calculix_runs import solve
-from meshes import grid_box
+from meshes import grid_box, quadratic
 
 
 def chain(count=8, **kwargs):
@@ -141,3 +141,132 @@ def test_frame_of_calculix(tmp_path):
     assert displacements[2][0] == pytest.approx(post[2][0], rel=0.05)  # the joint of beams in solid form is stiffer
     assert post[2][0] > 10
     assert np.linalg.norm(displacements[3]) < 1e-6
+
+
+@pytest.mark.parametrize("tool", [fs.Sphere((4, 0, 0), 1), fs.Cylinder((4, 0, 0), (0, 0, 1), 1)])
+@pytest.mark.parametrize("method", ["snap", "deform"])
+def test_a_wall_in_the_middle_of_a_beam(tool, method):
+    """Halves, quarters, ... of a beam are where it is looked at first."""
+    mesh = fs.Mesh([[0, 0, 0], [10, 0, 0], [6, 0, 0], [2, 1, 0]], {"line": [[0, 1], [2, 3]]})
+    result = fs.drill(mesh, tool, method=method)
+    ends = np.sort(result.mesh.points[result.mesh.cells["line"]][:, :, 0][:, :], axis=1)
+    assert [3, 0] not in ends.tolist() and sorted(e.tolist() for e in ends if e[0] in (0, 5))[0] == [0, 3]
+    assert [5, 10] in ends.tolist()
+
+
+def test_holes_far_smaller_than_beams():
+    mesh = fs.Mesh([[0, 0, 0], [1000, 0, 0]], {"line": [[0, 1]]})
+    for at in (500.0, 0.7, 999.5):
+        for result in (
+            fs.cut(mesh, fs.Plane((at, 0, 0), (1, 0, 0)), width=0.5),
+            fs.drill(mesh, fs.Sphere((at, 0, 0), 0.25)),
+        ):
+            x = np.sort(result.mesh.points[:, 0])
+            assert np.allclose(x, [0, at - 0.25, at + 0.25, 1000], rtol=0, atol=1e-9)
+
+
+def test_far_from_the_origin():
+    rng = np.random.default_rng(1)
+    for _ in range(100):
+        origin, normal = 1e6 * rng.normal(size=3), rng.normal(size=3)
+        normal /= np.linalg.norm(normal)
+        beside = origin + np.cross(normal, rng.normal(size=(20, 3)))
+        points = np.stack([beside - normal / 20, beside + normal / 20], axis=1).reshape(-1, 3)
+        mesh = fs.Mesh(points, {"line": np.arange(40).reshape(-1, 2)})
+        cells = fs.crack(mesh, fs.Plane(origin, normal)).mesh.cells["line"]
+        assert len(cells) == 40 and len(np.unique(cells)) == 80
+
+
+def test_a_beam_in_the_crack_joins_no_sides():
+    mesh = fs.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [2, 1, 0]], {"line": [[0, 1], [1, 2], [2, 3]]})
+    cells = fs.crack(mesh, fs.Plane((1, 0, 0), (1, 0, 0))).mesh.cells["line"]
+    assert cells.tolist() == [[0, 1], [1, 2], [4, 3]]
+
+
+def test_bottom_of_a_hole_that_only_beams_elsewhere_cross():
+    mesh = fs.Mesh([[-2, 0, 1], [2, 0, 1], [9, 0, -1], [9, 0, 2]], {"line": [[0, 1], [2, 3]]})
+    result = fs.drill(mesh, fs.Cylinder((0, 0, 1.5), (0, 0, -1), 0.5), depth=1.5)
+    assert np.allclose(np.sort(result.mesh.points[:, 0]), [-2, -0.5, 0.5, 2, 9, 9])
+
+
+@pytest.mark.parametrize("at", [0.9, 1.2, 0.5, 1.0])
+def test_beams_on_mid_side_nodes(at):
+    """They stay with the material, on their side."""
+    box = quadratic(grid_box((2, 2, 2), (2.0, 2.0, 2.0)))
+    tets = box.cells["tetra10"]
+    for node in np.unique(tets[:, 4:])[::3]:
+        for side in (-1, 1):
+            far = box.points[node] + (7 * side, 0, 0)
+            mesh = fs.Mesh(np.vstack([box.points, [far]]), {"tetra10": tets, "line": [[node, box.node_count]]})
+            after = fs.crack(mesh, fs.Plane((at, 1, 1), (1, 0, 0))).mesh
+            beams = [n for n in after.cells["line"] if len(box.points) + 1 in after.node_ids[n]]
+            (end,) = [n for n in beams[0] if after.node_ids[n] != box.node_count + 1]
+            start = box.points[node][0]
+            if (start - at) * side < 0:
+                assert abs(after.points[end][0] - at) < 1e-9  # it was cut
+                continue
+            assert np.array_equal(after.points[end], box.points[node])
+            around = after.cells["tetra10"][(after.cells["tetra10"] == end).any(axis=1)]
+            assert len(around) and ((after.points[around].mean(axis=1)[:, 0] - at) * side > 0).all()
+
+
+SPAN = """*NODE, NSET=NALL
+1, 0, 0, 0
+2, 10, 0, 0
+3, 0, 5, 0
+4, 3, 5, 0
+*ELEMENT, TYPE=B31, ELSET=BEAM
+1, 1, 2
+2, 3, 4
+*NSET, NSET=SUPPORTS
+1, 2
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000, .3
+*BEAM SECTION, SECTION=RECT, ELSET=BEAM, MATERIAL=STEEL
+.4, .1
+0, 0, 1
+*NORMAL
+1, 1, 0, -0.6, 0.8
+1, 2, 0, -0.8, 0.6
+*BOUNDARY
+{supports}
+*STEP
+*STATIC
+*END STEP
+"""
+
+
+@pytest.mark.parametrize("supports", ["SUPPORTS, 1, 3", "1, 1, 3\n2, 1, 3"])
+def test_supports_at_both_ends_of_a_beam(tmp_path, supports):
+    """There are none between them; what is for all nodes is for new ones, and they get a normal."""
+    deck = tmp_path / "span.inp"
+    deck.write_text(SPAN.format(supports=supports))
+    result = fs.crack(fs.read(str(deck)), fs.Plane((5, 0, 0), (1, 0, 0)), strict=True)
+    assert result.mesh.groups["SUPPORTS"].ids.tolist() == [1, 2]
+    assert result.mesh.groups["NALL"].ids.tolist() == [1, 2, 3, 4, 5, 6]
+    fs.write(result.mesh, str(deck))
+    text = deck.read_text()
+    normal = np.array([0, -0.7, 0.7]) / np.hypot(0.7, 0.7)
+    for element, node in ((1, 5), (3, 6)):
+        line = next(
+            x for x in text.splitlines() if x.replace(" ", "").startswith(f"{element},{node},") and x.count(",") == 4
+        )
+        assert np.allclose([float(w) for w in line.split(",")[2:]], normal)
+    assert text.split("*BOUNDARY")[1].split("*STEP")[0].strip() == supports
+
+
+def test_what_names_a_beam_or_hangs_on_it(tmp_path):
+    deck = tmp_path / "bolt.inp"
+    deck.write_text(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n4, 1, 1, 0\n6, 1.5, 0, 1\n*ELEMENT, TYPE=B31, ELSET=BEAM\n"
+        "1, 1, 2\n2, 2, 3\n*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n3, 2, 4\n*SPRING, ELSET=SPRING\n\n10.\n"
+        "*PRE-TENSION SECTION, NODE=6, ELEMENT=2\n*STEP\n*STATIC\n*END STEP\n"
+    )
+    mesh = fs.read(str(deck))
+    hole = fs.drill(mesh, fs.Sphere((1, 0, 0), 0.3))
+    assert mesh.cell_ids["line"].tolist() == [1, 2, 3] and sorted(hole.mesh.cell_ids["line"].tolist()) != [1, 2, 3]
+    assert 3 not in hole.mesh.cell_ids["line"]
+    assert any("1 spring(s)" in w for w in hole.report.warnings)
+    assert any("PRE-TENSION" in w and "element 2" in w for w in hole.report.warnings)
+    assert any("was divided" in w for w in fs.crack(mesh, fs.Plane((1.5, 0, 0), (1, 0, 0))).report.warnings)

@@ -4,6 +4,7 @@ made fits together. With the lips of a crack tied and a linear displacement pres
 everywhere."""
 
 import itertools
+import re
 import shutil
 
 import mixed_cases
@@ -38,10 +39,11 @@ def largest_error(folder, mesh, size, axes):
     for cells in mesh.cells.values():
         used[np.unique(cells)] = True
     x, ids = mesh.points, mesh.node_ids
+    dependent = {int(n) for n in re.findall(r"(?m)^3\n(\d+), ", (folder / "out.inp").read_text())}  # of edges' ends
     outside = ((x < 1e-9) | (x > np.array(size) - 1e-9))[:, axes].any(axis=1)
     boundary = [
         f"{ids[n]}, {k + 1}, {k + 1}, {(GRADIENT @ x[n])[k]:.14e}"
-        for n, k in itertools.product(np.flatnonzero(outside & used), axes)
+        for n, k in itertools.product(np.flatnonzero(outside & used & ~np.isin(ids, list(dependent))), axes)
     ]
     at, ties = {}, []
     for n in np.flatnonzero(used & ~outside):
@@ -88,6 +90,29 @@ def test_patch_of_hexahedra(tmp_path, label, jitter):
     assert {k: len(back.cells[k]) for k in back.cells} == {
         k: len(c) for k, c in result.mesh.cells.items() if k[:3] in ("tet", "pyr", "hex")
     }
+
+
+@needs_ccx
+@pytest.mark.parametrize("label, jitter", [("C3D8", 0.2), ("C3D8I", 0), ("C3D8R", 0)])
+def test_patch_with_a_second_order_band(tmp_path, label, jitter):
+    points, cells = grid((15, 6, 5), jitter)
+    mesh = deck(tmp_path, points, cells, label, "*SOLID SECTION, ELSET=EALL, MATERIAL=M")
+    result = fs.crack(mesh, fs.Plane((4.7, 3, 2.5), (1, 0.2, 0.1)), second_order=True)
+    kinds = {k for k, c in result.mesh.cells.items() if len(c)}
+    assert kinds == {"triangle6", "tetra10", "pyramid13", "hexahedron20", "hexahedron"}
+    group = next(g for g in result.report.groups if g.name == "EALL")
+    assert group.measure_after == pytest.approx(group.measure_before, rel=1e-12)
+    assert group.count_after == sum(len(result.mesh.cells[k]) for k in kinds - {"triangle6"})
+    assert result.report.nodes_added == result.mesh.node_count - mesh.node_count
+    assert largest_error(tmp_path, result.mesh, (15, 6, 5), (0, 1, 2)) < 1e-7
+
+
+def test_a_second_order_band_needs_a_deck():
+    points, cells = grid((6, 3, 3))
+    mesh = fs.Mesh(points, {"hexahedron": cells})
+    with pytest.raises(fs.ToolError, match="CalculiX deck"):
+        fs.crack(mesh, fs.Plane((2.7, 1, 1), (1, 0.2, 0.1)), second_order=True)
+    assert "hexahedron20" not in fs.crack(mesh, fs.Plane((3, 1, 1), (1, 0, 0)), second_order=True).mesh.cells
 
 
 @needs_ccx

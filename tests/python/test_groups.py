@@ -113,6 +113,15 @@ def test_errors():
         fs.virtual_boundary("mesh", "FIX")
 
 
+def test_preserve_of_reshape():
+    mesh = box_with_groups()
+    for preserve, kept in ((None, True), ((), False)):
+        result = fs.reshape(mesh, "TOP", by=(0.0, 0.0, 0.3), preserve=preserve)
+        assert {g.boundary_kept for g in result.report.groups if g.status != "new"} == {kept}
+    some = fs.reshape(mesh, "TOP", by=(0.0, 0.0, 0.3), preserve=["LEFT"])
+    assert {g.name for g in some.report.groups if g.boundary_kept and g.status != "new"} == {"LEFT"}
+
+
 def test_preserve():
     mesh = box_with_groups()
     plane = fs.Plane((3.3, 2.5, 2), (0.9, 0.3, 0.2))

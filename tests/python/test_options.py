@@ -29,10 +29,10 @@ def test_every_operator_has_it(option):
 def test_the_order_of_parameters_stays():
     common = ["name", "method", "transition", "feature_angle", "strict", "preserve"]
     expected = {
-        fs.crack: ["mesh", "tool", *common, "band_only", "within", "refine", "skin"],
-        fs.drill: ["mesh", "tools", *common, "depth", "band_only", "refine", "skin"],
-        fs.cut: ["mesh", "tool", "width", "other", "bottom", *common, "band_only", "refine", "skin"],
-        fs.fillet: ["mesh", "along", "radius", *common, "band_only", "refine", "skin"],
+        fs.crack: ["mesh", "tool", *common, "band_only", "within", "refine", "skin", "second_order"],
+        fs.drill: ["mesh", "tools", *common, "depth", "band_only", "refine", "skin", "second_order"],
+        fs.cut: ["mesh", "tool", "width", "other", "bottom", *common, "band_only", "refine", "skin", "second_order"],
+        fs.fillet: ["mesh", "along", "radius", *common, "band_only", "refine", "skin", "second_order"],
     }
     for operator, method in zip(OPERATORS, METHODS):
         assert list(inspect.signature(operator).parameters) == expected[operator]

@@ -25,39 +25,67 @@ struct Course {
     double speed() const { return std::max((to - from + 4 * bulge).norm(), (to - from - 4 * bulge).norm()); }
 };
 
+/// What parts of a curved tool's radius is searched for a way in and out.
+constexpr double finest_part = 0.02;
+
 /// Finds where a course passes from one side of a blade to the other.
 class Passages {
 public:
     Passages(const Course& course, const Blade& blade, double rounding)
-        : course_(course), blade_(blade), rounding_(rounding), speed_(course.speed()) {}
+        : course_(course),
+          blade_(blade),
+          rounding_(rounding),
+          speed_(course.speed()),
+          finest_(std::min(shortest_part, finest_part * blade.tool->feature_size() / speed_)) {}
 
     std::vector<double> find() {
-        search(0, 1, distance(0), distance(1));
-        std::erase_if(found_, [&](double t) { return !is_wanted(course_.at(t)); });
-        return std::move(found_);
+        const double at_end = distance(1);
+        search(0, 1, distance(0), at_end);
+        seen_.push_back({1, at_end});
+        std::vector<double> out;
+        const Sample* before = nullptr;  // the last that is not on the tool
+        const Sample* on = nullptr;      // the first on it since
+        for (const Sample& s : seen_) {
+            if (s.distance == 0) {
+                if (!on) on = &s;
+                continue;
+            }
+            if (before && before->distance * s.distance < 0) out.push_back(on ? on->at : between(*before, s));
+            before = &s;
+            on = nullptr;
+        }
+        std::erase_if(out, [&](double t) { return !is_wanted(course_.at(t)); });
+        return out;
     }
 
 private:
+    struct Sample {
+        double at, distance;
+    };
+
     double distance(double t) const {
         const double d = blade_.tool->distance(course_.at(t));
         return std::abs(d) <= rounding_ ? 0 : d;
     }
 
-    /// Distances change by no more than one goes.
+    /// Notes the beginnings of parts in which nothing is missed, ascending: distances change by no more than one goes.
     void search(double low, double high, double at_low, double at_high) {
         const double length = speed_ * (high - low);
-        if (at_low * at_high > 0 && std::abs(at_low) + std::abs(at_high) >= length) return;
-        if (high - low < shortest_part) {
-            if (at_low * at_high < 0)
-                found_.push_back(low + (high - low) * root_between(at_low, at_high, 1e-3 * rounding_, [&](double t) {
-                                           return blade_.tool->distance(course_.at(low + t * (high - low)));
-                                       }));
+        const bool clear = at_low * at_high > 0 && std::abs(at_low) + std::abs(at_high) >= length;
+        if (clear || high - low < finest_) {
+            seen_.push_back({low, at_low});
             return;
         }
         const double middle = (low + high) / 2, at_middle = distance(middle);
         search(low, middle, at_low, at_middle);
-        if (at_middle == 0 && at_low * at_high < 0) found_.push_back(middle);
         search(middle, high, at_middle, at_high);
+    }
+
+    double between(const Sample& low, const Sample& high) const {
+        const double size = high.at - low.at;
+        return low.at + size * root_between(low.distance, high.distance, 1e-3 * rounding_, [&](double t) {
+                            return blade_.tool->distance(course_.at(low.at + t * size));
+                        });
     }
 
     bool is_wanted(const Vec3& x) const {
@@ -67,8 +95,8 @@ private:
 
     const Course& course_;
     const Blade& blade_;
-    double rounding_, speed_;
-    std::vector<double> found_;
+    double rounding_, speed_, finest_;
+    std::vector<Sample> seen_;
 };
 
 class BeamFinder {
@@ -98,8 +126,9 @@ private:
         for (const Blade& b : blades_)
             std::ranges::copy(Passages(course, b, rounding_).find(), std::back_inserter(out));
         std::ranges::sort(out);
-        out.erase(std::unique(out.begin(), out.end(), [](double a, double b) { return b - a < shortest_part; }),
-                  out.end());
+        // Where tools meet there is one node.
+        const double same = 10 * rounding_ / course.speed();
+        out.erase(std::unique(out.begin(), out.end(), [&](double a, double b) { return b - a <= same; }), out.end());
         return out;
     }
 
@@ -140,16 +169,18 @@ private:
 
     void cut(const CellRef& c) {
         const auto n = nodes(c);
+        const std::vector<double> all = passages(c);
         BeamCut out{c, {}};
-        for (const double t : passages(c)) {
-            if (n.size() == 3 && std::abs(t - 0.5) < shortest_part) {
-                out.at.push_back(0.5);
-                out_.stops.push_back(n[2]);
-            } else if (t < shortest_part || t > 1 - shortest_part) {
-                out_.stops.push_back(t < 0.5 ? n[0] : n[1]);
-            } else {
+        for (const double t : all) {
+            const double stop = n.size() == 3 ? std::round(2 * t) / 2 : std::round(t);
+            const auto is_near = [&](double other) { return std::abs(other - stop) < shortest_part; };
+            // What lies between two tools that are near the same node is not to be lost.
+            if (!is_near(t) || std::ranges::count_if(all, is_near) > 1) {
                 out.at.push_back(t);
+                continue;
             }
+            if (stop == 0.5) out.at.push_back(stop);
+            out_.stops.push_back(stop == 0 ? n[0] : stop == 1 ? n[1] : n[2]);
         }
         if (!out.at.empty()) out_.cuts.push_back(std::move(out));
     }

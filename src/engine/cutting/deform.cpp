@@ -58,7 +58,7 @@ public:
     /// 3.1.2. Returns the worst quality.
     double move() {
         for (int v = 0; v < band_.size(); ++v) {
-            f_.distance[v] = side_[v];
+            if (!band_.tetras.around(v).empty() || !band_.triangles.around(v).empty()) f_.distance[v] = side_[v];
             d_.contact[v] = side_[v] == 0 ? Contact(&tool_) : Contact();
         }
         find_node_sets(f_);

@@ -2,6 +2,7 @@
 #include "cutting/locate.h"
 
 #include <cmath>
+#include <string>
 
 #include "cutting/no_cut.h"
 
@@ -42,8 +43,8 @@ double longest_edge(const Mesh& mesh, int corners, const Index* n) {
     return std::sqrt(longest);
 }
 
-/// Marks the nodes of elements that one blade touches with level 0.
-void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& distance, Location& out) {
+/// Marks the nodes of elements that one blade touches with level 0; whether there are any. If not, `why` says so.
+bool touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& distance, Location& out, std::string& why) {
     std::vector<std::uint8_t> side(distance.size());
     for (std::size_t n = 0; n < side.size(); ++n)
         side[n] = distance[n] < -out.rounding ? behind : distance[n] > out.rounding ? before : on;
@@ -83,7 +84,8 @@ void touch(const Mesh& mesh, const Blade& blade, const std::vector<double>& dist
                 }
             }
         }
-    if (!touched) throw ToolError(why_missed(mesh, blade, distance, out.tolerance, beyond && blade.bound));
+    if (!touched && why.empty()) why = why_missed(mesh, blade, distance, out.tolerance, beyond && blade.bound);
+    return touched;
 }
 
 }  // namespace
@@ -116,14 +118,23 @@ Location locate(const Mesh& mesh, std::span<const Blade> blades, int levels, con
             }
         std::ranges::sort(out.stops);
     }
+    // A body, whose walls bound each other, may have some that meet nothing.
+    bool touched = true;
+    std::string why;
     for (const Blade& blade : blades) {
+        if (blade.inside.empty()) {
+            if (!touched) throw ToolError(why);
+            touched = false;
+            why.clear();
+        }
         std::vector<double> distance(mesh.points.size());
         SparseCheck check(256);  // distances to CAD faces take their time
         for (std::size_t n = 0; n < mesh.points.size(); ++n, check())
             distance[n] = blade.tool->distance(mesh.points[n]);
-        touch(mesh, blade, distance, out);
+        touched = touch(mesh, blade, distance, out, why) || touched;
         if (&blade == blades.data()) out.distance = std::move(distance);
     }
+    if (!touched) throw ToolError(why);
 
     spread_levels(mesh, out.level, levels, adjacency);
     return out;

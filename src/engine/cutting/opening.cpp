@@ -42,6 +42,7 @@ public:
         find_open_edges();
         for (const int v : out_.interface_nodes) part_node(v);
         place_attached();
+        place_flat_beams();
         for (const int v : f_.beam_nodes) part_beams(v);
         make_lips();
         if (f_.patched) chain_front();
@@ -346,16 +347,55 @@ private:
                                         (where < 0 ? "negative" : "positive") + " side");
     }
 
-    void part_beams(int v) {
-        bool others[2] = {}, beams[2] = {};
-        const auto note = [](bool(&sides)[2], int side) {
-            if (side != 0) sides[side > 0] = true;
-        };
-        for (const int t : band_.tetras.around(v)) note(others, side(band_.tetras[t]));
+    /// On which sides there is something: negative, positive.
+    using Sides = std::array<bool, 2>;
+
+    static void note(Sides& sides, int side) {
+        if (side != 0) sides[side > 0] = true;
+    }
+
+    void note_others(int v, Sides& sides) const {
+        for (const int t : band_.tetras.around(v)) note(sides, side(band_.tetras[t]));
         for (const int t : band_.triangles.around(v))
-            if (is_shell(t)) note(others, shell_side(t));
+            if (is_shell(t)) note(sides, shell_side(t));
+    }
+
+    bool is_beam(int l) const { return f_.d.constraints.is_beam(band_.lines.origin(l)); }
+
+    /// Beams that lie in the tool go with one side, all that hang together: the positive if nothing is on the negative.
+    void place_flat_beams() {
+        for (const int from : f_.beam_nodes) {
+            std::vector<int> nodes{from};
+            std::set<int> met{from};
+            std::vector<int> flat;
+            Sides sides{};
+            for (std::size_t k = 0; k < nodes.size(); ++k) {
+                note_others(nodes[k], sides);
+                for (const int l : band_.lines.around(nodes[k])) {
+                    if (!is_beam(l) || flat_beams_.contains(l)) continue;
+                    if (const int where = line_side(l); where != 0) {
+                        note(sides, where);
+                        continue;
+                    }
+                    flat.push_back(l);
+                    for (const int v : band_.lines[l])
+                        if (met.insert(v).second) nodes.push_back(v);
+                }
+            }
+            for (const int l : flat) flat_beams_.emplace(l, sides[1] && !sides[0] ? 1 : -1);
+        }
+    }
+
+    int beam_side(int l) const {
+        const auto flat = flat_beams_.find(l);
+        return flat == flat_beams_.end() ? line_side(l) : flat->second;
+    }
+
+    void part_beams(int v) {
+        Sides others{}, beams{};
+        note_others(v, others);
         for (const int l : band_.lines.around(v))
-            if (f_.d.constraints.is_beam(band_.lines.origin(l))) note(beams, line_side(l));
+            if (is_beam(l)) note(beams, beam_side(l));
         if (doubled_[v]) return list_ends(v);
         if (others[0] && others[1]) return;  // where a crack ends, what it does not reach holds them together
         const bool positive_goes = !others[1];
@@ -363,7 +403,7 @@ private:
         const int copy = band_.size() + static_cast<int>(out_.copy_of.size());
         out_.copy_of.push_back(v);
         for (const int l : band_.lines.around(v))
-            if (f_.d.constraints.is_loose(band_.lines.origin(l)) && line_side(l) == (positive_goes ? 1 : -1))
+            if (f_.d.constraints.is_loose(band_.lines.origin(l)) && beam_side(l) == (positive_goes ? 1 : -1))
                 std::ranges::replace(out_.lines[l], v, copy);
         list_ends(v);
     }
@@ -372,7 +412,7 @@ private:
     void list_ends(int v) {
         for (const int l : band_.lines.around(v)) {
             const int where = line_side(l);
-            if (where == 0 || !f_.d.constraints.is_beam(band_.lines.origin(l))) continue;
+            if (where == 0 || !is_beam(l)) continue;
             const std::size_t place = band_.lines[l][0] == v ? 0 : 1;
             out_.ends.push_back({out_.lines[l][place], where > 0});
         }
@@ -463,6 +503,7 @@ private:
     };
     std::vector<FirstItem> first_item_;  // of part_node(), by neighbour and side
     std::unordered_map<int, int> positive_copy_;
+    std::map<int, int> flat_beams_;  // beams that lie in the tool, and the side they go with
 };
 
 }  // namespace

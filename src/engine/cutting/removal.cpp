@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cancel.h"
+#include "deck/solver_sets.h"
 #include "deformation/curved_shape.h"
 #include "error.h"
 #include "mesh/quality.h"
@@ -390,6 +391,7 @@ Opening open_walls(const Workpiece& f) {
 std::vector<CellRef> deep_inside(const Mesh& mesh, const std::vector<std::int8_t>& level,
                                  std::span<const std::function<double(const Vec3&)>> depths) {
     std::vector<CellRef> out;
+    const std::vector<char> whole = families_of_whole_elements(mesh);
     // Which body a node is in; one bit each, in as many rounds as there are bodies.
     std::vector<char> in(mesh.points.size());
     for (const auto& depth : depths) {
@@ -403,10 +405,11 @@ std::vector<CellRef> deep_inside(const Mesh& mesh, const std::vector<std::int8_t
         for (const CellBlock& b : mesh.blocks()) {
             const CellTraits& t = traits(b.type);
             const Index* n = b.connectivity.data();
+            const auto is_in = [&](Index v) { return in[v] != 0; };
             for (Index c = 0; c < b.size(); ++c, n += t.nodes) {
-                bool inside = true;
-                for (int k = 0; k < t.corners && inside; ++k) inside = in[n[k]] != 0;
-                if (inside) out.push_back({b.type, c});
+                const bool spring = t.dimension == 1 && !whole.empty() && whole[b.families[c]];
+                if (spring ? std::any_of(n, n + t.corners, is_in) : std::all_of(n, n + t.corners, is_in))
+                    out.push_back({b.type, c});
             }
         }
     }

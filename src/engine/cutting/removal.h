@@ -33,7 +33,7 @@ void note_slivers(Workpiece& workpiece, std::span<const Tool* const> tool_of_tag
 Opening open_walls(const Workpiece& workpiece);
 
 /// Elements of the mesh with no node in the band (level < 0) and all nodes inside one of the bodies, each given by
-/// its signed depth.
+/// its signed depth; springs, dashpots and gaps with one end there.
 std::vector<CellRef> deep_inside(const Mesh& mesh, const std::vector<std::int8_t>& level,
                                  std::span<const std::function<double(const Vec3&)>> depths);
 

@@ -19,6 +19,7 @@ struct Simplified {
     Index pyramids = 0;                              ///< that stand on faces of elements that stayed
     Index nodes_added = 0;
     Index nodes_removed = 0;     ///< in the middle of elements or faces, that nothing needs any more
+    std::vector<Index> stops;    ///< numbers of the nodes in which beams were divided
     Index beams_cut = 0;         ///< places where a tool passes through a beam
     std::vector<CellRef> unfit;  ///< elements in which pyramids came out poor (indices in the input)
     Changes changes;             ///< where new nodes and elements come from, by number

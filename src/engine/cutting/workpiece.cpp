@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 #include "deformation/deformation.h"
 #include "deformation/relaxation.h"
@@ -68,6 +69,9 @@ int Workpiece::split_edge(int a, int b, const Vec3& at, const Contact& tools) {
 void split_at_fixed_middles(Workpiece& f, const Blade& blade, const Mesh& mesh) {
     BandMesh& band = f.d.band;
     if (!f.d.constraints.has_fixed_middles()) return;
+    std::map<Index, int> hung_on;  // nodes that segments and points end in, by node of the mesh
+    for (int v = 0; v < band.original_nodes(); ++v)
+        if (!band.lines.around(v).empty() || !band.vertices.around(v).empty()) hung_on[band.nodes[v].global] = v;
     std::vector<std::pair<std::array<int, 2>, Index>> crossed;
     for (const auto& [key, middle] : band.mid_nodes) {
         const std::array<int, 2> e{static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffffu)};
@@ -76,15 +80,24 @@ void split_at_fixed_middles(Workpiece& f, const Blade& blade, const Mesh& mesh) 
         if (beam >= 0 && f.d.constraints.is_beam(band.lines.origin(beam))) continue;  // which was divided before
         const Vec3 &a = band.nodes[e[0]].at, &b = band.nodes[e[1]].at;
         const double at_a = blade.tool->distance(a), at_b = blade.tool->distance(b);
-        if (std::min(at_a, at_b) >= -f.tolerance || std::max(at_a, at_b) <= f.tolerance) continue;
+        const bool along = std::max(std::abs(at_a), std::abs(at_b)) <= f.tolerance;
+        if (along ? !hung_on.contains(middle)
+                  : std::min(at_a, at_b) >= -f.tolerance || std::max(at_a, at_b) <= f.tolerance)
+            continue;
         if (!blade.bound || blade.bound(mesh.points[middle]) <= blade_margin * (a - b).norm())
             crossed.push_back({e, middle});
     }
     std::ranges::sort(crossed);
     for (const auto& [e, middle] : crossed) {
         const bool on_tool = std::abs(f.tool->distance(mesh.points[middle])) <= f.tolerance;
-        f.split_edge(e[0], e[1], mesh.points[middle],
-                     on_tool && !blade.bound && blade.tool == f.tool ? f.tool : nullptr);
+        const int node = f.split_edge(e[0], e[1], mesh.points[middle],
+                                      on_tool && !blade.bound && blade.tool == f.tool ? f.tool : nullptr);
+        const auto hung = hung_on.find(middle);
+        if (hung == hung_on.end()) continue;
+        band.lines.merge(hung->second, node);
+        band.vertices.merge(hung->second, node);
+        std::ranges::replace(f.beam_nodes, hung->second, node);
+        std::ranges::sort(f.beam_nodes);
     }
 }
 

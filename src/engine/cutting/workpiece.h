@@ -115,7 +115,8 @@ std::vector<int> movable_nodes(const Workpiece& workpiece);
 void relax_near(Workpiece& workpiece, const std::vector<int>& changed, bool only_there = false);
 
 /// Edges that are to be cut by the blade and whose mid-side node must not move (NodeConstraints::has_fixed_middle())
-/// are split in that node, where it is; the blade then crosses one half. To be called first.
+/// are split in that node, where it is; the blade then crosses one half. So are edges on the blade in whose mid-side
+/// node a segment or point ends, which goes on with the new corner. To be called first.
 void split_at_fixed_middles(Workpiece& workpiece, const Blade& blade, const Mesh& mesh);
 
 }  // namespace femscalpel

@@ -76,4 +76,19 @@ void BoundNodes::add_set(const DeckView& deck, const std::string& name, Numbers&
             if (const auto cell = deck.numbers().cell(element)) add_cell(cell->type, cell->cell);
 }
 
+std::vector<int> computed_freedoms(const Mesh& mesh) {
+    bool heat = false, motion = false;
+    if (const SolverInput* deck = solver_input(mesh))
+        for (const Card& card : deck->cards()) {
+            const bool both = card.keyword.find("TEMPERATURE-DISPLACEMENT") != std::string::npos;
+            heat = heat || both || card.keyword == "HEATTRANSFER";
+            motion = motion || both || card.keyword == "STATIC" || card.keyword == "DYNAMIC" ||
+                     card.keyword == "FREQUENCY" || card.keyword == "BUCKLE" || card.keyword == "VISCO";
+        }
+    std::vector<int> out;
+    if (motion || !heat) out = {1, 2, 3};
+    if (heat) out.push_back(11);
+    return out;
+}
+
 }  // namespace femscalpel

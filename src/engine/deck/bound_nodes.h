@@ -38,4 +38,7 @@ private:
     std::set<std::pair<Index, int>> freedoms_;
 };
 
+/// Degrees of freedom that a mesh's deck computes: displacements, the temperature. Displacements without a deck.
+std::vector<int> computed_freedoms(const Mesh& mesh);
+
 }  // namespace femscalpel

@@ -41,25 +41,27 @@ NodeOrigins::NodeOrigins(const Mesh& before, const NumberIndex& before_numbers, 
         moved_.emplace(number, moved);
         nodes_.push_back({number, {number}, false, moved, after.points[*now]});
     }
-    std::unordered_map<Index, const std::vector<Index>*> born;
+    std::unordered_map<Index, const Changes::Born*> born;
     std::vector<std::pair<std::size_t, std::vector<Share>>> known;
     for (const Changes::Born& b : changes.born) {
-        born.emplace(b.node, &b.ancestors);
+        born.emplace(b.node, &b);
         const auto now = after_numbers.node(b.node);
         if (!now) continue;
         if (!b.shares.empty()) {
             known.emplace_back(nodes_.size(), std::vector<Share>());
             for (const auto& [node, weight] : b.shares) known.back().second.push_back({node, weight});
         }
-        nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now]});
+        nodes_.push_back({b.node, b.ancestors, true, 0, after.points[*now], b.spans});
     }
     for (const Changes::Copy& c : changes.copies) {
         copies_[c.source].push_back(c.node);
         const auto now = after_numbers.node(c.node);
         if (!now) continue;
         const auto source = born.find(c.source);
-        nodes_.push_back({c.node, source == born.end() ? std::vector<Index>{c.source} : *source->second, true, 0,
-                          after.points[*now]});
+        if (source == born.end())
+            nodes_.push_back({c.node, {c.source}, true, 0, after.points[*now]});
+        else
+            nodes_.push_back({c.node, source->second->ancestors, true, 0, after.points[*now], source->second->spans});
     }
     shares_.resize(nodes_.size());
     for (auto& [k, shares] : known) shares_[k] = std::move(shares);

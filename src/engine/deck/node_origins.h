@@ -27,8 +27,9 @@ public:
         Index number;
         std::vector<Index> ancestors;  ///< nodes of `before` it stands for: itself, or the ends of its edge
         bool is_new;
-        double moved = 0;  ///< how far, if not new
-        Vec3 place;        ///< in `after`
+        double moved = 0;    ///< how far, if not new
+        Vec3 place;          ///< in `after`
+        bool spans = false;  ///< Changes::Born::spans
     };
     const std::vector<Node>& nodes() const { return nodes_; }
 

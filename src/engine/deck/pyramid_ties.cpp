@@ -52,22 +52,6 @@ std::map<Index, Edge> edges_to_tie(const Mesh& mesh) {
     return out;
 }
 
-/// Degrees of freedom that a deck computes.
-std::vector<int> freedoms_of(const Mesh& mesh) {
-    bool heat = false, motion = false;
-    if (const SolverInput* deck = solver_input(mesh))
-        for (const Card& card : deck->cards()) {
-            const bool both = card.keyword.find("TEMPERATURE-DISPLACEMENT") != std::string::npos;
-            heat = heat || both || card.keyword == "HEATTRANSFER";
-            motion = motion || both || card.keyword == "STATIC" || card.keyword == "DYNAMIC" ||
-                     card.keyword == "FREQUENCY" || card.keyword == "BUCKLE" || card.keyword == "VISCO";
-        }
-    std::vector<int> out;
-    if (motion || !heat) out = {1, 2, 3};
-    if (heat) out.push_back(11);
-    return out;
-}
-
 bool is_made(const Card& card) {
     return card.keyword == "EQUATION" && card.text.front().text.substr(card.head).starts_with(mark);
 }
@@ -81,7 +65,7 @@ std::string pyramid_ties(const Mesh& mesh) {
     const BoundNodes bound(mesh);
     std::string out;
     for (const auto& [middle, edge] : edges)
-        for (const int freedom : freedoms_of(mesh)) {
+        for (const int freedom : computed_freedoms(mesh)) {
             if (bound.contains(mesh.node_ids[middle], freedom)) continue;
             const auto term = [&](Index node, const char* factor) {
                 return std::to_string(mesh.node_ids[node]) + ", " + std::to_string(freedom) + ", " + factor;

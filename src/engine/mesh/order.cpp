@@ -17,20 +17,51 @@ CellType with_middles(CellType type) {
     return type;
 }
 
-/// Gives elements the type `type_of(type)` and the nodes `nodes_of(mesh, block, cell)`; facets and groups follow.
-void retype(Mesh& mesh, auto type_of, auto nodes_of) {
+/// Gives elements the type `type_of(type, cell)` and the nodes `nodes_of(mesh, block, cell)`; facets and groups follow.
+/// Returns where elements are now.
+std::array<std::vector<Index>, cell_type_count> retype(Mesh& mesh, auto type_of, auto nodes_of) {
     Mesh old = mesh;
     std::array<std::vector<Index>, cell_type_count> place;
     for (CellBlock& b : mesh.blocks()) b = CellBlock{b.type, {}, {}, {}};
     for (const CellBlock& b : old.blocks())
         for (Index c = 0; c < b.size(); ++c)
             place[static_cast<int>(b.type)].push_back(
-                mesh.add_cell(type_of(b.type), nodes_of(old, b, c), b.ids[c], b.families[c]));
+                mesh.add_cell(type_of(b.type, c), nodes_of(old, b, c), b.ids[c], b.families[c]));
     for (Facet& f : mesh.facets) {
-        f.cell = place[static_cast<int>(f.type)][f.cell];
-        f.type = type_of(f.type);
+        const CellRef was{f.type, f.cell};
+        f.cell = place[static_cast<int>(was.type)][was.cell];
+        f.type = type_of(was.type, was.cell);
     }
+    return place;
 }
+
+/// New mid-side nodes where there are none.
+class Middles {
+public:
+    Middles(Mesh& mesh, Index number) : mesh_(mesh), known_(middles_of(mesh)), number_(number) {}
+
+    Index at(Index a, Index b) {
+        const auto [found, fresh] = known_.emplace(mesh_edge_key(a, b), mesh_.node_count());
+        if (!fresh) return found->second;
+        std::vector<GroupIndex> both;
+        const auto of_a = mesh_.families.groups(mesh_.node_families[a]),
+                   of_b = mesh_.families.groups(mesh_.node_families[b]);
+        std::ranges::set_intersection(of_a, of_b, std::back_inserter(both));
+        FamilyIndex family = 0;
+        for (const GroupIndex g : both) family = mesh_.families.with(family, g);
+        made_.push_back({number_, mesh_.node_ids[a], mesh_.node_ids[b]});
+        return mesh_.add_node((mesh_.points[a] + mesh_.points[b]) / 2, number_++, family);
+    }
+
+    const std::unordered_map<std::uint64_t, Index>& known() const { return known_; }
+    std::vector<std::array<Index, 3>>& made() { return made_; }
+
+private:
+    Mesh& mesh_;
+    std::unordered_map<std::uint64_t, Index> known_;
+    Index number_;
+    std::vector<std::array<Index, 3>> made_;
+};
 
 }  // namespace
 
@@ -48,26 +79,47 @@ bool is_second_order(const Mesh& mesh) {
 }
 
 Mesh to_second_order(const Mesh& mesh) {
-    Mesh out = mesh;
-    std::unordered_map<std::uint64_t, Index> middles = middles_of(mesh);
-    Index number = mesh.largest_node_id();
-    const auto middle = [&](Index a, Index b) {
-        const auto [found, fresh] = middles.emplace(mesh_edge_key(a, b), out.node_count());
-        if (!fresh) return found->second;
-        std::vector<GroupIndex> both;
-        const auto of_a = out.families.groups(out.node_families[a]), of_b = out.families.groups(out.node_families[b]);
-        std::ranges::set_intersection(of_a, of_b, std::back_inserter(both));
-        FamilyIndex family = 0;
-        for (const GroupIndex g : both) family = out.families.with(family, g);
-        return out.add_node((out.points[a] + out.points[b]) / 2, ++number, family);
+    std::array<std::vector<char>, cell_type_count> all;
+    for (const CellBlock& b : mesh.blocks()) all[static_cast<int>(b.type)].assign(b.ids.size(), 1);
+    return to_second_order(mesh, all, mesh.largest_node_id() + 1).mesh;
+}
+
+RaisedOrder to_second_order(const Mesh& mesh, const std::array<std::vector<char>, cell_type_count>& chosen,
+                            Index number) {
+    RaisedOrder out;
+    out.mesh = mesh;
+    Middles middles(out.mesh, number);
+    const auto type_of = [&](CellType type, Index c) {
+        return chosen[static_cast<int>(type)][static_cast<std::size_t>(c)] ? with_middles(type) : type;
     };
-    retype(out, with_middles, [&](const Mesh&, const CellBlock& b, Index c) {
+    const auto place = retype(out.mesh, type_of, [&](const Mesh&, const CellBlock& b, Index c) {
         const auto n = b.nodes(c);
         std::vector<Index> nodes(n.begin(), n.end());
-        if (const CellType type = with_middles(b.type); type != b.type)
-            for (const auto& e : traits(type).edges) nodes.push_back(middle(n[e[0]], n[e[1]]));
+        if (const CellType type = type_of(b.type, c); type != b.type)
+            for (const auto& e : traits(type).edges) nodes.push_back(middles.at(n[e[0]], n[e[1]]));
         return nodes;
     });
+    out.made = std::move(middles.made());
+    std::unordered_map<std::uint64_t, Index> rim;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        for (Index c = 0; c < b.size(); ++c) {
+            const CellType type = type_of(b.type, c);
+            if (type != b.type) {
+                out.before.push_back({b.type, c});
+                out.after.push_back({type, place[static_cast<int>(b.type)][static_cast<std::size_t>(c)]});
+            } else if (!t.quadratic && t.dimension > 0) {
+                for (const auto& e : t.edges)
+                    if (const auto found = middles.known().find(mesh_edge_key(b.nodes(c)[e[0]], b.nodes(c)[e[1]]));
+                        found != middles.known().end())
+                        rim.insert(*found);
+            }
+        }
+    }
+    const auto number_of = [&](std::uint64_t node) { return out.mesh.node_ids[node]; };
+    for (const auto& [key, middle] : rim)
+        out.on_rim.push_back({out.mesh.node_ids[middle], number_of(key >> 32), number_of(key & 0xffffffffu)});
+    std::ranges::sort(out.on_rim);
     return out;
 }
 
@@ -88,7 +140,7 @@ Mesh to_first_order(const Mesh& mesh) {
         if (is_corner[n] || !is_used[n])
             place[n] = out.add_node(mesh.points[n], mesh.node_ids[n], mesh.node_families[n]);
     retype(
-        out, [](CellType type) { return traits(type).linear; },
+        out, [](CellType type, Index) { return traits(type).linear; },
         [&](const Mesh&, const CellBlock& b, Index c) {
             std::vector<Index> nodes;
             for (const Index n : b.nodes(c).first(static_cast<std::size_t>(traits(b.type).corners)))

@@ -356,18 +356,21 @@ void Account::join_refinement(const Rebuilt& rebuilt) {
     });
 }
 
+void describe_drift(const DriftGauge& gauge, const std::vector<bool>& drifting, const BandMesh& now, const Mesh& before,
+                    Report& report) {
+    const std::vector<double> drift = gauge.drift(now, before);
+    for_each_record(before, report, [&](std::size_t g, GroupRecord& r) {
+        if (!drifting[g]) return;
+        r.boundary_kept = false;
+        r.boundary_drift = drift[g];
+    });
+}
+
 /// Of groups whose boundary was not kept, how far it went; and of node groups, whose boundary was but for shortcuts,
 /// how far those did.
 void Account::describe_drift(const Workpiece& f) {
     const Mesh& before = edit_.mesh();
-    if (gauge_) {
-        const std::vector<double> drift = gauge_->drift(f.d.band, before);
-        for_each_record(before, report_, [&](std::size_t g, GroupRecord& r) {
-            if (!drifting_[g]) return;
-            r.boundary_kept = false;
-            r.boundary_drift = drift[g];
-        });
-    }
+    if (gauge_) femscalpel::describe_drift(*gauge_, drifting_, f.d.band, before, report_);
     if (const std::vector<bool>& meaningless = edit_.meaningless(); !meaningless.empty())
         for_each_record(before, report_,
                         [&](std::size_t g, GroupRecord& r) { r.boundary_kept = r.boundary_kept && !meaningless[g]; });

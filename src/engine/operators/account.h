@@ -55,4 +55,9 @@ private:
     Report report_;
 };
 
+/// Of groups that may drift (drifting_groups()), that their boundary was not kept, and how far it went: `gauge` is of
+/// the band before.
+void describe_drift(const DriftGauge& gauge, const std::vector<bool>& drifting, const BandMesh& now, const Mesh& before,
+                    Report& report);
+
 }  // namespace femscalpel

@@ -14,8 +14,10 @@
 #include "cutting/removal.h"
 #include "cutting/retry.h"
 #include "cutting/snap.h"
+#include "deck/solver_sets.h"
 #include "deformation/deformation.h"
 #include "operators/driver.h"
+#include "operators/raise_order.h"
 #include "tools/cylinder.h"
 
 namespace femscalpel {
@@ -220,6 +222,7 @@ public:
 
     bool cut(Workpiece& f, const Site& site) override {
         f.warnings.insert(f.warnings.end(), warnings_.begin(), warnings_.end());
+        warn_of_springs(f, site.mesh);
         if (options_.method == Method::snap)
             cut_soundly(
                 f, [&](Workpiece& g) { carve_once(g, site); }, site.whole.cell_count(), carve_attempts);
@@ -247,6 +250,18 @@ private:
         out.reserve(blades_.size());
         for (const Blade& blade : blades_) out.push_back(blade.tool);
         return out;
+    }
+
+    /// Of those that go because one end does.
+    static void warn_of_springs(Workpiece& f, const Mesh& mesh) {
+        const std::vector<char> whole = families_of_whole_elements(mesh);
+        const auto count = std::ranges::count_if(f.deep_inside, [&](const CellRef& c) {
+            return traits(c.type).dimension == 1 && !whole.empty() && whole[mesh.block(c.type).families[c.cell]];
+        });
+        if (count > 0)
+            f.warnings.push_back(
+                std::to_string(count) +
+                " spring(s), dashpot(s) or gap(s) end inside what is removed, and are removed with it");
     }
 
     void warn_of_empty_walls(Workpiece& f, const Opening& walls) const {
@@ -338,7 +353,7 @@ double Body::depth(const Vec3& x) const {
 Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options,
              const std::array<const char*, 4>& sets, const Prepared& prepared) {
     Carve recipe(kind, bodies, options, sets);
-    return perform(recipe, input, options, prepared);
+    return with_order_raised(input, perform(recipe, input, options, prepared), options);
 }
 
 }  // namespace femscalpel

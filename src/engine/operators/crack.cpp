@@ -21,6 +21,7 @@
 #include "deformation/relaxation.h"
 #include "operators/crack_faces.h"
 #include "operators/driver.h"
+#include "operators/raise_order.h"
 #include "tools/face.h"
 
 namespace femscalpel {
@@ -287,7 +288,7 @@ Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, c
     if (!options.within)
         if (auto between = crack_between_elements(input, tool, options, prepared)) return std::move(*between);
     Crack recipe(tool, options);
-    return perform(recipe, input, options, prepared);
+    return with_order_raised(input, perform(recipe, input, options, prepared), options);
 }
 
 }  // namespace femscalpel

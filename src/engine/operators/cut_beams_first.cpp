@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/cut_beams_first.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "cutting/split_beams.h"
 #include "deck/mark_deck.h"
 #include "operators/simplify_first.h"
@@ -16,8 +19,9 @@ std::optional<BeamsCut> cut_beams_first(const Mesh& mesh, std::span<const Blade>
     DeckMarks own;
     if (!known.marks) own = mark_deck(mesh);
     const DeckMarks& marks = known.marks ? *known.marks : own;
-    out.divided =
-        with_parts(mesh, split_beams(marks.mesh ? *marks.mesh : mesh, cuts, next_numbers(mesh)), marks, known);
+    Simplified parts = split_beams(marks.mesh ? *marks.mesh : mesh, cuts, next_numbers(mesh));
+    std::ranges::copy(parts.stops, std::back_inserter(out.stops));
+    out.divided = with_parts(mesh, std::move(parts), marks, known);
     return out;
 }
 

@@ -22,6 +22,32 @@ void add_front(const Opening& opening, const std::string& name, Rebuilt& rebuilt
     }
 }
 
+/// Adds mid-side nodes that segments or points end in, with the ends of their edges, which they follow: what hangs on
+/// them has to stay with the material.
+void add_attached_middles(const Mesh& mesh, std::vector<Index>& pinned) {
+    std::vector<char> ends(mesh.points.size(), 0);
+    bool any = false;
+    for (const CellType type : {CellType::vertex, CellType::line, CellType::line3})
+        for (Index c = 0; c < mesh.block(type).size(); ++c)
+            for (const Index n : mesh.block(type).nodes(c).first(static_cast<std::size_t>(traits(type).corners)))
+                ends[n] = 1, any = true;
+    if (!any) return;
+    const std::size_t before = pinned.size();
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (!t.quadratic || t.dimension < 2) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (std::size_t e = 0; e < t.edges.size(); ++e)
+                if (const Index middle = n[static_cast<std::size_t>(t.corners) + e]; ends[middle])
+                    pinned.insert(pinned.end(), {middle, n[t.edges[e][0]], n[t.edges[e][1]]});
+        }
+    }
+    if (pinned.size() == before) return;
+    std::ranges::sort(pinned);
+    pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
+}
+
 }  // namespace
 
 Edit::Edit(const Mesh& input, const Prepared& known) : input_(input), known_(known) {
@@ -73,6 +99,7 @@ ConstraintOptions Edit::constraints() const {
     out.kept_hidden = marks_->kept;
     out.whole = families_of_whole_elements(mesh());
     out.pinned = in_part(marks_->pinned);
+    add_attached_middles(mesh(), out.pinned);
     out.related = in_part(marks_->related);
     return out;
 }

@@ -27,6 +27,7 @@
 #include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
 #include "operators/fillet_vertex.h"
+#include "operators/raise_order.h"
 #include "operators/seven_nodes.h"
 #include "operators/weld_first.h"
 
@@ -485,12 +486,12 @@ Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletO
         Result result = run(weld.mesh(), whole, weld.known());
         if (weld.finish(result, options.strict)) {
             keep(result);
-            return as_asked(std::move(result));
+            return as_asked(with_order_raised(mesh, std::move(result), whole));
         }
     }
     Result result = run(mesh, options, prepared);
     if (!options.band_only) keep(result);
-    return result;
+    return with_order_raised(mesh, std::move(result), options);
 }
 
 }  // namespace femscalpel

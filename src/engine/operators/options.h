@@ -49,10 +49,13 @@ struct OperatorOptions {
     const CadShape* skin = nullptr;
     bool strict = false;  ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
     /// The result's mesh is only the elements near the tool, as the whole operation would make them: same numbers,
-    /// coordinates, groups. The report is that of the whole operation, but for what carrying the solver's input over
-    /// has to say; the mesh has none. For previews: costs the band and a pass over the mesh that finds it.
+    /// coordinates, groups; without what was refined or converted farther off. The report is that of the whole
+    /// operation, but for what carrying the solver's input over has to say; the mesh has none. For previews: costs the
+    /// band and a pass over the mesh that finds it.
     bool band_only = false;
     RefineFirst refine;
+    /// What is made of first-order solids becomes second order, with a ring of elements around (raise_order.h).
+    bool second_order = false;
 };
 
 }  // namespace femscalpel

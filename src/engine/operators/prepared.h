@@ -18,7 +18,7 @@ struct Prepared {
     const Adjacency* adjacency = nullptr;
     const FamilyTotals* totals = nullptr;  ///< of the marked mesh, if `marks` have one
     const DeckMarks* marks = nullptr;
-    /// Numbers of nodes that an operation's tool passes so near by that beams are cut in them (BeamCuts::stops).
+    /// Numbers of nodes in which an operation's tools cut beams: where these were divided, and BeamCuts::stops.
     std::vector<std::int64_t> beam_stops = {};
     /// Where an operation adds what it changed, step by step, for a caller who carries the solver's input over himself
     /// and takes the hidden groups away.

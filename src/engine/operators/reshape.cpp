@@ -229,6 +229,9 @@ Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOption
     edit.start_copy();
     std::vector<std::array<Index, 3>> following;
     Workpiece f = band_of(edit, options, covered, following, motion);
+    const std::vector<bool> drifting = drifting_groups(mesh, options.preserve);
+    std::optional<DriftGauge> gauge;
+    if (options.preserve) gauge.emplace(f.d.band, mesh, drifting);
     const Wall wall = release_wall(f, covered, following);
     go_on_beside(f, wall);
     find_tools(f, wall, motion);
@@ -247,6 +250,7 @@ Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOption
     add_middles(f, wall, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
     recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
     Result result{{}, report_of(edit, options, f, edited)};
+    if (gauge) describe_drift(*gauge, drifting, f.d.band, mesh, result.report);
     result.mesh = std::move(edited.rebuilt.mesh);
     if (known.stages)
         known.stages->push_back(std::move(edited.rebuilt.changes));

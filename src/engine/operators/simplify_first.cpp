@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "cutting/locate.h"
@@ -58,15 +60,18 @@ std::vector<PyramidRule> pyramid_rules(const Mesh& mesh, const DeckMarks& marks)
     return rules;
 }
 
+constexpr std::string_view stiff_tetrahedra =
+    " first-order hexahedra, prisms or pyramids near the tool became first-order tetrahedra, which are stiffer in "
+    "bending";
+
 /// What solvers make of it.
 std::vector<std::string> warnings_about(const Simplified& simplified) {
     Index stiff = 0;
     for (const CellType type : {CellType::hexahedron, CellType::wedge, CellType::pyramid})
         stiff += simplified.converted[static_cast<int>(type)];
     if (stiff == 0) return {};
-    return {std::to_string(stiff) +
-            " first-order hexahedra, prisms or pyramids near the tool became first-order tetrahedra, which are stiffer "
-            "in bending; meshes of second order have no such weakness"};
+    return {std::to_string(stiff) + std::string(stiff_tetrahedra) +
+            "; meshes of second order have no such weakness, nor has the option second_order with a CalculiX deck"};
 }
 
 Report report_of(const Mesh& before, const FamilyTotals& totals, const Simplified& simplified) {
@@ -141,6 +146,8 @@ Refined with_parts(const Mesh& mesh, Simplified simplified, const DeckMarks& mar
     remove_marks(out.mesh);
     return out;
 }
+
+bool is_about_stiffness(const std::string& warning) { return warning.find(stiff_tetrahedra) != std::string::npos; }
 
 void add_conversion(const Refined& converted, bool strict, Report& report) {
     const Report& first = converted.report;

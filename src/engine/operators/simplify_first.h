@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cutting/simplify.h"
@@ -30,6 +31,9 @@ std::optional<Refined> simplify_first(const Mesh& mesh, const DistanceField& dis
 
 /// What became of some elements of `mesh`, or of its copy with marks, with the solver's input carried over.
 Refined with_parts(const Mesh& mesh, Simplified parts, const DeckMarks& marks, const Prepared& known);
+
+/// Whether a warning of a conversion says that first-order tetrahedra are stiff.
+bool is_about_stiffness(const std::string& warning);
 
 /// Makes the report of what was done to what a conversion made one of both.
 void add_conversion(const Refined& converted, bool strict, Report& report);

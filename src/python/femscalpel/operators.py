@@ -145,7 +145,7 @@ def drill(mesh: Mesh, tools: Union[Tool, Sequence[Tool]], depth: Optional[float]
         ``name_WALL1``, ...; ``name_BOTTOM`` of blind holes.
     method : {"snap", "deform"}
         "deform" (the paper, 3.2) moves nodes only, and is for a single through hole.
-    transition, feature_angle, strict, preserve, band_only, refine, skin
+    transition, feature_angle, strict, preserve, band_only, refine, skin, second_order
         As for :func:`crack`.
     depth : number, optional
         Blind holes with a flat bottom: all material is removed from afar up to this far beyond the cylinder's origin
@@ -200,7 +200,7 @@ def fillet(mesh: Mesh, along: Union[str, Sequence, np.ndarray], radius: float, *
     name : str
         Prefix of the new groups: ``name_FACE``, the triangles (segments, in a plane mesh) of the new face, normals out
         of the material; ``name_END``, those of flat faces in which it stops at corners.
-    method, transition, feature_angle, strict, preserve, band_only, refine, skin
+    method, transition, feature_angle, strict, preserve, band_only, refine, skin, second_order
         As for :func:`crack`; `feature_angle` also says what is an edge.
 
     Returns
@@ -302,7 +302,7 @@ def cut(
         middle plane (of `tool` and `other`), normals out of the material, and ``name_BOTTOM``.
     method : {"snap"}
         "deform" is for a single surface only.
-    transition, feature_angle, strict, preserve, band_only, refine, skin
+    transition, feature_angle, strict, preserve, band_only, refine, skin, second_order
         As for :func:`crack`.
 
     Returns

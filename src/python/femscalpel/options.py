@@ -155,9 +155,9 @@ OPTIONS = (
         False,
         "bool",
         "For previews: the result's mesh is only the elements near the tool, exactly as the whole operation would make "
-        "them, with their numbers, coordinates and groups. The report is that of the whole operation, but without what "
-        "carrying a CalculiX deck over has to say. With a :class:`Scalpel` this costs little more than the elements "
-        "near the tool.",
+        "them, with their numbers, coordinates and groups (what was refined or converted farther off is left out). The "
+        "report is that of the whole operation, but without what carrying a CalculiX deck over has to say. With a "
+        ":class:`Scalpel` this costs little more than the elements near the tool.",
         bool,
         lambda value: _arguments.flag(value, "band_only"),
     ),
@@ -183,6 +183,16 @@ OPTIONS = (
         "whatever their angle. What of the skin lies on no face of the shape is kept as it is, with a warning.",
         ShapeOption,
         check_skin,
+    ),
+    Option(
+        "second_order",
+        False,
+        "bool",
+        "Of hexahedra, prisms and pyramids of first order in a CalculiX deck: what a crack, a hole or a cut makes of "
+        "them, tetrahedra that would be stiffer in bending, becomes second order, with one ring of elements around, "
+        "and an ``*EQUATION`` card keeps the edges straight where elements of first order are beside these.",
+        bool,
+        lambda value: _arguments.flag(value, "second_order"),
     ),
 )
 

@@ -21,6 +21,7 @@ void NodalRule::end_carrying(Carrying& carrying) {
         const auto& nodes = carrying.origins().nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             check_cancelled();
+            if (nodes[k].spans && !is_along_beams()) continue;
             const Values wanted = wanted_values(pool, carrying, k);
             if (wanted.empty()) continue;
             const Values given = values_of(pool, carrying.after(), false, carrying.new_numbers(), nodes[k].number);

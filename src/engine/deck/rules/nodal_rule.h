@@ -30,6 +30,9 @@ protected:
     /// The lines that give node `number` what is `wanted` where it is not `given` yet.
     virtual std::vector<std::string> lines(Index number, const Values& wanted, const Values& given) const = 0;
 
+    /// Whether new nodes of beams have what both ends have, in between.
+    virtual bool is_along_beams() const { return true; }
+
     /// Whether a value is there, but for rounding.
     static bool has(const Values& given, int key, double value);
     static bool has_all(const Values& given, const Values& wanted);

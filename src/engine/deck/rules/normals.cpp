@@ -2,6 +2,9 @@
 #include "deck/rules/normals.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
+#include <set>
 
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
@@ -22,7 +25,9 @@ void Normals::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
 }
 
 void Normals::carry(std::size_t c, const Card& card, Carrying& carrying) {
-    for (const Line& l : read(card)) {
+    const std::vector<Line> lines = read(card);
+    add_between(c, lines, carrying);
+    for (const Line& l : lines) {
         if (!carrying.had_element(l.element)) continue;
         const std::vector<std::pair<Index, Index>> now = images(l, carrying);
         if (now == std::vector<std::pair<Index, Index>>{{l.element, l.node}}) continue;
@@ -35,6 +40,44 @@ void Normals::carry(std::size_t c, const Card& card, Carrying& carrying) {
             edits.add_after(l.line,
                             std::to_string(part) + ", " + std::to_string(image) + "," + std::string(l.line.rest()));
     }
+}
+
+/// Lines for the nodes of a divided beam that none of its lines names.
+void Normals::add_between(std::size_t c, const std::vector<Line>& lines, Carrying& carrying) {
+    struct End {
+        Vec3 at, normal;
+    };
+    std::map<Index, std::vector<End>> ends;  // by element
+    std::map<Index, const Line*> last;
+    std::set<std::pair<Index, Index>> named;
+    const Mesh& before = carrying.before();
+    for (const Line& l : lines) {
+        const auto cell = carrying.old().numbers().cell(l.element);
+        const auto node = carrying.old().numbers().node(l.node);
+        if (!cell || !node || traits(cell->type).dimension != 1 || !carrying.has_further_parts(l.element)) continue;
+        CardReader rest = l.line;
+        Vec3 normal;
+        if (!rest.number(normal[0]) || !rest.number(normal[1]) || !rest.number(normal[2])) continue;
+        ends[l.element].push_back({before.points[*node], normal.normalized()});
+        last[l.element] = &l;
+        for (const auto& image : images(l, carrying)) named.insert(image);
+    }
+    const Mesh& after = carrying.after();
+    for (const auto& [element, given] : ends)
+        for (const Index part : carrying.parts_of(element)) {
+            const CellRef cell = *carrying.new_numbers().cell(part);
+            for (const Index n : after.block(cell.type).nodes(cell.cell)) {
+                if (named.contains({part, after.node_ids[n]})) continue;
+                Vec3 sum = Vec3::Zero();
+                for (const End& end : given) sum += end.normal / std::max((after.points[n] - end.at).norm(), 1e-300);
+                if (sum.isZero(0)) continue;
+                sum.normalize();
+                char text[96];
+                std::snprintf(text, sizeof text, ",%.12g,%.12g,%.12g", sum[0], sum[1], sum[2]);
+                carrying.edits(c).add_after(last.at(element)->line,
+                                            std::to_string(part) + ", " + std::to_string(after.node_ids[n]) + text);
+            }
+        }
 }
 
 /// Parts of the element, and the node or copy of it that each has.

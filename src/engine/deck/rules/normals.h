@@ -9,7 +9,8 @@
 namespace femscalpel {
 
 /// *NORMAL: element, node, direction. The node does not move; every part of the element that has the node or a copy of
-/// it gets the normal there.
+/// it gets the normal there. New nodes of beams, which have no shape to get one from, get one between those of the
+/// ends.
 class Normals : public CardRule {
 public:
     bool takes(const Card& card) const override { return card.keyword == "NORMAL"; }
@@ -23,6 +24,7 @@ private:
     };
     static std::vector<Line> read(const Card& card);
     static std::vector<std::pair<Index, Index>> images(const Line& line, const Carrying& carrying);
+    static void add_between(std::size_t c, const std::vector<Line>& lines, Carrying& carrying);
 };
 
 }  // namespace femscalpel

@@ -12,14 +12,17 @@
 namespace femscalpel {
 namespace {
 
+/// Of an entity: digits that fit an Index.
+bool is_number(const std::string& text) {
+    return !text.empty() && text.size() <= 18 && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// Name and value of the parameters of a card that are reference nodes.
 std::vector<std::pair<std::string, Index>> nodes_of(const Card& card) {
     std::vector<std::pair<std::string, Index>> out;
     const auto look = [&](std::string_view parameter, std::string_view written) {
         const std::string* value = card.parameter(parameter);
-        if (!value || value->empty() || !std::ranges::all_of(*value, [](char c) { return c >= '0' && c <= '9'; }))
-            return;
-        if (value->size() <= 18) out.emplace_back(written, std::stoll(*value));
+        if (value && is_number(*value)) out.emplace_back(written, std::stoll(*value));
     };
     if (card.keyword == "PRE-TENSIONSECTION") {
         look("NODE", "NODE");
@@ -52,6 +55,15 @@ void ReferenceNodes::carry(std::size_t c, const Card& card, Carrying& carrying) 
         else if (carrying.origins().is_doubled(node))
             tell("the crack doubled; " + parameter + " stays the original, on the negative side");
     }
+    const std::string* element = card.keyword == "PRE-TENSIONSECTION" ? card.parameter("ELEMENT") : nullptr;
+    if (!element || !is_number(*element)) return;
+    const Index number = std::stoll(*element);
+    if (!carrying.had_element(number)) return;
+    const std::vector<Index> parts = carrying.parts_of(number);
+    if (parts != std::vector<Index>{number})
+        carrying.remarks().add(c, Weight::problem, card.where() + ": ", the_element(number),
+                               parts.empty() ? "was removed; give another ELEMENT"
+                                             : "was divided; the pre-tension stays with its first part");
 }
 
 }  // namespace femscalpel

@@ -15,6 +15,7 @@ public:
 protected:
     std::optional<Values> read_values(CardReader& line, const Card& card, Remarks& remarks) const override;
     std::vector<std::string> lines(Index number, const Values& wanted, const Values& given) const override;
+    bool is_along_beams() const override { return false; }
 };
 
 }  // namespace femscalpel

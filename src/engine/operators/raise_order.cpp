@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "operators/raise_order.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "cutting/numbering.h"
+#include "cutting/simplify.h"
+#include "deck/bound_nodes.h"
+#include "deck/carry_over.h"
+#include "deck/mark_deck.h"
+#include "deck/model_end.h"
+#include "mesh/order.h"
+#include "operators/simplify_first.h"
+
+namespace femscalpel {
+namespace {
+
+using Chosen = std::array<std::vector<char>, cell_type_count>;
+
+/// The tetrahedra and pyramids of first order whose numbers the input has not, or has for others.
+std::vector<CellRef> converted_ones(const Mesh& input, const Mesh& mesh) {
+    const NumberIndex numbers(input);
+    std::vector<CellRef> out;
+    for (const CellType type : {CellType::tetra, CellType::pyramid}) {
+        const CellBlock& b = mesh.block(type);
+        for (Index c = 0; c < b.size(); ++c)
+            if (const auto was = numbers.cell(b.ids[c]); !was || was->type != type) out.push_back({type, c});
+    }
+    return out;
+}
+
+/// Elements with a node of some, and what has all its nodes in one of these, if of first order.
+Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
+    std::vector<char> near(mesh.points.size(), 0), in(mesh.points.size(), 0);
+    for (const CellRef& c : some)
+        for (const Index n : mesh.block(c.type).nodes(c.cell)) near[n] = 1;
+    Chosen out;
+    for (const CellBlock& b : mesh.blocks()) {
+        std::vector<char>& list = out[static_cast<int>(b.type)];
+        list.assign(b.ids.size(), 0);
+        if (traits(b.type).dimension < 3 || traits(b.type).quadratic) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            if (std::ranges::none_of(n, [&](Index v) { return near[v] != 0; })) continue;
+            list[static_cast<std::size_t>(c)] = 1;
+            for (const Index v : n) in[v] = 1;
+        }
+    }
+    // Faces and edges of solids that all belong to those.
+    std::vector<char> elsewhere(mesh.points.size(), 0);
+    for (const CellBlock& b : mesh.blocks())
+        if (traits(b.type).dimension == 3)
+            for (Index c = 0; c < b.size(); ++c)
+                if (!out[static_cast<int>(b.type)][static_cast<std::size_t>(c)])
+                    for (const Index v : b.nodes(c)) elsewhere[v] = 1;
+    for (const CellBlock& b : mesh.blocks()) {
+        const CellTraits& t = traits(b.type);
+        if (t.dimension < 1 || t.dimension > 2 || t.quadratic) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            const bool on_them = std::ranges::all_of(n, [&](Index v) { return in[v] != 0; }) &&
+                                 std::ranges::any_of(n, [&](Index v) { return elsewhere[v] == 0; });
+            out[static_cast<int>(b.type)][static_cast<std::size_t>(c)] = on_them;
+        }
+    }
+    return out;
+}
+
+/// Nodes on edges between the orders, in the middle of these.
+void add_equations(Mesh& mesh, const std::vector<std::array<Index, 3>>& on_rim) {
+    const BoundNodes bound(mesh);
+    std::string text;
+    for (const auto& [middle, a, b] : on_rim)
+        for (const int freedom : computed_freedoms(mesh)) {
+            if (bound.contains(middle, freedom)) continue;
+            const auto term = [&](Index node, const char* factor) {
+                return std::to_string(node) + ", " + std::to_string(freedom) + ", " + factor;
+            };
+            text += "3\n" + term(middle, "1.") + ", " + term(a, "-0.5") + ", " + term(b, "-0.5") + "\n";
+        }
+    if (text.empty()) return;
+    auto deck = std::make_shared<SolverInput>(*solver_input(mesh));
+    std::vector<Card> cards(1);
+    cards[0].set_text("*EQUATION\n** straight edges between elements of second and of first order\n" + text);
+    add_to_model(*deck, std::move(cards));
+    mesh.companion = std::move(deck);
+}
+
+/// The second report's groups have what the first's had before.
+void join(Report& report, const Refined& raised, bool strict) {
+    report.nodes_added += raised.report.nodes_added;
+    report.nodes_split += raised.report.nodes_added;
+    for (GroupRecord& r : report.groups)
+        for (const GroupRecord& now : raised.report.groups)
+            if (now.name == r.name && now.kind == r.kind) {
+                r.count_after = now.count_after;
+                r.measure_after = now.measure_after;
+                if (r.status == "untouched" && r.count_after != r.count_before) r.status = now.status;
+            }
+    std::ranges::move(warnings_of(raised.trace.deck, strict), std::back_inserter(report.warnings));
+}
+
+}  // namespace
+
+Result with_order_raised(const Mesh& input, Result result, const OperatorOptions& options) {
+    if (!options.second_order || options.band_only || result.report.converted.empty()) return result;
+    const std::vector<CellRef> converted = converted_ones(input, result.mesh);
+    if (converted.empty()) return result;
+    if (!solver_input(result.mesh))
+        throw ToolError(
+            "second_order needs the mesh of a CalculiX deck: an *EQUATION card has to tie the new nodes where elements "
+            "of first order are beside them",
+            "second_order");
+    const DeckMarks marks = mark_deck(result.mesh);
+    const Mesh& marked = marks.mesh ? *marks.mesh : result.mesh;
+    RaisedOrder raised = to_second_order(marked, with_a_ring(marked, converted), next_numbers(marked).node);
+    Simplified parts;
+    parts.mesh = std::move(raised.mesh);
+    parts.before = std::move(raised.before);
+    parts.after = std::move(raised.after);
+    parts.nodes_added = static_cast<Index>(raised.made.size());
+    for (const auto& [node, a, b] : raised.made)
+        parts.changes.born.push_back({node, {std::min(a, b), std::max(a, b)}, {{a, 0.5}, {b, 0.5}}});
+    Refined out = with_parts(result.mesh, std::move(parts), marks, {});
+    add_equations(out.mesh, raised.on_rim);
+    std::erase_if(result.report.warnings, is_about_stiffness);
+    join(result.report, out, options.strict);
+    result.mesh = std::move(out.mesh);
+    return result;
+}
+
+}  // namespace femscalpel
