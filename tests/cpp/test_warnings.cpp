@@ -178,18 +178,20 @@ TEST(WarnOfEmptiedGroups, ButNotOfThoseThatMeanNothing) {
     EXPECT_THAT(warnings({false, true, false}), IsEmpty());
 }
 
-TEST(WarnOfGrowth, FromFourTimesOn) {
+TEST(CheckGrowth, FromFourTimesOn) {
     const Plane plane({0, 0, 0}, {1, 0, 0});
-    const auto warnings = [&](Index added, Index removed) {
+    const auto warnings = [&](Index added, Index removed, Index cells = 100) {
         Report report;
         report.elements_added = added;
         report.elements_removed = removed;
-        warn_of_growth(100, plane, report);
+        check_growth(cells, plane, report);
         return report.warnings;
     };
     EXPECT_THAT(warnings(301, 0), ElementsAre(HasSubstr("the mesh grows from 100 to 401 elements: the plane")));
     EXPECT_THAT(warnings(300, 0), IsEmpty());
     EXPECT_THAT(warnings(350, 50), IsEmpty());
+    EXPECT_THAT(warnings(3000, 0, 1000), IsEmpty());
+    EXPECT_THROW(warnings(3001, 0, 1000), ToolError);
 }
 
 TEST(WarnOfHeldNodes, WhereTheyAreManyAndElementsPoor) {

@@ -18,8 +18,10 @@ namespace {
 /// Part of the mesh or of a group that cutting the corners of a coarse skin may cost without a warning.
 constexpr double size_noticed = 0.005;
 
-/// A mesh that grows to more times its elements is worth a word.
+/// A mesh that grows to more times its elements is an error.
 constexpr Index most_growth = 4;
+/// One of so few elements may.
+constexpr Index small_mesh = 500;
 
 /// An element whose mean ratio fell below this part of what it was has become clearly worse.
 constexpr double clearly_worse = 0.75;
@@ -251,12 +253,16 @@ void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaning
     });
 }
 
-void warn_of_growth(Index cells, const Tool& tool, Report& report) {
+void check_growth(Index cells, const Tool& tool, Report& report) {
     const Index grown = cells + report.elements_added - report.elements_removed;
-    if (grown > most_growth * cells)
-        report.warnings.push_back("the mesh grows from " + std::to_string(cells) + " to " + std::to_string(grown) +
-                                  " elements: the " + tool.kind() +
-                                  " crosses most of them, or passes close to surfaces or borders over much of it");
+    if (grown <= most_growth * cells) return;
+    const std::string what = " from " + std::to_string(cells) + " to " + std::to_string(grown) + " elements: the " +
+                             tool.kind() +
+                             " crosses most of them, or passes close to surfaces or borders over much of it";
+    if (cells > small_mesh)
+        throw ToolError("the mesh would grow" + what + ". Turn the " + tool.kind() +
+                        ", move it, or make smaller elements first, of which it crosses fewer (refine)");
+    report.warnings.push_back("the mesh grows" + what);
 }
 
 }  // namespace femscalpel

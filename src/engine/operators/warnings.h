@@ -31,8 +31,8 @@ std::string emptied_text(const GroupRecord& record);
 /// `meaningless` ones.
 void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaningless, Report& report);
 
-/// A mesh of `cells` elements that has become many times larger.
-void warn_of_growth(Index cells, const Tool& tool, Report& report);
+/// Throws ToolError when a mesh of `cells` elements has become many times larger; a warning for small ones.
+void check_growth(Index cells, const Tool& tool, Report& report);
 
 /// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements
 /// came out poor.
