@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
-#include <string>
 #include <unordered_map>
 
 #include "cancel.h"
+#include "cutting/opening_groups.h"
 #include "deformation/curved_shape.h"
 #include "mesh/companion.h"
 
@@ -265,27 +264,7 @@ private:
 
     void write_lips(const std::vector<std::vector<std::string>>& groups) {
         Mesh& mesh = out_.mesh;
-        const GroupIndex first = static_cast<GroupIndex>(mesh.groups.size());
-        std::vector<std::vector<GroupIndex>> members;
-        std::set<std::string> of_elements, of_ends;
-        const auto note = [&](const auto& list, std::set<std::string>& names) {
-            for (const auto& one : list) names.insert(groups[one.group].begin(), groups[one.group].end());
-        };
-        note(opening_.faces, of_elements);
-        note(opening_.edges, of_elements);
-        note(opening_.ends, of_ends);
-        const auto kind_of = [&](const std::string& name) {
-            return of_ends.contains(name) && !of_elements.contains(name) ? GroupKind::node : GroupKind::element;
-        };
-        for (const auto& names : groups) {
-            members.emplace_back();
-            for (const std::string& name : names) {
-                GroupIndex g = first;
-                while (g < static_cast<GroupIndex>(mesh.groups.size()) && mesh.groups[g].name != name) ++g;
-                members.back().push_back(
-                    g < static_cast<GroupIndex>(mesh.groups.size()) ? g : mesh.add_group(name, kind_of(name)));
-            }
-        }
+        const std::vector<std::vector<GroupIndex>> members = add_opening_groups(mesh, opening_, groups);
         const auto with_groups = [&](FamilyIndex family, int face_group) {
             for (const GroupIndex g : members[face_group]) family = mesh.families.with(family, g);
             return family;

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "deck/deck_view.h"
 #include "deck/solver_element.h"
 #include "error.h"
 
@@ -237,6 +238,34 @@ DeckSetPlan plan_sets(const Mesh& mesh, const SolverInput& input, const NumberIn
 std::optional<std::size_t> set_index(const DeckSetIndex& index, const Card& card) {
     const auto set = set_of_card(card);
     return set ? index.find(set->first, set->second) : std::nullopt;
+}
+
+void put_in_order(const SolverInput& input, const DeckSetIndex& index, const DeckSetPlan& plan, std::size_t set,
+                  std::vector<Index>& nodes) {
+    std::unordered_map<Index, std::size_t> place;
+    const auto add = [&](Index node) { place.try_emplace(node, place.size()); };
+    const auto add_entry = [&](const NumberOrSet& what) {
+        if (what.is_number()) return add(what.number);
+        if (const auto named = index.find(DeckSetType::nset, what.set))
+            for (const Index node : plan.members[*named]) add(node);
+    };
+    for (const Card& card : input.cards()) {
+        if (card.keyword != "NSET" || set_index(index, card) != set) continue;
+        CardReader line(card);
+        while (const auto what = next_entry(line)) {
+            if (Index last = 0, step = 1; card.parameter("GENERATE") && line.integer(last)) {
+                if (!line.integer(step)) step = 1;
+                for (Index node = what->number; step > 0 && node <= last; node += step) add(node);
+                continue;
+            }
+            add_entry(*what);
+            for (const NumberOrSet& more : read_entries(line)) add_entry(more);
+        }
+    }
+    std::ranges::stable_sort(nodes, {}, [&](Index node) {
+        const auto found = place.find(node);
+        return found == place.end() ? place.size() : found->second;
+    });
 }
 
 }  // namespace femscalpel

@@ -44,4 +44,9 @@ DeckSetPlan plan_sets(const Mesh& mesh, const SolverInput& input, const NumberIn
 /// The set a card belongs to, if any.
 std::optional<std::size_t> set_index(const DeckSetIndex& index, const Card& card);
 
+/// Puts nodes of a set in the order in which its cards name them, which tells some of their users which are the first
+/// (*MPC); new ones behind.
+void put_in_order(const SolverInput& input, const DeckSetIndex& index, const DeckSetPlan& plan, std::size_t set,
+                  std::vector<Index>& nodes);
+
 }  // namespace femscalpel

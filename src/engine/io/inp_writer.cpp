@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <memory>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "cancel.h"
-#include "deck/deck_view.h"
 #include "deck/pyramid_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
@@ -355,37 +353,8 @@ private:
         std::ranges::sort(given);
         std::ranges::set_difference(plan_.members[s], given, std::back_inserter(rest));
         if (defined && rest.empty() && unheld.empty()) return;
-        if (set.type == DeckSetType::nset) put_in_order(s, rest);
+        if (set.type == DeckSetType::nset) put_in_order(*input_, index_, plan_, s, rest);
         write_set(set.type, set.name, rest, unheld, "", lines);
-    }
-
-    /// Nodes in the order of the cards, which tells some of their users which are the first (*MPC), then new ones.
-    void put_in_order(std::size_t s, std::vector<Index>& nodes) const {
-        std::unordered_map<Index, std::size_t> place;
-        const auto add = [&](Index node) { place.try_emplace(node, place.size()); };
-        for (const Card& card : input_->cards()) {
-            if (card.keyword != "NSET" || set_index(card) != s) continue;
-            CardReader line(card);
-            while (const auto what = next_entry(line)) {
-                if (Index last = 0, step = 1; card.parameter("GENERATE") && line.integer(last)) {
-                    if (!line.integer(step)) step = 1;
-                    for (Index node = what->number; step > 0 && node <= last; node += step) add(node);
-                    continue;
-                }
-                add_entry(*what, add);
-                for (const NumberOrSet& more : read_entries(line)) add_entry(more, add);
-            }
-        }
-        std::ranges::stable_sort(nodes, {}, [&](Index node) {
-            const auto found = place.find(node);
-            return found == place.end() ? place.size() : found->second;
-        });
-    }
-
-    void add_entry(const NumberOrSet& what, auto add) const {
-        if (what.is_number()) return add(what.number);
-        if (const auto named = index_.find(DeckSetType::nset, what.set))
-            for (const Index node : plan_.members[*named]) add(node);
     }
 
     /// Lines "set, label" of an element surface all of whose faces are still on it, and, added, what they give.
