@@ -37,7 +37,7 @@ bool holds(const DeckElementType& said, CellType type) {
 }
 
 std::string deck_label_for(std::string_view written, CellType type) {
-    const std::string label = deck_key(written);
+    std::string label = deck_key(written);
     if (const auto said = deck_element_type(written); said && said->cell == type) return label;
     const bool heat = label.starts_with("DC") || label.starts_with("DS");
     std::size_t digits = 0;
