@@ -2,7 +2,7 @@
 //
 // Time and memory of the reference crack of the design: two glued boxes, plane normal (0.9, 0.3, 0.2) through
 // (7.3, 5, 5), at 39 k, 505 k and (after `cmake --build ... --target femscalpel_large_mesh`) 2.5 M tetrahedra;
-// and of the reference holes.
+// and of the reference holes. And of a crack through hexahedra, beside the same through tetrahedra.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -72,6 +72,38 @@ void report(benchmark::State& state, const Mesh& mesh, const Report& r) {
     state.counters["band"] = static_cast<double>(r.quality_after.count);
     state.counters["min_quality"] = r.quality_after.minimum;
     state.counters["new_nodes"] = static_cast<double>(r.nodes_split);
+}
+
+/// A cube of so many hexahedra along an edge, as they are or each cut into six tetrahedra.
+Mesh cube_of(int n, bool tetrahedra) {
+    Mesh mesh;
+    const auto number = [&](int i, int j, int k) { return Index{i} + (n + 1) * (Index{j} + (n + 1) * Index{k}); };
+    for (int k = 0; k <= n; ++k)
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) mesh.add_node(Vec3(i, j, k), mesh.node_count() + 1);
+    constexpr int parts[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+    Index next = 1;
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                std::array<Index, 8> c{};
+                for (int q = 0; q < 8; ++q)
+                    c[q] = number(i + (q % 4 == 1 || q % 4 == 2 ? 1 : 0), j + q % 4 / 2, k + q / 4);
+                if (!tetrahedra) mesh.add_cell(CellType::hexahedron, c, next++);
+                for (const auto& p : parts)
+                    if (tetrahedra)
+                        mesh.add_cell(CellType::tetra, std::array<Index, 4>{c[p[0]], c[p[1]], c[p[2]], c[p[3]]},
+                                      next++);
+            }
+    return mesh;
+}
+
+/// A slanted crack through 512 k hexahedra, of which those near it are converted, or through tetrahedra of these.
+void BM_crack_cube(benchmark::State& state, bool tetrahedra) {
+    const Mesh mesh = cube_of(80, tetrahedra);
+    Report last;
+    for (auto _ : state) last = crack(mesh, Plane({40.3, 40, 40}, {0.9, 0.3, 0.2})).report;
+    report(state, mesh, last);
 }
 
 void BM_crack(benchmark::State& state, const std::string& name) {
@@ -189,6 +221,10 @@ int main(int argc, char** argv) {
             benchmark::RegisterBenchmark(("drill/" + std::string(name) + "/" + hole.name).c_str(), BM_drill, name, hole)
                 ->Unit(benchmark::kMillisecond);
     }
+    for (const bool tetrahedra : {false, true})
+        benchmark::RegisterBenchmark(tetrahedra ? "crack_cube/tetrahedra" : "crack_cube/hexahedra", BM_crack_cube,
+                                     tetrahedra)
+            ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("crack_with_groups", BM_crack_with_groups)
         ->Arg(5)
         ->Arg(500)

@@ -180,8 +180,9 @@ TEST(WarnOfEmptiedGroups, ButNotOfThoseThatMeanNothing) {
 
 TEST(CheckGrowth, FromFourTimesOn) {
     const Plane plane({0, 0, 0}, {1, 0, 0});
-    const auto warnings = [&](Index added, Index removed, Index cells = 100) {
+    const auto warnings = [&](Index added, Index removed, Index cells = 100, const char* operation = "crack") {
         Report report;
+        report.operation = operation;
         report.elements_added = added;
         report.elements_removed = removed;
         check_growth(cells, plane, report);
@@ -192,6 +193,7 @@ TEST(CheckGrowth, FromFourTimesOn) {
     EXPECT_THAT(warnings(350, 50), IsEmpty());
     EXPECT_THAT(warnings(3000, 0, 1000), IsEmpty());
     EXPECT_THROW(warnings(3001, 0, 1000), ToolError);
+    EXPECT_THAT(warnings(3001, 0, 1000, "fillet"), testing::SizeIs(1));
 }
 
 TEST(WarnOfHeldNodes, WhereTheyAreManyAndElementsPoor) {

@@ -259,7 +259,8 @@ void check_growth(Index cells, const Tool& tool, Report& report) {
     const std::string what = " from " + std::to_string(cells) + " to " + std::to_string(grown) + " elements: the " +
                              tool.kind() +
                              " crosses most of them, or passes close to surfaces or borders over much of it";
-    if (cells > small_mesh)
+    const bool cuts = report.operation == "crack" || report.operation == "drill" || report.operation == "cut";
+    if (cuts && cells > small_mesh)
         throw ToolError("the mesh would grow" + what + ". Turn the " + tool.kind() +
                         ", move it, or make smaller elements first, of which it crosses fewer (refine)");
     report.warnings.push_back("the mesh grows" + what);

@@ -31,7 +31,8 @@ std::string emptied_text(const GroupRecord& record);
 /// `meaningless` ones.
 void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaningless, Report& report);
 
-/// Throws ToolError when a mesh of `cells` elements has become many times larger; a warning for small ones.
+/// Throws ToolError when a mesh of `cells` elements has become many times larger by a crack, hole or cut; a warning for
+/// small ones, and other operations.
 void check_growth(Index cells, const Tool& tool, Report& report);
 
 /// Groups that are scattered through the material hold nodes everywhere: warns where these are many and the elements
