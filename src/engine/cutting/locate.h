@@ -23,11 +23,13 @@ struct Location {
     Index crossed = 0;              ///< triangles and tetrahedra a tool passes through
 };
 
-/// How near to a tool something lies on it: Location::tolerance and ::rounding.
+/// How near to a tool something lies on it: Location::tolerance, Location::rounding.
 struct Reach {
     double tolerance;
     double rounding;
 };
+
+/// That of a mesh.
 Reach reach_of_rounding(const Mesh& mesh);
 
 /// Measures all nodes and finds those within `levels` edges of the elements the blades touch, of segments
