@@ -107,6 +107,24 @@ def test_patch_with_a_second_order_band(tmp_path, label, jitter):
     assert largest_error(tmp_path, result.mesh, (15, 6, 5), (0, 1, 2)) < 1e-7
 
 
+def test_a_second_order_band_leaves_springs_and_beams(tmp_path):
+    """Between its nodes; of segments only those on its edges follow."""
+    points, cells = grid((20, 2, 2))
+    deck(tmp_path, points, cells, "C3D8", "*SOLID SECTION, ELSET=EALL, MATERIAL=M")
+    at = {tuple(x): n + 1 for n, x in enumerate(points.tolist())}
+    text = (tmp_path / "in.inp").read_text() + (
+        f"*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n501, {at[9, 0, 0]}, {at[8, 0, 0]}\n502, {at[9, 0, 0]}, {at[8, 2, 2]}\n"
+        "*SPRING, ELSET=SPRING\n\n1.\n"
+        f"*ELEMENT, TYPE=T3D2, ELSET=ROD\n503, {at[9, 2, 0]}, {at[7, 0, 2]}\n504, {at[9, 2, 2]}, {at[8, 2, 2]}\n"
+        "*SOLID SECTION, ELSET=ROD, MATERIAL=M\n1.\n*STEP\n*STATIC\n*END STEP\n"
+    )
+    (tmp_path / "rods.inp").write_text(text)
+    mesh = fs.read(tmp_path / "rods.inp")
+    result = fs.crack(mesh, fs.Plane((10.4, 1, 1), (1, 0.1, 0)), second_order=True)
+    assert sorted(result.mesh.cell_ids["line"]) == [501, 502, 503]
+    assert sorted(result.mesh.cell_ids["line3"]) == [504]
+
+
 def test_a_second_order_band_needs_a_deck():
     points, cells = grid((6, 3, 3))
     mesh = fs.Mesh(points, {"hexahedron": cells})

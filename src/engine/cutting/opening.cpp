@@ -332,8 +332,7 @@ private:
         if (loose > 0)
             out_.warnings.push_back(std::to_string(loose) +
                                     " segment element(s) (springs, gaps, beams in the tool) end on doubled nodes; each "
-                                    "stays on the side it lies "
-                                    "on, or on that with more elements there");
+                                    "stays on the side it lies on, or on that with more elements there");
         if (points > 0)
             out_.warnings.push_back(std::to_string(points) +
                                     " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <unordered_set>
 
 #include "cutting/numbering.h"
 #include "cutting/simplify.h"
@@ -11,6 +12,8 @@
 #include "deck/carry_over.h"
 #include "deck/mark_deck.h"
 #include "deck/model_end.h"
+#include "deck/solver_sets.h"
+#include "mesh/middles.h"
 #include "mesh/order.h"
 #include "operators/simplify_first.h"
 
@@ -31,9 +34,11 @@ std::vector<CellRef> converted_ones(const Mesh& input, const Mesh& mesh) {
     return out;
 }
 
-/// Elements with a node of some, and what has all its nodes in one of these, if of first order.
+/// Elements with a node of some, and what lies on their faces and edges, if of first order. Springs are whole, and
+/// beams from node to node their own.
 Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
-    std::vector<char> near(mesh.points.size(), 0), in(mesh.points.size(), 0);
+    std::vector<char> near(mesh.points.size(), 0);
+    std::unordered_set<std::uint64_t> edges;
     for (const CellRef& c : some)
         for (const Index n : mesh.block(c.type).nodes(c.cell)) near[n] = 1;
     Chosen out;
@@ -45,7 +50,7 @@ Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
             const auto n = b.nodes(c);
             if (std::ranges::none_of(n, [&](Index v) { return near[v] != 0; })) continue;
             list[static_cast<std::size_t>(c)] = 1;
-            for (const Index v : n) in[v] = 1;
+            for (const auto& e : traits(b.type).edges) edges.insert(mesh_edge_key(n[e[0]], n[e[1]]));
         }
     }
     // Faces and edges of solids that all belong to those.
@@ -55,13 +60,17 @@ Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
             for (Index c = 0; c < b.size(); ++c)
                 if (!out[static_cast<int>(b.type)][static_cast<std::size_t>(c)])
                     for (const Index v : b.nodes(c)) elsewhere[v] = 1;
+    const std::vector<char> whole = families_of_whole_elements(mesh);
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
         if (t.dimension < 1 || t.dimension > 2 || t.quadratic) continue;
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
-            const bool on_them = std::ranges::all_of(n, [&](Index v) { return in[v] != 0; }) &&
-                                 std::ranges::any_of(n, [&](Index v) { return elsewhere[v] == 0; });
+            if (!whole.empty() && whole[b.families[c]]) continue;
+            const bool on_them =
+                std::ranges::all_of(t.edges,
+                                    [&](const auto& e) { return edges.contains(mesh_edge_key(n[e[0]], n[e[1]])); }) &&
+                std::ranges::any_of(n, [&](Index v) { return elsewhere[v] == 0; });
             out[static_cast<int>(b.type)][static_cast<std::size_t>(c)] = on_them;
         }
     }
