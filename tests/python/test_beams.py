@@ -167,10 +167,10 @@ def test_holes_far_smaller_than_beams():
 
 def test_far_from_the_origin():
     rng = np.random.default_rng(1)
-    for _ in range(100):
+    for _ in range(300):
         origin, normal = 1e6 * rng.normal(size=3), rng.normal(size=3)
         normal /= np.linalg.norm(normal)
-        beside = origin + np.cross(normal, rng.normal(size=(20, 3)))
+        beside = origin + 0.3 * np.cross(normal, rng.normal(size=(20, 3)))
         points = np.stack([beside - normal / 20, beside + normal / 20], axis=1).reshape(-1, 3)
         mesh = fs.Mesh(points, {"line": np.arange(40).reshape(-1, 2)})
         cells = fs.crack(mesh, fs.Plane(origin, normal)).mesh.cells["line"]
