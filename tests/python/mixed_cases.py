@@ -20,8 +20,8 @@ BENT = 0.15
 
 
 def bent(points):
-    """Bent to an arc about the axis y."""
-    radius, angle = 20 + points[:, 2], BENT * points[:, 0]
+    """Bent to an arc about the axis y; lengths are kept where z = 0, and up to three times as long outside."""
+    radius, angle = 1 / BENT + points[:, 2], BENT * points[:, 0]
     return np.stack([radius * np.sin(angle), points[:, 1], radius * np.cos(angle)], axis=1)
 
 
