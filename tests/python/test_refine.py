@@ -288,3 +288,9 @@ def test_flat_walls_of_a_coarse_hole_are_told():
 def test_too_small_a_size_of_an_operator_is_its_own_error():
     with pytest.raises(fs.ToolError, match="refine: size 0.01 would make more than"):
         fs.drill(box_with_groups(), HOLE, refine=0.01)
+
+
+def test_beams_alone_are_not_refined_and_said_to_be_so():
+    beam = fs.Mesh([(0, 0, 0), (1, 0, 0)], {"line": [[0, 1]]})
+    result = fs.refine(beam, fs.Plane((0.5, 0, 0), (1, 0, 0)), size=0.1)
+    assert result.mesh.node_count == 2 and "beams" in result.report.warnings[0]

@@ -186,6 +186,11 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
     return report;
 }
 
+bool has_segments_alone(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.blocks(),
+                               [](const CellBlock& b) { return traits(b.type).dimension < 2 || b.size() == 0; });
+}
+
 }  // namespace
 
 std::vector<std::int8_t> corners_of_long_edges(const Mesh& mesh, const DistanceField& distance,
@@ -230,7 +235,10 @@ Result refine_on(const Mesh& input, const DistanceField& distance, const RefineO
     untouched.report.method = "bisection";
     untouched.report.groups = compare_groups(input, totals, input, totals);
     for (GroupRecord& r : untouched.report.groups) r.status = "untouched";
-    untouched.report.warnings = {"no edge is longer than wanted: nothing was refined"};
+    untouched.report.warnings = {
+        has_segments_alone(input)
+            ? "nothing was refined: the mesh has points and segments (beams, springs) alone, which stay as they are"
+            : "no edge is longer than wanted: nothing was refined"};
     untouched.mesh = input;
     watch.lap("report");
     untouched.report.seconds = seconds.list();
