@@ -4,7 +4,7 @@
     PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 tests/python/merge_cases.py --cases 300
 
 Each kind: stiffeners on a flat and on a curved shell; plates, blocks, rods and tubes on and into the two boxes, and
-into the flanged cylinder; all of these also in second order with --quadratic (solids). A result is checked: one part,
+into the flanged cylinder; sleeves and parts of sleeves on a shaft; all of these also in second order with --quadratic (solids). A result is checked: one part,
 conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality,
 how many are poor (below 0.12 and below the worse of the two inputs), the largest change of any group's measure, and the
 seeds that failed a check; with --refused those that were refused, too.
@@ -111,7 +111,18 @@ def into_cylinder(rng):
     return mesh, boss(origin, turned(axis, rng), edge, 2 + edge * rng.uniform(2.5, 4), rng)
 
 
-KINDS = {f.__name__: f for f in (flat, curved, shell_on_boxes, on_boxes, into_boxes, into_cylinder)}
+def on_shaft(rng):
+    """A sleeve, or a part of one, whose facets are not those of the shaft; it may reach over the shaft's end."""
+    edge, height = rng.uniform(0.2, 0.35), rng.uniform(0.8, 2)
+    mesh = rod((0, 0, 0), 1, 4, (round(1 / edge), round(4 / edge)), "SHAFT")
+    edge *= rng.uniform(0.6, 1.4)
+    first, angle = rng.uniform(0, 2 * np.pi), rng.choice([2 * np.pi, rng.uniform(1, 5)])
+    counts = (max(3, round(angle / edge)), rng.integers(1, 4), round(height / edge))
+    bottom = rng.uniform(0.4, 3.6 - height) if rng.integers(3) else rng.uniform(4.4 - height, 3.6)
+    return mesh, tube((0, 0, bottom), 1, 1 + edge * counts[1], height, counts, "BOSS", first, angle)
+
+
+KINDS = {f.__name__: f for f in (flat, curved, shell_on_boxes, on_boxes, into_boxes, into_cylinder, on_shaft)}
 
 
 def in_one_line(mesh):

@@ -101,14 +101,14 @@ def rod(origin, radius, height, counts, name, turn=np.eye(3)):
     return solid(points @ np.asarray(turn).T + origin, np.array(tetrahedra), name)
 
 
-def tube(origin, inner, outer, height, counts, name):
-    """A thick tube along z: `counts` elements around, across and along."""
+def tube(origin, inner, outer, height, counts, name, first=0.0, angle=2 * np.pi):
+    """A thick tube along z: `counts` elements around, across and along; or that part of it, from an angle on."""
     around, across, along = counts
-    box = grid_box((around, across, along), (2 * np.pi, outer - inner, height))
-    angle, radius = box.points[:, 0], inner + box.points[:, 1]
-    points = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), box.points[:, 2]])
-    _, first, place = np.unique(np.round(points, 9), axis=0, return_index=True, return_inverse=True)
-    return solid(points[first] + origin, place.reshape(-1)[box.cells["tetra"]], name)
+    box = grid_box((around, across, along), (angle, outer - inner, height))
+    turn, radius = first + box.points[:, 0], inner + box.points[:, 1]
+    points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), box.points[:, 2]])
+    _, kept, place = np.unique(np.round(points, 9), axis=0, return_index=True, return_inverse=True)
+    return solid(points[kept] + origin, place.reshape(-1)[box.cells["tetra"]], name)
 
 
 def corners(mesh):

@@ -395,3 +395,10 @@ def test_quality_is_that_of_what_there_is(kind, seed):
     assert quality.count == sum(new)
     assert quality.minimum == pytest.approx(ratio.min(), rel=1e-12)
     assert quality.mean == pytest.approx(ratio.mean(), rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("second_order", [False, True])
+def test_a_sleeve_lies_on_a_shaft_whose_facets_are_others(seed, second_order):
+    outcome, quality, *_ = merge_cases.one("on_shaft", seed, second_order)
+    assert not outcome and quality > 0.15

@@ -29,6 +29,8 @@ constexpr double steep = 0.3;
 constexpr double overshoot = 2.5;
 /// Cosine of the angle from which on a border does not run along another.
 constexpr double parallel = 0.8;
+/// Cosine of the angle between normals from which on faces of solids do not lie on each other.
+constexpr double opposite = -0.8;
 /// Places along a border edge at which it is looked whether it touches.
 constexpr int samples = 16;
 
@@ -58,6 +60,7 @@ public:
         if (faces_[0].empty() || faces_[1].empty()) return {};
         find_fineness();
         if (are_solids()) {
+            find_lying();
             // What bounds a volume has no loose ends; with these, something only nearly touches.
             find_crossings();
             if (std::vector<MeetingLine> outline = lines(); !outline.empty() && is_closed(outline))
@@ -115,9 +118,44 @@ private:
         fine_ = crossing_tolerance * least;
     }
 
+    /// How far what touches may be off, by the sizes of the two faces and how far a smooth surface may be off them.
+    double reach_of(double size, double sag, double other_size, double other_sag) const {
+        // Of shells only the other's surface counts: their own border is a line of its own.
+        const double off = lying_[0].empty() ? other_sag : std::max(sag, other_sag);
+        return given_.value_or(std::max(touching * std::min(size, other_size), 1.5 * off));
+    }
+
+    /// Faces of solids that lie on the other's, as those of a sleeve on a shaft do: facets of different sizes, of which
+    /// one is now above, now below the other. Where they cross says nothing.
+    void find_lying() {
+        for (const std::size_t m : {0U, 1U}) lying_[m].assign(faces_[m].size(), 0);
+        SparseCheck check(64);
+        for (const std::size_t m : {0U, 1U})
+            for (int f = 0; f < static_cast<int>(faces_[m].size()); ++f) {
+                check();
+                const TriangleCorners at = corners(m, faces_[m][f]);
+                lying_[m][f] = lies_there(m, f, (at[0] + at[1] + at[2]) / 3, opposite) &&
+                               std::ranges::all_of(at, [&](const Vec3& x) { return lies_there(m, f, x, 1); });
+            }
+    }
+
+    /// Whether a point of a face of mesh m is on the other, whose normal there makes at most that cosine with its own.
+    bool lies_there(std::size_t m, int face, const Vec3& x, double most_cosine) const {
+        const SurfaceTree &own = *trees_[m], &other = *trees_[1 - m];
+        const SurfaceTree::Foot foot = other.closest(x);
+        return foot.distance <= reach_of(own.size(face), own.sag(face), other.size(foot.piece), other.sag(foot.piece)) &&
+               own.normal(face).dot(other.normal(foot.piece)) <= most_cosine;
+    }
+
+    bool lie_on_each_other(int i, int j) const {
+        return !lying_[0].empty() && (lying_[0][i] || lying_[1][j]) &&
+               trees_[0]->normal(i).dot(trees_[1]->normal(j)) <= opposite;
+    }
+
     /// A border edge of a mesh.
     struct Edge {
         std::size_t mesh;
+        int face;
         Index nodes[2];
         Vec3 start, way;
         double size;  ///< the shorter of its length and its face's mean edge
@@ -129,8 +167,8 @@ private:
         const SurfaceTree& other = *trees_[1 - edge.mesh];
         const Vec3 x = edge.at(t);
         SurfaceTree::Foot foot = other.closest(x);
-        const double most = given_.value_or(
-            std::max(touching * std::min(edge.size, other.size(foot.piece)), 1.5 * other.sag(foot.piece)));
+        const double most =
+            reach_of(edge.size, trees_[edge.mesh]->sag(edge.face), other.size(foot.piece), other.sag(foot.piece));
         if (reach) *reach = most;
         if (foot.distance > most) return {};
         // Beside the other's border only what runs along it is on it.
@@ -153,7 +191,8 @@ private:
             check();
             const auto [p, q] = own.border()[e];
             const Vec3 way = points[q] - points[p];
-            const Edge edge{m, {p, q}, points[p], way, std::min(own.size(own.face_at_border(e)), way.norm())};
+            const int face = own.face_at_border(e);
+            const Edge edge{m, face, {p, q}, points[p], way, std::min(own.size(face), way.norm())};
             const auto at = [&](double t) { return touch(edge, t).has_value(); };
             for (int from = 0; from <= samples;) {
                 if (!at(from / static_cast<double>(samples))) {
@@ -238,6 +277,7 @@ private:
         SparseCheck check(64);
         for (const auto& [i, j] : near_pairs()) {
             check();
+            if (lie_on_each_other(i, j)) continue;
             const auto span = cross_triangles(corners(0, faces_[0][i]), corners(1, faces_[1][j]), fine_);
             if (span && !is_touched(*span)) crossings_.push_back({*span, {i, j}});
         }
@@ -273,7 +313,8 @@ private:
     std::array<Mesh, 2> meshes_;
     std::array<std::vector<SurfaceFace>, 2> faces_;
     std::array<std::unique_ptr<SurfaceTree>, 2> trees_;
-    double fine_ = 0;  // crossing_tolerance, as a length
+    std::array<std::vector<char>, 2> lying_;  // by face, of solids
+    double fine_ = 0;                         // crossing_tolerance, as a length
     std::vector<Touch> touches_;
     std::array<std::map<Index, Vec3>, 2> placed_;  // nodes of borders that touch, and where
     std::vector<Crossing> crossings_;
