@@ -88,12 +88,12 @@ struct CubeOnBlock {
 
 TEST(CoveredFaces, AreThoseInsideTheOutline) {
     const CubeOnBlock both;
-    const auto on_block = covered_faces(both.block, both.cube, both.outline(both.block), 1e-9);
+    const auto on_block = covered_faces(both.block, both.cube, both.outline(both.block), 1e-9, false);
     EXPECT_EQ(on_block.size(), 2u);
     for (const SurfaceFace& f : on_block)
         for (const Index n : f.nodes) EXPECT_DOUBLE_EQ(both.block.points[n][2], 1);
-    EXPECT_EQ(covered_faces(both.cube, both.block, both.outline(both.cube), 1e-9).size(), 2u);
-    EXPECT_TRUE(covered_faces(both.block, moved(both.cube, {0, 0, 0.5}), both.outline(both.block), 1e-9).empty());
+    EXPECT_EQ(covered_faces(both.cube, both.block, both.outline(both.cube), 1e-9, true).size(), 2u);
+    EXPECT_TRUE(covered_faces(both.block, moved(both.cube, {0, 0, 0.5}), both.outline(both.block), 1e-9, true).empty());
 }
 
 TEST(Refill, FitsASolidToTheSkinOfAnother) {
@@ -104,8 +104,8 @@ TEST(Refill, FitsASolidToTheSkinOfAnother) {
     std::vector<Index> partner(tower.points.size(), -1);
     for (Index n = 0; n < tower.node_count(); ++n)
         if (tower.points[n][2] == 1) partner[n] = checks::number_near(both.block, tower.points[n]);
-    const Refilled out = refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9),
-                                covered_faces(both.block, tower, both.outline(both.block), 1e-9));
+    const Refilled out = refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9, true),
+                                covered_faces(both.block, tower, both.outline(both.block), 1e-9, true));
     out.mesh.validate();
     EXPECT_GT(out.taken, 0);
     EXPECT_LT(out.taken, 24);

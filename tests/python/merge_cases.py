@@ -4,7 +4,7 @@
     PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 tests/python/merge_cases.py --cases 300
 
 Each kind: stiffeners on a flat and on a curved shell; plates, blocks, rods and tubes on and into the two boxes, and
-into the flanged cylinder; sleeves and parts of sleeves on a shaft; all of these also in second order with --quadratic (solids). A result is checked: one part,
+into the flanged cylinder; sleeves and parts of sleeves on a shaft; what overlaps and is flush with the mesh; all of these also in second order with --quadratic (solids). A result is checked: one part,
 conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual quality,
 how many are poor (below 0.12 and below the worse of the two inputs), the largest change of any group's measure, and the
 seeds that failed a check; with --refused those that were refused, too.
@@ -122,7 +122,22 @@ def on_shaft(rng):
     return mesh, tube((0, 0, bottom), 1, 1 + edge * counts[1], height, counts, "BOSS", first, angle)
 
 
-KINDS = {f.__name__: f for f in (flat, curved, shell_on_boxes, on_boxes, into_boxes, into_cylinder, on_shaft)}
+def flush(rng):
+    """What overlaps the mesh and has some of its faces in the same planes, or on the same cylinder."""
+    edge = rng.uniform(0.6, 1.1)
+    if rng.integers(3) == 0:
+        mesh, other = (rod((0, 0, 0), 2, 6, (round(2 / e), round(6 / e)), "SHAFT") for e in (0.7, edge))
+        return mesh, fs.Mesh(other.points + [0, 0, rng.uniform(3, 5)], other.cells, groups={"BOSS": ("element", [1])})
+    mesh, size = fs.read(MESHES / "two_boxes.inp"), rng.uniform(2, 4, 3)
+    counts = np.maximum(2, np.round(size / edge)).astype(int)
+    at = np.array([rng.uniform(1, 19 - size[0]), rng.uniform(1, 9 - size[1]), 10 - size[2] * rng.uniform(0.3, 0.7)])
+    sides = [[0, 20 - size[0]], [0, 10 - size[1]]]
+    for axis in ((0,), (1,), (0, 1))[rng.integers(3)]:
+        at[axis] = rng.choice(sides[axis])
+    return mesh, block(at + [size[0] / 2, size[1] / 2, 0], size, counts, "BOSS")
+
+
+KINDS = {f.__name__: f for f in (flat, curved, shell_on_boxes, on_boxes, into_boxes, into_cylinder, on_shaft, flush)}
 
 
 def in_one_line(mesh):
@@ -133,13 +148,13 @@ def in_one_line(mesh):
     return shared >= len(mesh.groups["ADD_SEAM"]) - 2
 
 
-def one(kind, seed, second_order):
+def one(kind, seed, second_order, **options):
     """(outcome, quality, the worse of the inputs' qualities, largest relative change of a group's measure)."""
     mesh, part = KINDS[kind](np.random.default_rng(seed))
     if second_order and mesh.dimension == 3:
         mesh = quadratic(fs.Mesh(mesh.points, {"tetra": mesh.cells["tetra"]}))
     try:
-        result = fs.merge(mesh, part)
+        result = fs.merge(mesh, part, **options)
     except fs.Error as error:
         return str(error), None, None, None
     try:

@@ -402,3 +402,21 @@ def test_quality_is_that_of_what_there_is(kind, seed):
 def test_a_sleeve_lies_on_a_shaft_whose_facets_are_others(seed, second_order):
     outcome, quality, *_ = merge_cases.one("on_shaft", seed, second_order)
     assert not outcome and quality > 0.15
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+def test_what_overlaps_may_be_flush_with_the_mesh(seed, keep):
+    outcome, quality, *_ = merge_cases.one("flush", seed, False, keep=keep)
+    assert not outcome and quality > 0.15
+
+
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+def test_what_is_flush_is_in_one_of_the_two(keep):
+    """A block at the edge of another, sunk into it by half: the volume is exactly that of both together."""
+    base, part = block((0, 0, 0), (8, 8, 4), (8, 8, 4), "BASE"), block((3, 0, 3), (2, 2, 2), (4, 4, 4), "PART")
+    mesh = fs.merge(base, part, keep=keep).mesh
+    assert fs.measure(mesh)["tetra"].sum() == pytest.approx(256 + 4, rel=1e-12)
+    names = ("BASE", "PART")
+    sizes = [next(g.measure_after for g in fs.merge(base, part, keep=keep).report.groups if g.name == n) for n in names]
+    assert sizes == pytest.approx([256, 4] if keep == "mesh" else [252, 8], rel=1e-12)

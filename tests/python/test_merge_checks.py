@@ -97,15 +97,19 @@ def test_other_elements_close_to_the_seam():
     [
         block((3, -1, 4), (2, 2, 2), (2, 2, 2), "A"),
         rod((1, 2.5, 5), 1, 4, (2, 4), "A", [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
-        block((3, 2.5, 3), (6, 5, 2), (6, 5, 2), "A"),
         block((3, 2.5, 3), (1.1, 1.3, 1), (2, 2, 2), "A"),
     ],
-    ids=["edge on edge", "a rod that lies on a face", "sides in one plane", "inside with its top in the skin"],
+    ids=["edge on edge", "a rod that lies on a face", "inside with its top in the skin"],
 )
-def test_solids_that_touch_in_a_line_or_have_faces_on_faces(addition):
+def test_solids_that_touch_in_a_line_or_not_at_all(addition):
     with pytest.raises(fs.QualityError, match="touch over an area, not in a line") as caught:
         fs.merge(box(), addition)
     assert caught.value.parameter == "other"
+
+
+def test_a_layer_whose_four_sides_are_flush():
+    result = fs.merge(box(), block((3, 2.5, 3), (6, 5, 2), (6, 5, 2), "A"))
+    assert fs.measure(result.mesh)["tetra"].sum() == pytest.approx(150, rel=1e-12)
 
 
 def facets(mesh, height):

@@ -11,9 +11,16 @@
 #include "mesh/union_find.h"
 
 namespace femscalpel {
+namespace {
+
+/// Cosine of the angle between normals up to which faces that lie on each other face the same way.
+constexpr double same_way = 0.8;
+
+}  // namespace
 
 std::vector<SurfaceFace> covered_faces(const Mesh& mesh, const Mesh& other,
-                                       const std::vector<std::array<Index, 2>>& outline, double tolerance) {
+                                       const std::vector<std::array<Index, 2>>& outline, double tolerance,
+                                       bool gives_way) {
     const std::vector<SurfaceFace> faces = surface_near(mesh, grown(box_around(other), tolerance));
     Eigen::AlignedBox3d around;
     for (const SurfaceFace& f : faces)
@@ -39,8 +46,13 @@ std::vector<SurfaceFace> covered_faces(const Mesh& mesh, const Mesh& other,
         check();
         const Vec3 &a = mesh.points[faces[f].nodes[0]], &b = mesh.points[faces[f].nodes[1]],
                    &c = mesh.points[faces[f].nodes[2]];
-        const double area = (b - a).cross(c - a).norm() / 2;
-        votes[regions.find(f)] += tree.signed_distance((a + b + c) / 3) <= tolerance ? area : -area;
+        const Vec3 middle = (a + b + c) / 3, normal = (b - a).cross(c - a);
+        bool covered = tree.signed_distance(middle) <= tolerance;
+        if (covered && !gives_way) {
+            const SurfaceTree::Foot foot = tree.closest(middle);
+            covered = foot.distance > tolerance || normal.normalized().dot(tree.normal(foot.piece)) < same_way;
+        }
+        votes[regions.find(f)] += (covered ? 1 : -1) * normal.norm() / 2;
     }
     std::vector<SurfaceFace> out;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "cancel.h"
 #include "mesh/closest_point.h"
@@ -29,8 +30,8 @@ constexpr double steep = 0.3;
 constexpr double overshoot = 2.5;
 /// Cosine of the angle from which on a border does not run along another.
 constexpr double parallel = 0.8;
-/// Cosine of the angle between normals from which on faces of solids do not lie on each other.
-constexpr double opposite = -0.8;
+/// Cosine of the angle between normals, opposite or alike, from which on faces of solids do not lie on each other.
+constexpr double flush = 0.8;
 /// Places along a border edge at which it is looked whether it touches.
 constexpr int samples = 16;
 
@@ -66,14 +67,17 @@ public:
             if (std::vector<MeetingLine> outline = lines(); !outline.empty() && is_closed(outline))
                 return {std::move(outline), 0};
             crossings_.clear();
+            // What is where it should be, but for rounding, would only be blurred by more.
+            const std::vector<Vec3> points = meshes_[1].points;
+            const auto wide = std::exchange(given_, std::min(fine_, given_.value_or(fine_)));
+            if (Meeting exact = meet(); !exact.lines.empty() && bounds_patches(exact.lines)) return exact;
+            given_ = wide;
+            meshes_[1].points = points;
+            touches_.clear();
+            placed_ = {};
+            crossings_.clear();
         }
-        find_touches(0);
-        find_touches(1);
-        put_touching_nodes_there();
-        find_crossings();
-        Meeting out{lines(), 0};
-        for (const Touch& t : touches_) out.tolerance = std::max(out.tolerance, t.reach);
-        return out;
+        return meet();
     }
 
 private:
@@ -96,19 +100,40 @@ private:
         return std::sqrt(longest);
     }
 
+    /// What touches, and where else the two cross.
+    Meeting meet() {
+        find_touches(0);
+        find_touches(1);
+        put_touching_nodes_there();
+        find_crossings();
+        Meeting out{lines(), 0};
+        for (const Touch& t : touches_) out.tolerance = std::max(out.tolerance, t.reach);
+        return out;
+    }
+
     bool are_solids() const {
         return std::ranges::all_of(faces_, [](const std::vector<SurfaceFace>& faces) {
             return std::ranges::none_of(faces, &SurfaceFace::shell);
         });
     }
 
-    /// Whether every end of a line is one of another, too.
-    static bool is_closed(const std::vector<MeetingLine>& lines) {
+    /// How many lines end at each place where one does.
+    static std::map<std::array<double, 3>, int> ends_of(const std::vector<MeetingLine>& lines) {
         std::map<std::array<double, 3>, int> ends;
         for (const MeetingLine& line : lines)
             if (!line.closed)
                 for (const Vec3& x : {line.points.front().at, line.points.back().at}) ++ends[{x[0], x[1], x[2]}];
-        return std::ranges::all_of(ends, [](const auto& end) { return end.second % 2 == 0; });
+        return ends;
+    }
+
+    /// Whether lines are loops, as where two skins cross.
+    static bool is_closed(const std::vector<MeetingLine>& lines) {
+        return std::ranges::all_of(ends_of(lines), [](const auto& end) { return end.second % 2 == 0; });
+    }
+
+    /// Whether lines bound patches, which may have sides in common.
+    static bool bounds_patches(const std::vector<MeetingLine>& lines) {
+        return std::ranges::all_of(ends_of(lines), [](const auto& end) { return end.second > 1; });
     }
 
     void find_fineness() {
@@ -134,22 +159,22 @@ private:
             for (int f = 0; f < static_cast<int>(faces_[m].size()); ++f) {
                 check();
                 const TriangleCorners at = corners(m, faces_[m][f]);
-                lying_[m][f] = lies_there(m, f, (at[0] + at[1] + at[2]) / 3, opposite) &&
-                               std::ranges::all_of(at, [&](const Vec3& x) { return lies_there(m, f, x, 1); });
+                lying_[m][f] = lies_there(m, f, (at[0] + at[1] + at[2]) / 3, flush) &&
+                               std::ranges::all_of(at, [&](const Vec3& x) { return lies_there(m, f, x, 0); });
             }
     }
 
-    /// Whether a point of a face of mesh m is on the other, whose normal there makes at most that cosine with its own.
-    bool lies_there(std::size_t m, int face, const Vec3& x, double most_cosine) const {
+    /// Whether a point of a face of mesh m is on the other, whose normal there makes at least that cosine with its own.
+    bool lies_there(std::size_t m, int face, const Vec3& x, double cosine) const {
         const SurfaceTree &own = *trees_[m], &other = *trees_[1 - m];
         const SurfaceTree::Foot foot = other.closest(x);
         return foot.distance <= reach_of(own.size(face), own.sag(face), other.size(foot.piece), other.sag(foot.piece)) &&
-               own.normal(face).dot(other.normal(foot.piece)) <= most_cosine;
+               std::abs(own.normal(face).dot(other.normal(foot.piece))) >= cosine;
     }
 
     bool lie_on_each_other(int i, int j) const {
         return !lying_[0].empty() && (lying_[0][i] || lying_[1][j]) &&
-               trees_[0]->normal(i).dot(trees_[1]->normal(j)) <= opposite;
+               std::abs(trees_[0]->normal(i).dot(trees_[1]->normal(j))) >= flush;
     }
 
     /// A border edge of a mesh.
@@ -248,10 +273,13 @@ private:
         for (const auto& [n, at] : placed_[1]) meshes_[1].points[n] = at;
     }
 
+    /// Whether a span runs along what touches; one that but ends there is a line of its own.
     bool is_touched(const Span& span) const {
+        const Vec3 way = (span[1] - span[0]).normalized();
         const auto near = [&](const Vec3& x) {
             return std::ranges::any_of(touches_, [&](const Touch& t) {
-                return (closest_on_segment(t.span[0], t.span[1], x) - x).norm() <= 2 * t.reach;
+                return (closest_on_segment(t.span[0], t.span[1], x) - x).norm() <= 2 * t.reach &&
+                       std::abs((t.span[1] - t.span[0]).normalized().dot(way)) >= parallel;
             });
         };
         return near(span[0]) && near(span[1]) && near((span[0] + span[1]) / 2);

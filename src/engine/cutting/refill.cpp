@@ -89,9 +89,8 @@ private:
             return fill_cavity(points_, triangles_);
         } catch (const CavityError& error) {
             throw QualityError(std::string("the two solids cannot be joined (") + error.what() +
-                                   "): they have to touch over an area, not in a line, or to overlap; and where they "
-                                   "overlap, faces of the one must not lie on faces of the other. Move the addition, "
-                                   "or leave that part of it out",
+                                   "): they have to touch over an area, not in a line, or to overlap. Move the "
+                                   "addition, or leave that part of it out",
                                "other");
         }
     }

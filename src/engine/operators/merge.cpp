@@ -261,7 +261,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
         }
     const double close = std::max(tolerance, 1e-9 * box_around(joint.mesh(base)).diagonal().norm());
     const auto covered = [&](std::size_t m) {
-        return covered_faces(joint.mesh(m), joint.mesh(1 - m), outline[m], close);
+        return covered_faces(joint.mesh(m), joint.mesh(1 - m), outline[m], close, m == fitted);
     };
     const std::vector<SurfaceFace> cover = covered(base);
     United out;
