@@ -104,8 +104,9 @@ TEST(Refill, FitsASolidToTheSkinOfAnother) {
     std::vector<Index> partner(tower.points.size(), -1);
     for (Index n = 0; n < tower.node_count(); ++n)
         if (tower.points[n][2] == 1) partner[n] = checks::number_near(both.block, tower.points[n]);
-    const Refilled out = refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9, true),
-                                covered_faces(both.block, tower, both.outline(both.block), 1e-9, true));
+    const Refilled out =
+        refill(tower, both.block, partner, covered_faces(tower, both.block, both.outline(tower), 1e-9, true),
+               covered_faces(both.block, tower, both.outline(both.block), 1e-9, true));
     out.mesh.validate();
     EXPECT_GT(out.taken, 0);
     EXPECT_LT(out.taken, 24);

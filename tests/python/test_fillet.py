@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
+from merge_parts import block, rod
 from meshes import grid_box, quadratic, tetra_volumes
 
 RIGHT_ANGLE = 1 - np.pi / 4  # of what is rounded off a right angle, times the radius squared
@@ -223,3 +224,20 @@ def test_along_must_name_something(along):
     with pytest.raises((TypeError, fs.ToolError)) as caught:
         fs.fillet(grid_box(), along, 1)
     assert caught.value.parameter == "along"
+
+
+@pytest.mark.parametrize("radius", [0.25, 0.5])
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+def test_the_foot_of_a_boss_that_was_added(radius, keep):
+    """Where it was joined, the boss's edge has nodes on its chords."""
+    base, boss = block((0, 0, 0), (6, 6, 2), (8, 8, 3), "BASE"), rod((0.3, 0.2, 1.5), 1.2, 2.5, (3, 5), "BOSS")
+    mesh = fs.merge(base, boss, keep=keep).mesh
+    result = fs.fillet(mesh, (1.5, 0.2, 2), radius)
+    points = face_points(result.mesh) - (0.3, 0.2, 2)
+    off = np.hypot(np.hypot(points[:, 0], points[:, 1]) - 1.2 - radius, points[:, 2] - radius) - radius
+    assert np.abs(off).max() < 1e-9 and quality(result.mesh).min() > 0.2
+    check_conforming(result.mesh)
+    # Pappus' theorem on what is between a quarter of a circle and its two tangents.
+    area, way = (1 - np.pi / 4) * radius**2, 1.2 + radius * (1 - (5 / 6 - np.pi / 4) / (1 - np.pi / 4))
+    grown = volume(result.mesh) - volume(mesh)
+    assert grown == pytest.approx(2 * np.pi * way * area, rel=0.06)

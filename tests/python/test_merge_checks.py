@@ -97,14 +97,18 @@ def test_other_elements_close_to_the_seam():
     [
         block((3, -1, 4), (2, 2, 2), (2, 2, 2), "A"),
         rod((1, 2.5, 5), 1, 4, (2, 4), "A", [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
-        block((3, 2.5, 3), (1.1, 1.3, 1), (2, 2, 2), "A"),
     ],
-    ids=["edge on edge", "a rod that lies on a face", "inside with its top in the skin"],
+    ids=["edge on edge", "a rod that lies on a face"],
 )
-def test_solids_that_touch_in_a_line_or_not_at_all(addition):
+def test_solids_that_touch_in_a_line(addition):
     with pytest.raises(fs.QualityError, match="touch over an area, not in a line") as caught:
         fs.merge(box(), addition)
     assert caught.value.parameter == "other"
+
+
+def test_nothing_is_left_of_what_lies_inside_with_its_top_in_the_skin():
+    with pytest.raises(fs.ToolError, match="the addition lies inside the mesh: nothing of it would be left"):
+        fs.merge(box(), block((3, 2.5, 3), (1.1, 1.3, 1), (2, 2, 2), "A"))
 
 
 def test_a_layer_whose_four_sides_are_flush():

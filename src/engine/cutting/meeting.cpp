@@ -168,7 +168,8 @@ private:
     bool lies_there(std::size_t m, int face, const Vec3& x, double cosine) const {
         const SurfaceTree &own = *trees_[m], &other = *trees_[1 - m];
         const SurfaceTree::Foot foot = other.closest(x);
-        return foot.distance <= reach_of(own.size(face), own.sag(face), other.size(foot.piece), other.sag(foot.piece)) &&
+        return foot.distance <=
+                   reach_of(own.size(face), own.sag(face), other.size(foot.piece), other.sag(foot.piece)) &&
                std::abs(own.normal(face).dot(other.normal(foot.piece))) >= cosine;
     }
 

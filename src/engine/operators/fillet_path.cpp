@@ -7,9 +7,14 @@
 #include <limits>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 namespace femscalpel {
 namespace {
+
+/// So many corners, which turn by no more than this (sine), an arc of chords has at least: others are edges of prisms.
+constexpr std::size_t fewest_corners = 5;
+constexpr double sharpest_turn = 0.7;
 
 /// A surface that is a straight line in sections across the edge.
 class RollingWall final : public Tool {
@@ -107,10 +112,13 @@ FilletPath::FilletPath(const Mesh& mesh, const Vec3& corner, const Vec3& normal,
     set_faces({faces[0].cross(normal).dot(x), 0});
 }
 
-void FilletPath::fit(const std::vector<Vec3>& points) {
+void FilletPath::fit(std::vector<Vec3> points) {
     for (std::size_t k = 1; k < points.size(); ++k) mean_edge_ += (points[k] - points[k - 1]).norm();
     mean_edge_ /= static_cast<double>(points.size() - 1);
     find_plane(points);
+    std::vector<Vec3> corners = corners_on_arc(points);
+    const bool on_chords = !corners.empty();
+    if (on_chords) points = std::move(corners);
     for (std::size_t k = 0; k + 1 < points.size();) k = add_piece(points, k);
     if (is_straight() && planes_[0] && planes_[1]) lay_between_planes(points.front(), points.back());
     end_ = pieces_.back().begin + pieces_.back().length;
@@ -120,8 +128,31 @@ void FilletPath::fit(const std::vector<Vec3>& points) {
         });
         sag_ = std::max(sag_, (points[k] - points[k - 1]).squaredNorm() * std::abs(piece.curvature) / 7);
     }
+    if (on_chords) chord_sag_ = sag_;
     // Both the nodes, and the ones by which the edge was found, may be off.
     sag_ += 2 * slack_.off();
+}
+
+/// Where an arc is of chords with nodes on them, as where solids of different divisions were joined: the corners. Else
+/// none.
+std::vector<Vec3> FilletPath::corners_on_arc(const std::vector<Vec3>& points) const {
+    std::vector<Vec3> corners;
+    const std::size_t count = points.size() - 1;
+    for (std::size_t k = 0; k <= count; ++k) {
+        if (!closed_ && (k == 0 || k == count)) {
+            corners.push_back(points[k]);
+            continue;
+        }
+        if (k == count) break;
+        const Vec3 before = points[k] - points[k == 0 ? count - 1 : k - 1], after = points[k + 1] - points[k];
+        const double one = before.norm(), other = after.norm(), turn = before.cross(after).norm() / (one * other);
+        if (before.dot(after) <= 0 || turn > sharpest_turn) return {};
+        if (turn > 1e-6 + slack_.direction(one) + slack_.direction(other)) corners.push_back(points[k]);
+    }
+    if (corners.size() < fewest_corners || corners.size() == count + (closed_ ? 0 : 1)) return {};
+    if (!lie_on_arc(corners)) return {};
+    if (closed_) corners.push_back(corners.front());
+    return corners;
 }
 
 /// The planes that the faces beside all of the edge lie in.
@@ -318,6 +349,8 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
     std::array<Vec2, 2> sum{Vec2::Zero(), Vec2::Zero()};
     std::vector<std::array<Vec2, 2>> all;
     std::vector<std::array<double, 2>> off(line.faces.size());
+    const double outside = pieces_[0].curvature > 0 ? -1 : 1;
+    std::array<Vec2, 2> farthest{Vec2(2 * outside, 0), Vec2(2 * outside, 0)};
     for (std::size_t e = 0; e < line.faces.size(); ++e) {
         auto& here = all.emplace_back(std::array{Vec2(Vec2::Zero()), Vec2(Vec2::Zero())});
         for (const int side : {0, 1}) {
@@ -325,13 +358,17 @@ void FilletPath::find_faces(const Mesh& mesh, const FeatureLine& line) {
                 if (std::ranges::find(line.nodes, n) == line.nodes.end()) {
                     const Vec2 p = place(mesh.points[n]).p;
                     here[side] = p.normalized();
-                    off[e][side] = slack_.direction(p.norm());
+                    off[e][side] = slack_.direction(p.norm()) + chord_sag_ / p.norm();
                 }
             sum[side] += here[side];
+            // What lies on chords is nearer to the axis than the surface.
+            if (!here[side].isZero() && outside * here[side].x() < outside * farthest[side].x())
+                farthest[side] = here[side];
             face_slack_ = std::max(face_slack_, off[e][side]);
         }
     }
-    for (const int side : {0, 1}) along_face_[side] = along_plane(side, sum[side].normalized());
+    for (const int side : {0, 1})
+        along_face_[side] = along_plane(side, chord_sag_ > 0 ? farthest[side] : Vec2(sum[side].normalized()));
     if (is_straight() && planes_[0] && planes_[1]) face_slack_ = slack_.direction(length());
     for (std::size_t e = 0; e < all.size(); ++e)
         for (const int side : {0, 1})

@@ -112,7 +112,8 @@ private:
         double begin, length;
     };
 
-    void fit(const std::vector<Vec3>& points);
+    void fit(std::vector<Vec3> points);
+    std::vector<Vec3> corners_on_arc(const std::vector<Vec3>& points) const;
     void find_planes(const FeatureLine& line, const SkinPlanes& planes);
     void find_plane(const std::vector<Vec3>& points);
     void lay_between_planes(const Vec3& first, const Vec3& last);
@@ -141,6 +142,7 @@ private:
     std::vector<Piece> pieces_;
     Vec3 normal_3d_ = Vec3::Zero();
     double begin_ = 0, end_ = 0, mean_edge_ = 0, sag_ = 0, face_slack_ = 0;
+    double chord_sag_ = 0;  // where nodes lie on an arc's chords: how far they may be off it
     CoordinateSlack slack_{0};
     std::array<std::optional<SkinPlanes::Plane>, 2> planes_;  // in which the faces lie, where they are known
     double radius_, tangent_length_ = 0, arc_angle_ = 0;

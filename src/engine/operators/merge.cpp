@@ -263,10 +263,16 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     const auto covered = [&](std::size_t m) {
         return covered_faces(joint.mesh(m), joint.mesh(1 - m), outline[m], close, m == fitted);
     };
-    const std::vector<SurfaceFace> cover = covered(base);
+    const std::vector<SurfaceFace> cover = covered(base), gone = covered(fitted);
+    if (gone.size() == surface_near(joint.mesh(fitted), box_around(joint.mesh(fitted))).size())
+        throw ToolError(
+            std::string(fitted == 1 ? "the addition lies inside the mesh" : "the mesh lies inside the addition") +
+                ": nothing of it would be left. Move the addition so that it "
+                "reaches through the skin",
+            "other");
     United out;
     if (fitted == 1) {
-        Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, covered(1), cover);
+        Refilled refilled = refill(joint.mesh(1), joint.mesh(0), partner, gone, cover);
         out.warnings = warnings_of(carry_deck(joint.mesh(1), refilled.mesh, refilled.changes), options.strict);
         for (const std::string& group : emptied_groups(joint.mesh(1), refilled.mesh))
             out.warnings.push_back("the addition: group '" + group +
@@ -279,7 +285,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     }
     const DeckMarks marks = mark_deck(joint.mesh(0));
     const Mesh& input = marks.mesh ? *marks.mesh : joint.mesh(0);
-    Refilled refilled = refill(input, joint.mesh(1), partner, covered(0), cover);
+    Refilled refilled = refill(input, joint.mesh(1), partner, gone, cover);
     if (!marks.surface_sets.empty())
         renew_surface_sets(refilled.mesh, marks.surface_sets, *solver_input(input), refilled.added);
     out.warnings = warnings_of(carry_deck(input, refilled.mesh, refilled.changes), options.strict);
