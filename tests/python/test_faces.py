@@ -246,3 +246,39 @@ def test_faces_with_all_corners_on_the_border_stay_closed(kind):
             for cell in after.cells[kind]:
                 for k, (a, b) in enumerate(EDGES["hexahedron"]):
                     assert edges.setdefault(frozenset((cell[a], cell[b])), cell[8 + k]) == cell[8 + k]
+
+
+@pytest.mark.parametrize("how", ["faces", "plane"])
+@pytest.mark.parametrize("axis, lips", [(0, "quad"), (2, "triangle")])
+def test_prisms_written_as_hexahedra_part_as_prisms(how, axis, lips):
+    points, hexahedra = grid((4, 3, 4), 0)
+    collapsed = [
+        row
+        for h in hexahedra
+        for row in ((h[0], h[1], h[2], h[2], h[4], h[5], h[6], h[6]), (h[0], h[2], h[3], h[3], h[4], h[6], h[7], h[7]))
+    ]
+    mesh = fs.Mesh(points, {"hexahedron": np.array(collapsed)})
+    mesh.add_group("G", "node", mesh.node_ids[points[:, axis] == 2])
+    tool = fs.Faces("G") if how == "faces" else fs.Plane(2 * np.eye(3)[axis], np.eye(3)[axis])
+    result = fs.crack(mesh, tool, name="T")
+    assert result.report.nodes_doubled == (points[:, axis] == 2).sum() and not result.report.warnings
+    sides = [set(c) for c in result.mesh.cells["hexahedron"]]
+    below = result.mesh.points[result.mesh.cells["hexahedron"]][:, :, axis].mean(axis=1) < 2
+    one, other = (set().union(*(s for s, b in zip(sides, below) if b == which)) for which in (True, False))
+    assert not one & other and lips in result.mesh.cells and len(result.mesh.cells) == 2
+
+
+def test_of_several_elements_on_a_face_those_of_the_group_are_the_lips():
+    points, hexahedra = grid((2, 2, 2), 0)
+    index = {tuple(p): n for n, p in enumerate(np.round(points, 9))}
+    quads = [[index[1, j + a, k + b] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))] for j in (0, 1) for k in (0, 1)]
+    mesh = fs.Mesh(points, {"hexahedron": hexahedra, "quad": np.array(quads + [q[::-1] for q in quads])})
+    ids = mesh.cell_ids["quad"]
+    mesh.add_group("G", "element", ids[:4])
+    mesh.add_group("OTHER", "element", ids[4:])
+    after = fs.crack(mesh, fs.Faces("G"), name="T").mesh
+    assert {g.name: len(g) for g in after.groups.all()} == {"G": 8, "OTHER": 8, "T_N": 4, "T_P": 4}
+    assert np.isin(after.groups["T_N"].ids, after.groups["G"].ids).all()
+    lip = after.cells["quad"][np.isin(after.cell_ids["quad"], after.groups["T_N"].ids)]
+    left = set(after.cells["hexahedron"][after.points[after.cells["hexahedron"]][:, :, 0].mean(axis=1) < 1].ravel())
+    assert set(lip.ravel()) <= left  # the quads of G face the positive side

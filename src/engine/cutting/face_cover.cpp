@@ -5,6 +5,17 @@
 #include <cmath>
 
 namespace femscalpel {
+namespace {
+
+/// Nodes in their order, without repeated ones.
+std::vector<Index> once_each(std::span<const Index> nodes) {
+    std::vector<Index> out;
+    for (const Index n : nodes)
+        if (std::ranges::find(out, n) == out.end()) out.push_back(n);
+    return out;
+}
+
+}  // namespace
 
 FaceCover::FaceCover(const Mesh& mesh, GroupIndex group) : mesh_(mesh), group_(group), dimension_(mesh.dimension()) {}
 
@@ -84,8 +95,17 @@ void FaceCover::find_wanted() {
             }
     }
     if (kind != GroupKind::node && faces_.empty()) refuse("covers no " + what());
+}
+
+/// Elements on the faces.
+void FaceCover::find_elements() {
+    const bool by_elements = !distance_ && mesh_.groups[group_].kind == GroupKind::element;
     for_each_of(dimension_ - 1, [&](const CellRef& c) {
-        if (const auto face = faces_.find(key_of(corners(c))); face != faces_.end()) face->second.element = c;
+        const auto face = faces_.find(key_of(corners(c)));
+        if (face == faces_.end()) return;
+        std::vector<CellRef>& there = face->second.elements;
+        const bool first = by_elements && has(mesh_.block(c.type).families[c.cell]);
+        there.insert(first ? there.begin() : there.end(), c);
     });
 }
 
@@ -98,7 +118,7 @@ void FaceCover::find_owners() {
             const std::vector<Index> nodes = corners_of(o);
             if (!std::ranges::all_of(nodes, [&](Index n) { return reached_[n] != 0; })) continue;
             const Key key = key_of(nodes);
-            if (key[static_cast<std::size_t>(dimension_) - 1] < 0) continue;  // of a degenerate element
+            if (is_degenerate(key)) continue;
             if (by_nodes)
                 faces_[key].owners.push_back(o);
             else if (const auto face = faces_.find(key); face != faces_.end())
@@ -111,10 +131,7 @@ void FaceCover::find_owners() {
     if (faces_.empty() && !distance_)
         refuse("covers no " + what() +
                " between two elements: it lies on the outside, or is open there already; nothing could be parted");
-    if (by_nodes)
-        for_each_of(dimension_ - 1, [&](const CellRef& c) {
-            if (const auto face = faces_.find(key_of(corners(c))); face != faces_.end()) face->second.element = c;
-        });
+    find_elements();
     for (auto& [key, face] : faces_) {
         if (face.owners.size() > 2 && dimension_ == 3)
             refuse("has a face of " + std::to_string(face.owners.size()) + " elements: the mesh does not fit there");
@@ -131,9 +148,9 @@ void FaceCover::ask(const Key& key, Face& face) const {
     }
     if (const auto told = told_.find(key); told != told_.end())
         face.reference = told->second == face.owners[0].cell ? 1 : -1;
-    if (!face.element || mesh_.groups[group_].kind != GroupKind::element) return;
-    const auto own = corners(*face.element);
-    const std::vector<Index> out = corners_of(face.owners[0]);
+    if (face.elements.empty() || mesh_.groups[group_].kind != GroupKind::element) return;
+    const std::vector<Index> own = once_each(corners(face.elements.front())),
+                             out = once_each(corners_of(face.owners[0]));
     const auto at = std::ranges::find(out, own[0]);
     const bool same = dimension_ == 2 ? out[0] == own[0] : *(at + 1 == out.end() ? out.begin() : at + 1) == own[1];
     face.reference = same ? 1 : -1;
@@ -182,9 +199,11 @@ bool FaceCover::is_turned(const std::vector<Face*>& patch) const {
     for (const Face* f : patch) {
         votes += f->reference * f->sense;
         const std::vector<Index> n = corners_of(f->owners[0]);
-        const Vec3 &a = mesh_.points[n[0]], &b = mesh_.points[n[1]], &c = mesh_.points[n.back()];
-        const Vec3 way = dimension_ == 3 ? (b - a).cross(c - a) : b - a;
-        normal += f->sense * way;
+        const Vec3& a = mesh_.points[n[0]];
+        Vec3 way = Vec3::Zero();
+        for (std::size_t k = 1; k + 1 < n.size() && dimension_ == 3; ++k)
+            way += (mesh_.points[n[k]] - a).cross(mesh_.points[n[k + 1]] - a);
+        normal += f->sense * (dimension_ == 3 ? way : mesh_.points[n[1]] - a);
     }
     if (votes != 0) return votes < 0;
     Eigen::Index largest = 0;

@@ -29,9 +29,9 @@ public:
     /// One with all elements that have it.
     struct Face {
         std::vector<Owner> owners;
-        std::optional<CellRef> element;  ///< that lies on it
-        int reference = 0;  ///< 1: the first owner is on the negative side, as what covers it says; -1: not
-        int sense = 0;      ///< the same when it is known
+        std::vector<CellRef> elements;  ///< that lie on it, those of the group first
+        int reference = 0;              ///< 1: the first owner is on the negative side, as what covers it says; -1: not
+        int sense = 0;                  ///< the same when it is known
     };
 
     /// `mesh` must outlive this.
@@ -66,6 +66,9 @@ public:
     /// Its corners alone.
     std::vector<Index> corners_of(const Owner& o) const;
 
+    /// Whether those corners are fewer than a face (edge) of an element that is not degenerate has.
+    bool is_degenerate(const Key& key) const { return key[static_cast<std::size_t>(dimension_) - 1] < 0; }
+
     /// Calls visit(CellRef) for each element of a dimension.
     void for_each_of(int dimension, auto visit) const {
         SparseCheck check;
@@ -80,6 +83,7 @@ public:
 
 private:
     bool has(FamilyIndex family) const { return mesh_.families.contains(family, group_); }
+    void find_elements();
     void find_wanted();
     void find_owners();
     void ask(const Key& key, Face& face) const;

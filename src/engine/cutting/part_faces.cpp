@@ -107,8 +107,9 @@ private:
             for (int f = 0; f < cover_.face_count(cells[k].type); ++f) {
                 const Owner o = cover_.owner(cells[k].type, cells[k].cell, f);
                 const std::vector<Index> all = FaceCover::nodes_of(mesh_, o);
-                if (std::ranges::find(all, node) != all.end())
-                    at_face[key_of(cover_.corners_of(o))].push_back(static_cast<int>(k));
+                const Key key = key_of(cover_.corners_of(o));
+                if (!cover_.is_degenerate(key) && std::ranges::find(all, node) != all.end())
+                    at_face[key].push_back(static_cast<int>(k));
             }
         UnionFind before(cells.size()), after(cells.size());
         std::vector<int> score(cells.size(), 0);
@@ -231,35 +232,52 @@ private:
             cover_.refuse("has all its " + cover_.what() + "s where the crack would end: none could be opened");
     }
 
-    /// An element on a face that stays closed goes with the elements there.
+    /// Elements on a face that stays closed go with the elements there.
     void keep_on(const Face& face) {
-        if (!face.element) return;
-        const auto nodes = image(*face.element, face.owners[0].cell);
-        if (!nodes || std::ranges::equal(*nodes, nodes_in(*face.element))) return;
-        std::ranges::copy(*nodes, nodes_in(*face.element).begin());
-        out_.changed.push_back(*face.element);
+        for (const CellRef& own : face.elements) {
+            const auto nodes = image(own, face.owners[0].cell);
+            if (!nodes || std::ranges::equal(*nodes, nodes_in(own))) continue;
+            std::ranges::copy(*nodes, nodes_in(own).begin());
+            out_.changed.push_back(own);
+        }
     }
 
+    /// Of elements on the face, each side gets one; the first is the lip.
     void make_lip(const Face& face, const Owner& o, GroupIndex group, bool negative) {
         FamilyTable& families = out_.mesh.families;
-        if (!face.element) {
-            const FacetElement f = facet_element(out_.mesh, FaceCover::facet(o));
-            const std::span<const Index> nodes(f.nodes.data(), static_cast<std::size_t>(f.size));
-            add(f.type, nodes, families.with(0, group));
-            return;
+        if (face.elements.empty()) add_lip(o, families.with(0, group));
+        for (const CellRef& own : face.elements) {
+            const std::optional<std::vector<Index>> nodes = image(own, o.cell);
+            if (!nodes) continue;
+            FamilyIndex family = mesh_.block(own.type).families[own.cell];
+            if (own == face.elements.front()) family = families.with(family, group);
+            if (negative) {
+                out_.changed.push_back(own);
+                std::ranges::copy(*nodes, nodes_in(own).begin());
+                out_.mesh.block(own.type).families[own.cell] = family;
+                continue;
+            }
+            out_.changes.parts.push_back({next_.cell, mesh_.block(own.type).ids[own.cell]});
+            add(own.type, *nodes, family);
         }
-        const CellRef& own = *face.element;
-        std::optional<std::vector<Index>> nodes = image(own, o.cell);
-        if (!nodes) return;
-        const FamilyIndex family = families.with(mesh_.block(own.type).families[own.cell], group);
-        if (negative) {
-            out_.changed.push_back(own);
-            std::ranges::copy(*nodes, nodes_in(own).begin());
-            out_.mesh.block(own.type).families[own.cell] = family;
-            return;
+    }
+
+    /// A triangle where two corners of the face are one.
+    void add_lip(const Owner& o, FamilyIndex family) {
+        const FacetElement f = facet_element(out_.mesh, FaceCover::facet(o));
+        std::vector<Index> nodes(f.nodes.begin(), f.nodes.begin() + f.size);
+        const auto count = static_cast<std::size_t>(traits(f.type).corners);
+        CellType type = f.type;
+        for (std::size_t k = 0; k < count && dimension_ == 3; ++k) {
+            if (nodes[k] != nodes[(k + 1) % count]) continue;
+            const bool quadratic = traits(f.type).quadratic;
+            type = quadratic ? CellType::triangle6 : CellType::triangle;
+            nodes.resize(quadratic ? 2 * count : count);
+            if (quadratic) nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(count + k));
+            nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(k));
+            break;
         }
-        out_.changes.parts.push_back({next_.cell, mesh_.block(own.type).ids[own.cell]});
-        add(own.type, *nodes, family);
+        add(type, nodes, family);
     }
 
     void add(CellType type, std::span<const Index> nodes, FamilyIndex family) {
