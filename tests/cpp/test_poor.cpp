@@ -81,5 +81,13 @@ TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
     EXPECT_THAT(f.warnings, testing::ElementsAre(testing::HasSubstr("held by the skin")));
 }
 
+TEST_F(PoorTest, HeldNodesMayBeNew) {
+    Workpiece f = interface();
+    const int a = node_at(f, {0, 2, 2}), b = node_at(f, {0, 1, 2});
+    const int born = f.split_edge(a, b, Vec3(0, 1.5, 2), {});
+    f.d.hold_beside(born, &plane);
+    EXPECT_EQ(find_held_nodes(f, mesh).count, 1);
+}
+
 }  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -147,7 +147,7 @@ HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
     HeldNodes out;
     Holders holders;
     bool seen = false;
-    for (int v = 0; v < f.d.band.original_nodes(); ++v) {
+    for (int v = 0; v < f.d.band.size(); ++v) {
         if (f.d.held_off[v] == 0 || !f.d.band.in_use(v)) continue;
         ++out.count;
         out.largest = std::max(out.largest, f.d.held_off[v]);
