@@ -77,3 +77,11 @@ def test_errors(tmp_path):
         fs.read(5)
     with pytest.raises(TypeError, match="mesh must be a femscalpel.Mesh"):
         fs.write("box.med", "box.med")
+
+
+def test_files_of_med_2_3(capfd):
+    """One tetrahedron, as SALOME 3 to 6 and Code_Aster 9 to 11 wrote it."""
+    mesh = fs.read(pathlib.Path(__file__).parent / "files" / "med_2_3.med")
+    assert mesh.points.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    assert list(mesh.cells) == ["tetra"] and fs.measure(mesh)["tetra"] == pytest.approx([1 / 6])
+    assert not any(capfd.readouterr())

@@ -101,6 +101,9 @@ public:
         MedFile file(MEDfileOpen(path_.c_str(), MED_ACC_RDONLY));
         fid_ = file.id();
         if (fid_ < 0) damaged("the file");
+        med_int major = 0, minor = 0, release = 0;
+        if (MEDfileNumVersionRd(fid_, &major, &minor, &release) < 0) damaged("its MED version");
+        is_old_ = major < 3;
         find_mesh();
         read_families();
         read_nodes();
@@ -166,8 +169,9 @@ private:
             names.assign(bytes + 1, '\0');
             char family_name[MED_NAME_SIZE + 1] = "";
             FileFamily family;
-            if (MEDfamilyInfo(fid_, name_, i, family_name, &family.number, names.data()) < 0)
-                damaged("family " + std::to_string(i));
+            const bool read = is_old_ ? read_old_family(i, family_name, family.number, names.data())
+                                      : MEDfamilyInfo(fid_, name_, i, family_name, &family.number, names.data()) >= 0;
+            if (!read) damaged("family " + std::to_string(i));
             if (family.number == 0) continue;
             for (med_int g = 0; g < groups; ++g) {
                 std::string group =
@@ -181,6 +185,17 @@ private:
             if (numbers_.find(families_[i].number) != static_cast<std::int32_t>(i))
                 fail("contradictory or damaged: family number " + std::to_string(families_[i].number) +
                      " is declared twice");
+    }
+
+    /// A family as files before version 3 have it, with attributes that nothing uses any more.
+    bool read_old_family(int i, char* family_name, med_int& number, char* groups) const {
+        const med_int attributes = MEDnFamily23Attribute(fid_, name_, i);
+        if (attributes < 0 || static_cast<std::uint64_t>(attributes) * MED_COMMENT_SIZE > largest_array()) return false;
+        const auto count = static_cast<std::size_t>(attributes);
+        std::vector<med_int> numbers(count + 1), values(count + 1);
+        std::vector<char> texts(count * MED_COMMENT_SIZE + 1, '\0');
+        return MEDfamily23Info(fid_, name_, i, family_name, numbers.data(), values.data(), texts.data(), &number,
+                               groups) >= 0;
     }
 
     /// No array can be larger than this; a larger count is damage. Compressed files shrink at most so much.
@@ -289,8 +304,8 @@ private:
                                   {MED_POLYGON2, "quadratic polygons (MED_POLYGON2)", MED_INDEX_NODE, 1},
                                   {MED_POLYHEDRON, "polyhedra (MED_POLYHEDRON)", MED_INDEX_FACE, 1}};
         for (const Kind& k : kinds)
-            if (const Index n = count(MED_CELL, k.geometry, k.counted); n > 0) unsupported(n - k.extra, k.name);
-        if (const Index n = count(MED_STRUCT_ELEMENT, MED_GEO_ALL, MED_CONNECTIVITY); n > 0)
+            if (const Index n = count(MED_CELL, k.geometry, k.counted); n > k.extra) unsupported(n - k.extra, k.name);
+        if (const Index n = is_old_ ? 0 : count(MED_STRUCT_ELEMENT, MED_GEO_ALL, MED_CONNECTIVITY); n > 0)
             unsupported(n, "types of structure elements (MED_STRUCT_ELEMENT)");
         for (const CellTraits& t : all_cell_types())
             if (count(MED_CELL, med_type(t.type).geometry, MED_CONNECTIVITY, MED_NODAL) <= 0)
@@ -396,6 +411,7 @@ private:
     std::string path_;
     std::uintmax_t file_size_ = 0;
     med_idt fid_ = -1;
+    bool is_old_ = false;  // before version 3
     char name_[MED_NAME_SIZE + 1] = "";
     med_int step_ = MED_NO_DT;
     med_int iteration_ = MED_NO_IT;
