@@ -407,6 +407,9 @@ class ToolPanel(ViewPanel):
             return False
         self.document.commitTransaction()
         self.leave()
+        if self.edited is None:
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(self.document.Name, obj.Name)
         return True
 
     def reject(self):
