@@ -42,6 +42,13 @@ def _is_busy(document):
     )
 
 
+def _is_computed(document):
+    try:
+        return document.Recomputing
+    except ReferenceError:  # it is closed
+        return False
+
+
 def hold_shortcuts(document):
     """Shortcuts that are pressed from now on wait for release_shortcuts(), or until the document is no longer
     computed."""
@@ -74,7 +81,7 @@ class _Holder(QtCore.QObject):
     def eventFilter(self, receiver, event):
         if event.type() != QtCore.QEvent.Shortcut:
             return False
-        if not self._document.Recomputing:  # FreeCAD has not said that it ended
+        if not _is_computed(self._document):  # FreeCAD has not said that it ended
             self.stop()
             return False
         self._held.append((receiver, event.key(), event.shortcutId()))

@@ -13,6 +13,7 @@ from ..latest_wins import LatestWins
 from ..translate import translate
 from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
+from .field_filter import FieldFilter
 
 
 # Forms that FreeCAD has deleted itself; Python must never do it again.
@@ -39,6 +40,7 @@ class ViewPanel(QtCore.QObject):
         name.setTextFormat(QtCore.Qt.PlainText)
         name.setWordWrap(True)
         self.form[0].layout().insertWidget(0, name)
+        self._fields = FieldFilter(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
         self.worker = LatestWins(self._arrived, self._broke)

@@ -367,6 +367,10 @@
       <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
     </message>
     <message>
+      <source>Computing…</source>
+      <translation>Wird berechnet…</translation>
+    </message>
+    <message>
       <source>Cone</source>
       <translation>Kegel</translation>
     </message>

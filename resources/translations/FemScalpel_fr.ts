@@ -367,6 +367,10 @@
       <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
     </message>
     <message>
+      <source>Computing…</source>
+      <translation>Calcul en cours…</translation>
+    </message>
+    <message>
       <source>Cone</source>
       <translation>Cône</translation>
     </message>
