@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What all commands share: texts, when they are active, and which mesh they are for."""
 
+import FemGui
 import FreeCAD
 import FreeCADGui
 from PySide import QtGui
@@ -19,8 +20,15 @@ def is_mesh(obj):
     return obj.isDerivedFrom("Fem::FemMeshObject")
 
 
+def ends_of(mesh, meshes):
+    """Those of some mesh objects that are made from `mesh`, or are it, and from which no other is made."""
+    made = [m for m in meshes if mesh in made_of(m)]
+    return [end for m in made for end in ends_of(m, meshes)] if made else [mesh]
+
+
 def find_mesh(selected=None):
-    """The mesh object the user means: the selected one, that of the selected or active analysis, or the only one.
+    """The mesh object the user means: the selected one, or that of the selected analysis; with nothing selected the
+    last of the only chain of operations, or of the one that begins in the active, or only, analysis.
 
     `selected`: in place of what is selected. Raises Unusable.
     """
@@ -51,6 +59,9 @@ def find_mesh(selected=None):
         # A chain of operations counts as its last link.
         ends = [m for m in meshes if not any(m in made_of(o) for o in meshes)]
         if len(ends) > 1:
+            analysed = [o for o in analysis.Group if is_mesh(o)] if (analysis := _analysis(document)) else []
+            ends = list({end.Name: end for mesh in analysed for end in ends_of(mesh, meshes)}.values()) or ends
+        if len(ends) > 1:
             raise Unusable(
                 translate("FemScalpel", "The document has %1 FEM meshes. Select the one you mean in the tree.").replace(
                     "%1", str(len(ends))
@@ -69,13 +80,20 @@ def find_mesh(selected=None):
     return mesh
 
 
+def _analysis(document):
+    """The active analysis, or the only one, of a document, or None."""
+    analyses = document.findObjects("Fem::FemAnalysis")
+    active = FemGui.getActiveAnalysis()
+    return active if active in analyses else analyses[0] if len(analyses) == 1 else None
+
+
 def has_free_window():
     """Whether no task panel is open."""
     return not FreeCADGui.Control.activeDialog()
 
 
 class Command:
-    """A command for one FEM mesh. Subclasses set NAME, MENU, TOOLTIP, WHATS_THIS, ACCEL, and PANEL or write
+    """A command that looks at one FEM mesh. Subclasses set NAME, MENU, TOOLTIP, WHATS_THIS, ACCEL, and PANEL or write
     run(mesh)."""
 
     NAME = MENU = TOOLTIP = WHATS_THIS = ACCEL = ICON = ""
@@ -113,3 +131,34 @@ class Command:
     def run(self, mesh):
         """Does it."""
         FreeCADGui.Control.showDialog(self.PANEL(mesh))
+
+
+class Operation(Command):
+    """A command that makes a new mesh of one. Of a mesh that another operation has changed already it asks whether the
+    latest is meant."""
+
+    def Activated(self, index=0):
+        self.guarded(self._start)
+
+    def _start(self):
+        mesh = self.latest(find_mesh())
+        if mesh is not None:
+            self.run(mesh)
+
+    def latest(self, mesh):
+        """`mesh`, or what was made from it last; None when the user wants neither."""
+        meshes = [o for o in mesh.Document.Objects if is_mesh(o)]
+        usable = [m for m in ends_of(mesh, meshes) if "Invalid" not in m.State and m.FemMesh.NodeCount]
+        last = max(usable, key=meshes.index, default=mesh)
+        if last == mesh:
+            return mesh
+        answer = QtGui.QMessageBox.question(
+            FreeCADGui.getMainWindow(),
+            translate(self.CONTEXT, self.MENU).replace("&", ""),
+            translate("FemScalpel", "%1 is the source of another operation. Take %2, the latest, instead?")
+            .replace("%1", mesh.Label)
+            .replace("%2", last.Label),
+            QtGui.QMessageBox.Yes | QtGui.QMessageBox.No | QtGui.QMessageBox.Cancel,
+            QtGui.QMessageBox.Yes,
+        )
+        return {QtGui.QMessageBox.Yes: last, QtGui.QMessageBox.No: mesh}.get(answer)

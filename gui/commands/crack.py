@@ -3,10 +3,10 @@
 
 from ..panels.crack import CrackPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class Crack(Command):
+class Crack(Operation):
     NAME = "FemScalpel_Crack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Crack")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a plane and keeps its groups")

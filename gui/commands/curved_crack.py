@@ -6,10 +6,10 @@ import FreeCADGui
 
 from ..panels.curved_crack import CurvedCrackPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class CurvedCrack(Command):
+class CurvedCrack(Operation):
     NAME = "FemScalpel_CurvedCrack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Curved crack")
     TOOLTIP = QT_TRANSLATE_NOOP(

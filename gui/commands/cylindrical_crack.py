@@ -3,10 +3,10 @@
 
 from ..panels.cylindrical_crack import CylindricalCrackPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class CylindricalCrack(Command):
+class CylindricalCrack(Operation):
     NAME = "FemScalpel_CylindricalCrack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Cylindrical crack")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a cylinder and keeps its groups")

@@ -3,10 +3,10 @@
 
 from ..panels.drill import DrillPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class Drill(Command):
+class Drill(Operation):
     NAME = "FemScalpel_Drill"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Drill")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Drills a hole into the FEM mesh and keeps its groups")

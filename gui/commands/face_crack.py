@@ -3,10 +3,10 @@
 
 from ..panels.face_crack import FaceCrackPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class FaceCrack(Command):
+class FaceCrack(Operation):
     NAME = "FemScalpel_FaceCrack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Crack along faces")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along faces that it has, those of a group")

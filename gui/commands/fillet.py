@@ -3,10 +3,10 @@
 
 from ..panels.fillet import FilletPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class Fillet(Command):
+class Fillet(Operation):
     NAME = "FemScalpel_Fillet"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Fillet")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Rounds edges of the FEM mesh and keeps its groups")

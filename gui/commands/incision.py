@@ -3,10 +3,10 @@
 
 from ..panels.incision import IncisionPanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class Incision(Command):
+class Incision(Operation):
     NAME = "FemScalpel_Incision"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cuts a slot into the FEM mesh and keeps its groups")

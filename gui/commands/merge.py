@@ -6,10 +6,10 @@ import FreeCADGui
 
 from ..panels.merge import MergePanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command, find_mesh, is_mesh
+from .base import Operation, find_mesh, is_mesh
 
 
-class Merge(Command):
+class Merge(Operation):
     NAME = "FemScalpel_Merge"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Merge")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Adds another FEM mesh to the FEM mesh and keeps the groups of both")
@@ -22,13 +22,10 @@ class Merge(Command):
     )
     ACCEL = "S, M"
 
-    def Activated(self, index=0):
-        self.guarded(self._open)
-
-    @staticmethod
-    def _open():
+    def _start(self):
         document = FreeCAD.ActiveDocument
         selected = FreeCADGui.Selection.getSelection(document.Name) if document is not None else []
         two = len(selected) == 2 and all(map(is_mesh, selected))
-        mesh = find_mesh(selected[:1] if two else None)
-        FreeCADGui.Control.showDialog(MergePanel(mesh, chosen=selected[1] if two else None))
+        mesh = self.latest(find_mesh(selected[:1] if two else None))
+        if mesh is not None:
+            FreeCADGui.Control.showDialog(MergePanel(mesh, chosen=selected[1] if two else None))

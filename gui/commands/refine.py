@@ -3,10 +3,10 @@
 
 from ..panels.refine import RefinePanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class Refine(Command):
+class Refine(Operation):
     NAME = "FemScalpel_Refine"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Refine")
     TOOLTIP = QT_TRANSLATE_NOOP(

@@ -3,10 +3,10 @@
 
 from ..panels.reshape import ReshapePanel
 from ..translate import QT_TRANSLATE_NOOP
-from .base import Command
+from .base import Operation
 
 
-class Reshape(Command):
+class Reshape(Operation):
     NAME = "FemScalpel_Reshape"
     MENU = QT_TRANSLATE_NOOP("FemScalpel", "Reshape")
     TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Moves a wall of the FEM mesh and keeps its groups")

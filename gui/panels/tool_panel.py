@@ -12,7 +12,7 @@ from .. import preferences
 from ..macro import record_import
 from ..translate import form, icon, translate
 from ..view import preview_scene
-from ..view.preview_data import group_in_preview, make_preview
+from ..view.preview_data import group_in_preview, preview_of
 from . import fields, group_table
 from .histogram import Histogram
 from .placements import as_text
@@ -53,6 +53,7 @@ class ToolPanel(ViewPanel):
         self.edited = edited
         self.shown = None  # PreviewData of the newest request, None while it is not there or was an error
         self._ticket, self._settled = 0, 0
+        self._ok = True  # whether the button is enabled
 
         self.geometry = self.make_geometry()
         self.options = FreeCADGui.PySideUic.loadUi(form("options.ui"))
@@ -287,12 +288,22 @@ class ToolPanel(ViewPanel):
             return
         surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
         self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole))
+        self._set_ok(True)
+        if self.shown is None:
+            self._clear_errors()
+        ticket = self._ticket
+        QtCore.QTimer.singleShot(0 if self.shown is None else 400, lambda: self._say_computing(ticket))
+
+    def _say_computing(self, ticket):
+        if not self._closed and self._settled < ticket == self._ticket:
+            self._status(translate("FemScalpel", "Computing…"))
 
     def finished(self, ticket, value):
         if ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
         self._clear_errors()
+        self._set_ok(True)
         self.shown = value
         self.scene.show(value)
         report = value.result.report
@@ -306,11 +317,13 @@ class ToolPanel(ViewPanel):
             return
         self._settled = ticket
         self._place_error(error)
+        self._set_ok(ticket < self._ticket)  # what is entered now may be right
         if not isinstance(error, (femscalpel.Error, ValueError, TypeError)):
             FreeCAD.Console.PrintError(f"FemScalpel: {type(error).__name__}: {error}\n")
 
     def _no_result(self, status):
         self.shown = None
+        self._set_ok(False)
         if self.source is not None:
             self.scene.show_whole(self.source.whole(), self.beside())
         self.scene.highlight(None)
@@ -388,6 +401,14 @@ class ToolPanel(ViewPanel):
     def getStandardButtons(self):
         return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
 
+    def _set_ok(self, enabled):
+        if enabled != self._ok:
+            self._ok = enabled
+            # Looked for each time: Python must not keep what FreeCAD deletes.
+            for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+                if box.isVisible() and box.button(QtGui.QDialogButtonBox.Ok):
+                    box.button(QtGui.QDialogButtonBox.Ok).setEnabled(enabled)
+
     def accept(self):
         """OK: makes or changes the document object; stays open with a message when that is not possible."""
         self.geometry.stop_picking()
@@ -407,6 +428,9 @@ class ToolPanel(ViewPanel):
             return False
         self.document.commitTransaction()
         self.leave()
+        if self.edited is None:
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(self.document.Name, obj.Name)
         return True
 
     def reject(self):
@@ -473,12 +497,3 @@ class ToolPanel(ViewPanel):
     def forget_widgets(self):
         self.options = self.result = self.histogram = self._feature_angle = self._refine_size = None
         self._preserve = None
-
-
-def preview_of(source, operate, surface, region, whole):
-    """The PreviewData of what operate() makes of the Scalpel."""
-    result = operate(source.scalpel) if whole else operate(source.scalpel, True)
-    if not whole and (result.report.refinement or result.report.converted):
-        # Elements away from the tool were divided, too; the band lacks them.
-        result, whole = operate(source.scalpel, False), True
-    return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)

@@ -4,14 +4,16 @@ trace."""
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtCore
+from PySide import QtCore, QtGui
 from pivy import coin
 
 import femmesh_bridge
 
 from ..latest_wins import LatestWins
+from ..translate import translate
 from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
+from .field_filter import FieldFilter
 
 
 # Forms that FreeCAD has deleted itself; Python must never do it again.
@@ -32,7 +34,13 @@ class ViewPanel(QtCore.QObject):
         self._reading = None
 
     def start(self):
-        """Takes the view and starts reading the mesh; loaded() or failed() follow."""
+        """Names the mesh, takes the view and starts reading the mesh; loaded() or failed() follow."""
+        name = QtGui.QLabel(translate("FemScalpel", "Mesh: %1").replace("%1", self.source_object.Label))
+        name.setObjectName("meshName")
+        name.setTextFormat(QtCore.Qt.PlainText)
+        name.setWordWrap(True)
+        self.form[0].layout().insertWidget(0, name)
+        self._fields = FieldFilter(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
         self.worker = LatestWins(self._arrived, self._broke)

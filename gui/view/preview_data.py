@@ -266,3 +266,12 @@ def _worst(report, mesh):
                 float(ratio),
             )
     return empty
+
+
+def preview_of(source, operate, surface, region, whole):
+    """The PreviewData of what operate() makes of the Scalpel."""
+    result = operate(source.scalpel) if whole else operate(source.scalpel, True)
+    if not whole and (result.report.refinement or result.report.converted):
+        # Elements away from the tool were divided, too; the band lacks them.
+        result, whole = operate(source.scalpel, False), True
+    return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)

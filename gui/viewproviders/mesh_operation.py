@@ -23,11 +23,17 @@ PANELS = {
 }
 
 
+# Whenever a mesh changes, also hidden, FreeCAD compares each of its faces with each other to leave out inner ones: for
+# meshes of up to so many faces. With FreeCAD's own limit, 50000, that takes a second, with this one hundredths.
+_MOST_FACES_COMPARED = 10000
+
+
 class ViewProviderMeshOperation:
     """Opens the task panel the object was made with."""
 
     def __init__(self, vobj):
         vobj.Proxy = self
+        vobj.MaxFacesShowInner = min(vobj.MaxFacesShowInner, _MOST_FACES_COMPARED)
 
     def attach(self, vobj):
         self.Object = vobj.Object

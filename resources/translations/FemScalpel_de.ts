@@ -223,6 +223,10 @@
       <translation>%1 ist kein FEM-Netz. Wählen Sie das Netz im Baum.</translation>
     </message>
     <message>
+      <source>%1 is the source of another operation. Take %2, the latest, instead?</source>
+      <translation>%1 ist schon das Ausgangsnetz einer anderen Operation. Stattdessen das neueste nehmen, %2?</translation>
+    </message>
+    <message>
       <source>%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).</source>
       <translation>%1 Knoten verschoben, %2 hinzugefügt; %3 Elemente hinzugefügt, %4 entfernt. Mean ratio mindestens %5 (vorher: %6).</translation>
     </message>
@@ -361,6 +365,10 @@
     <message>
       <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
       <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
+    </message>
+    <message>
+      <source>Computing…</source>
+      <translation>Wird berechnet…</translation>
     </message>
     <message>
       <source>Cone</source>
@@ -525,6 +533,10 @@
     <message>
       <source>Mesh quality</source>
       <translation>Netzgüte</translation>
+    </message>
+    <message>
+      <source>Mesh: %1</source>
+      <translation>Netz: %1</translation>
     </message>
     <message>
       <source>Moves a wall of the FEM mesh and keeps its groups</source>

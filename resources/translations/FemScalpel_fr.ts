@@ -223,6 +223,10 @@
       <translation>%1 n'est pas un maillage EF. Sélectionnez le maillage dans l'arborescence.</translation>
     </message>
     <message>
+      <source>%1 is the source of another operation. Take %2, the latest, instead?</source>
+      <translation>%1 est déjà la source d'une autre opération. Prendre plutôt %2, le maillage le plus récent ?</translation>
+    </message>
+    <message>
       <source>%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).</source>
       <translation>%1 nœuds déplacés, %2 ajoutés ; %3 éléments ajoutés, %4 supprimés. Mean ratio au moins %5 (avant : %6).</translation>
     </message>
@@ -361,6 +365,10 @@
     <message>
       <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
       <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
+    </message>
+    <message>
+      <source>Computing…</source>
+      <translation>Calcul en cours…</translation>
     </message>
     <message>
       <source>Cone</source>
@@ -525,6 +533,10 @@
     <message>
       <source>Mesh quality</source>
       <translation>Qualité du maillage</translation>
+    </message>
+    <message>
+      <source>Mesh: %1</source>
+      <translation>Maillage : %1</translation>
     </message>
     <message>
       <source>Moves a wall of the FEM mesh and keeps its groups</source>

@@ -10,7 +10,9 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
+from . import contents
 from .geometry import shapes_of
+from .memory import Made, Shown, memory
 from .mesh_parts import nodes_around
 from .on_shape import OnShape
 from .operator_options import KEEP_TO_SHAPE
@@ -43,6 +45,8 @@ _RESULTS = (
     ("App::PropertyMap", "NodeSetCounts", "Number of nodes in the sets ICN, ECN (interface), ITN, ETN (transition)"),
     ("App::PropertyMap", "ConstraintCounts", "Number of constraints on moving nodes by kind"),
 )
+# Values of the properties above of an object without a mesh.
+_NO_RESULTS = {name: {"App::PropertyStringList": [], "App::PropertyMap": {}}.get(kind, 0) for kind, name, _ in _RESULTS}
 # The link to the geometry that FreeCAD's solver writers look for on a mesh object: Part up to 0.21, Shape from 1.0.
 _GEOMETRY_LINKS = ("Part", "Shape")
 
@@ -63,6 +67,8 @@ class MeshOperation:
     when a document is saved. So a loaded object and a loaded Source may number the same element differently; a
     recompute (obj.touch(), then doc.recompute()) makes the mesh anew and brings the numbers together again.
 
+    What was made while FreeCAD runs is remembered, and taken when it is asked for again: see memory.py and undo.py.
+
     A subclass says what its operator is by `Type`, INPUTS, and the methods tools(), where_nodes_may_move() and
     operate().
     """
@@ -76,9 +82,15 @@ class MeshOperation:
     MOVES_WALLS = False
 
     def __init__(self, obj):
-        self.report = None
+        self._forget_state()
         obj.Proxy = self
         self.add_properties(obj)
+
+    def _forget_state(self):
+        self.report = None
+        self.shown = None  # memory.Shown: which mesh the object holds; None while nobody has asked
+        self.is_giving = False  # whether this gives the object a mesh just now
+        self._wanted = None  # the Made that execute() is to show
 
     # --- what a subclass says
 
@@ -155,26 +167,46 @@ class MeshOperation:
     # --- making the mesh
 
     def execute(self, obj):
-        """Makes the mesh anew from Source. Raises Reason, a RuntimeError, when it cannot."""
+        """Makes the mesh from Source, or takes the one that was made from the same before. Raises Reason, a
+        RuntimeError, when it cannot."""
         self._link_geometry(obj)
+        made, self._wanted = self._wanted, None
+        if made is not None:
+            self._give(obj, made)
+            return
+        inputs = contents.inputs_of(obj)
         try:
-            source = self.mesh_of(obj, "Source")
-            mesh = femmesh_bridge.from_femmesh(source)
-            tools = self.tools(obj)
-            result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
-            points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
-            report = self._completed(result.report, on_shape)
-            self._check_names(obj, report)
-            femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
-        except Exception as error:
+            made, is_new = self._made(obj, inputs)
+        except (femscalpel.Error, ValueError, TypeError) as error:
+            made = Made(inputs, None, b"none", error=f"{obj.Label}: {error}")
+            memory.keep(obj.Document, made)
+            self._give(obj, made, error)
+        except Exception:
             self._clear(obj)
-            if isinstance(error, (femscalpel.Error, ValueError, TypeError)):
-                raise Reason(f"{obj.Label}: {error}") from error
             raise
-        if not obj.Placement.isIdentity():
-            obj.Placement = FreeCAD.Placement()
-        obj.FemMesh = femmesh
-        self._show(obj, report, on_shape.lost)
+        if is_new:
+            memory.keep(obj.Document, made)
+            for warning in made.report.warnings:
+                FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
+        self._give(obj, made)
+
+    def _made(self, obj, inputs):
+        """(Made, whether it was made just now)."""
+        source = self.mesh_of(obj, "Source")
+        surroundings = contents.surroundings_of(obj)
+        made = memory.of(obj.Document, inputs)
+        if made is not None and None not in (surroundings, made.surroundings) and surroundings == made.surroundings:
+            self._check_names(obj, made.report)
+            return made, False
+        mesh = contents.read_mesh(obj.Source)
+        tools = self.tools(obj)
+        result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
+        points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
+        report = self._completed(result.report, on_shape)
+        self._check_names(obj, report)
+        femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
+        token = inputs + (surroundings or contents.unique())
+        return Made(inputs, surroundings, token, femmesh, _results(report, on_shape.lost), report), True
 
     def _result(self, obj, mesh, tools, near):
         marked = mesh.copy()
@@ -236,23 +268,49 @@ class MeshOperation:
             return ()
         return tuple(g.name for g in report.groups if g.status == "new" and g.kind == "element")
 
-    def _show(self, obj, report, lost):
-        self.report = report
-        for warning in report.warnings:
-            FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
-        before, after = report.quality
-        obj.RefinedTo = report.refinement.size if report.refinement else 0
-        obj.NodesAdded = report.nodes_added
-        obj.NodesDoubled = report.nodes_doubled
-        obj.NodesMoved = report.nodes_moved
-        obj.MinimumQuality = after.minimum
-        obj.MinimumQualityBefore = before.minimum
-        obj.MaxDisplacement = report.max_displacement
-        obj.Warnings = report.warnings
-        obj.OffShape = lost
-        obj.GroupReport = report.to_text().splitlines()
-        obj.NodeSetCounts = {name: str(len(ids)) for name, ids in report.node_sets.items()}
-        obj.ConstraintCounts = {kind: str(count) for kind, count in report.constraints.items()}
+    # --- giving it to the object
+
+    def give_back(self, obj, made):
+        """Shows what `obj` has computed before, and nothing is left to compute."""
+        if "Invalid" in obj.State or made.error:
+            self._wanted = made
+            obj.recompute()  # of this object alone: nothing else takes the mark of an error away, or puts it there
+        else:
+            self._give(obj, made)
+        if not made.error:
+            obj.purgeTouched()
+
+    def _give(self, obj, made, cause=None):
+        """Shows a Made. Raises Reason when it is a failure."""
+        if made.femmesh is None:
+            self._clear(obj)
+            self.shown = Shown(made.inputs, made.token)
+            if made.error:
+                raise Reason(made.error) from cause
+            return
+        if not obj.Placement.isIdentity():
+            obj.Placement = FreeCAD.Placement()
+        if self.shown is None or self.shown.token != made.token:
+            self._set_mesh(obj, made.femmesh)
+        self.shown = Shown(made.inputs, made.token)
+        self._set_results(obj, made.results)
+        self.report = made.report
+
+    def _set_mesh(self, obj, femmesh):
+        if self.shown is not None and self.shown.loaded:
+            results = {name: getattr(obj, name) for name in _NO_RESULTS}
+            made = Made(self.shown.inputs, None, self.shown.token, obj.FemMesh.copy(), results, self.report)
+            memory.keep(obj.Document, made)
+        self.is_giving = True
+        try:
+            obj.FemMesh = femmesh
+        finally:
+            self.is_giving = False
+
+    @staticmethod
+    def _set_results(obj, results):
+        for name, value in results.items():
+            setattr(obj, name, value)
 
     def _clear(self, obj):
         # FreeCAD does not recompute what depends on a failed object, so it would keep showing its outdated mesh.
@@ -260,22 +318,9 @@ class MeshOperation:
             if isinstance(getattr(dependent, "Proxy", None), MeshOperation) and obj in made_of(dependent):
                 dependent.Proxy._clear(dependent)
         self.report = None
-        obj.FemMesh = Fem.FemMesh()
-        for name in (
-            "RefinedTo",
-            "NodesAdded",
-            "NodesDoubled",
-            "NodesMoved",
-            "MinimumQuality",
-            "MinimumQualityBefore",
-            "MaxDisplacement",
-        ):
-            setattr(obj, name, 0)
-        obj.Warnings = []
-        obj.OffShape = []
-        obj.GroupReport = []
-        obj.NodeSetCounts = {}
-        obj.ConstraintCounts = {}
+        self._set_mesh(obj, Fem.FemMesh())
+        self.shown = Shown(None, b"none")
+        self._set_results(obj, _NO_RESULTS)
 
     def dumps(self):
         """State FreeCAD saves with the document: none, the properties say everything."""
@@ -283,8 +328,27 @@ class MeshOperation:
 
     def loads(self, state):
         """Called by FreeCAD in place of __init__ when a document is loaded."""
-        self.report = None
+        self._forget_state()
 
     # FreeCAD before 0.21.2 asks for these.
     __getstate__ = dumps
     __setstate__ = loads
+
+
+def _results(report, lost):
+    """Values of the properties of the group Result."""
+    before, after = report.quality
+    return {
+        "RefinedTo": report.refinement.size if report.refinement else 0,
+        "NodesAdded": report.nodes_added,
+        "NodesDoubled": report.nodes_doubled,
+        "NodesMoved": report.nodes_moved,
+        "MinimumQuality": after.minimum,
+        "MinimumQualityBefore": before.minimum,
+        "MaxDisplacement": report.max_displacement,
+        "Warnings": report.warnings,
+        "OffShape": lost,
+        "GroupReport": report.to_text().splitlines(),
+        "NodeSetCounts": {name: str(len(ids)) for name, ids in report.node_sets.items()},
+        "ConstraintCounts": {kind: str(count) for kind, count in report.constraints.items()},
+    }

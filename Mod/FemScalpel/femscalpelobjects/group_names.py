@@ -57,11 +57,11 @@ def follow(obj):
         names[kind, shown.get(key, first)] = wanted.get(key, first)
     femmesh = obj.FemMesh.copy()
     for group in femmesh.Groups:
-        name = names.get((_kind(femmesh, group), femmesh.getGroupName(group)))
-        if name is not None:
-            group_type, members = femmesh.getGroupElementType(group), femmesh.getGroupElements(group)
-            femmesh.removeGroup(group)
-            femmesh.addGroupElements(femmesh.addGroup(name, group_type), list(members))
+        # All of them, so that they stay in order.
+        old, group_type = femmesh.getGroupName(group), femmesh.getGroupElementType(group)
+        name, members = names.get((_kind(femmesh, group), old), old), femmesh.getGroupElements(group)
+        femmesh.removeGroup(group)
+        femmesh.addGroupElements(femmesh.addGroup(name, group_type), list(members))
     obj.FemMesh = femmesh
     _shown[_key(obj)] = wanted
 

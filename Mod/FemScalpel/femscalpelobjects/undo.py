@@ -3,73 +3,117 @@
 
 FreeCAD does not put the old mesh back: a FemMesh given to an object overwrites the one the transaction has kept (seen
 with 0.20.2). The other properties do come back. So whenever an object's inputs are no longer those its mesh was made
-from, it is recomputed.
+from, it gets the mesh it had with these inputs, from memory. Where that does not have it any more the object is
+computed again: in the window when that is idle; without one, at the next recompute.
 """
 
 import FreeCAD
 
+from . import contents
 from .group_names import follow_all
+from .memory import CLEARED, Shown, memory
 from .ours import is_ours, made_of
 
-# Not inputs.
-_ASIDE = {
-    "FemMesh",
-    "Label",
-    "Label2",
-    "Visibility",
-    "ExpressionEngine",
-    "Placement",
-    "Proxy",
-    "Replaced",
-    "ReplacedAdditions",
-}
+if FreeCAD.GuiUp:
+    from femscalpelgui.idle import hold_shortcuts, release_shortcuts, when_idle
 
 
-def _inputs(obj):
-    """The values of the properties the mesh depends on, and the placements of what it is made from, comparable."""
-    values = {
-        name: obj.dumpPropertyContent(name)
-        for name in obj.PropertiesList
-        if name not in _ASIDE and obj.getGroupOfProperty(name) != "Result"
-    }
-    return {**values, "placements": [mesh.dumpPropertyContent("Placement") for mesh in made_of(obj)]}
+def mend(document):
+    """Gives the objects of a document the meshes that go with their inputs. Returns those that memory has none for:
+    they are touched."""
+    follow_all(document)
+    unknown, waiting = [], []
+    for obj in _in_order(document):
+        shown = obj.Proxy.shown
+        if any(mesh in waiting for mesh in made_of(obj)):
+            waiting.append(obj)
+            continue
+        if shown is None:
+            continue
+        inputs = contents.inputs_of(obj)
+        if not all(mesh.FemMesh.NodeCount for mesh in made_of(obj)):
+            if "Invalid" in obj.State and shown.inputs != inputs:
+                obj.Proxy.give_back(obj, CLEARED)
+                obj.touch()
+            continue
+        if shown.inputs == inputs:
+            if "Touched" in obj.State and "Invalid" not in obj.State:
+                obj.purgeTouched()  # it is what FreeCAD has put back that has touched it
+            continue
+        made = memory.of(document, inputs)
+        if made is None:
+            obj.touch()
+            unknown.append(obj)
+            waiting.append(obj)
+        else:
+            obj.Proxy.give_back(obj, made)
+    return unknown
+
+
+def _mend_and_compute(document):
+    unknown = mend(document)
+    if unknown:
+        document.recompute(unknown + [o for obj in unknown for o in obj.InListRecursive])
+
+
+def _in_order(document):
+    """The objects of FemScalpel, each behind those its mesh is made from."""
+    found = {}
+
+    def add(obj):
+        for mesh in made_of(obj):
+            if mesh.Name not in found:
+                add(mesh)
+        if is_ours(obj):
+            found[obj.Name] = obj
+
+    for obj in document.Objects:
+        add(obj)
+    return list(found.values())
 
 
 class _Watch:
-    """Document observer; knows what every object's mesh was made from."""
-
-    def __init__(self):
-        self._made_from = {}
-
-    def _key(self, obj):
-        return obj.Document.Name, obj.Name
-
-    def slotRecomputedObject(self, obj):
-        if is_ours(obj):
-            self._made_from[self._key(obj)] = _inputs(obj)
+    """Document observer."""
 
     def slotOpenTransaction(self, document, name):
-        # Objects of a loaded document were never recomputed here; their meshes are up to date.
-        for obj in document.Objects:
-            if is_ours(obj) and self._key(obj) not in self._made_from and "Touched" not in obj.State:
-                self._made_from[self._key(obj)] = _inputs(obj)
+        # Objects of a loaded document were never computed here; their meshes are up to date.
+        for obj in _in_order(document):
+            if obj.Proxy.shown is None and "Touched" not in obj.State and obj.FemMesh.NodeCount:
+                obj.Proxy.shown = Shown(contents.inputs_of(obj), contents.unique(), loaded=True)
+
+    def slotChangedObject(self, obj, prop):
+        if prop not in contents.OF_CONTENTS:
+            return
+        contents.forget(obj)
+        if prop == "FemMesh" and is_ours(obj) and not obj.Proxy.is_giving and not obj.Document.Transacting:
+            obj.Proxy.shown = None  # somebody else's
+
+    def slotDeletedObject(self, obj):
+        contents.forget(obj)
 
     def slotDeletedDocument(self, document):
-        self._made_from = {key: value for key, value in self._made_from.items() if key[0] != document.Name}
+        contents.forget_document(document)
+        memory.forget(document)
 
-    def _mend(self, document):
-        follow_all(document)
-        outdated = [
-            o
-            for o in document.Objects
-            if is_ours(o) and self._made_from.get(self._key(o), None) not in (None, _inputs(o))
-        ]
-        for obj in outdated:
-            obj.touch()
-        if outdated:
-            document.recompute(outdated + [o for obj in outdated for o in obj.InListRecursive])
+    def slotBeforeRecomputeDocument(self, document):
+        if FreeCAD.GuiUp and any(map(is_ours, document.Objects)):
+            hold_shortcuts(document)
 
-    slotUndoDocument = slotRedoDocument = slotAbortTransaction = _mend
+    def slotRecomputedDocument(self, document):
+        if FreeCAD.GuiUp:
+            release_shortcuts()
+
+    def _follow(self, document):
+        unknown = None if document.Recomputing else mend(document)
+        if unknown == []:
+            return
+        if FreeCAD.GuiUp:
+            when_idle(document, _mend_and_compute)
+        else:
+            for obj in unknown or ():
+                FreeCAD.Console.PrintWarning(f"{obj.Label}: its mesh follows at the next recompute\n")
+
+    slotUndoDocument = slotRedoDocument = slotAbortTransaction = _follow
 
 
 _watch = None

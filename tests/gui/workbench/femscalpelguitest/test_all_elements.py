@@ -13,8 +13,7 @@ from PySide import QtGui
 
 import femmesh_bridge
 import femscalpel as fs
-from femscalpelgui.panels.tool_panel import preview_of
-from femscalpelgui.view.preview_data import MadeNodes, PreviewSource
+from femscalpelgui.view.preview_data import MadeNodes, PreviewSource, preview_of
 from femscalpeltest.all_elements import SOLIDS, mesh_of, plate_with_beams
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest

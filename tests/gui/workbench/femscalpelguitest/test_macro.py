@@ -107,7 +107,11 @@ class Macro(GuiTest):
             press_ok()
             FreeCADGui.Selection.clearSelection()
             FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
-            self.run_command("FemScalpel_Refine")
+            with_dialog(
+                QtGui.QMessageBox,
+                lambda box: box.button(QtGui.QMessageBox.No).click(),  # not the latest, but this one
+                lambda: self.run_command("FemScalpel_Refine"),
+            )
             wait_until(lambda: "…" not in widget("status").text(), "the panel")
             type_into("edgeSize", "0.6")
             self.wait_for_preview()
