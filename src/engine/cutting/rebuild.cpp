@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "cancel.h"
 #include "cutting/opening_groups.h"
@@ -75,7 +76,7 @@ private:
                 continue;
             }
             const auto& [a, b] = band_.births[v - band_.original_nodes()];
-            note_born(a, b);
+            if (note_born(a, b, !f_.d.constraints.is_on_skin(band_, v))) spanning_.insert(v);
             out_.node[v] = mesh.add_node(n.at, next_node_++, mesh.families.intersect(family(a), family(b)));
             ++out_.nodes_split;
         }
@@ -88,15 +89,22 @@ private:
         }
     }
 
-    /// The next node is born on the edge a-b.
-    void note_born(int a, int b) {
+    /// The next node is born on the edge a-b, on the skin or `inside`; whether it is Changes::Born::spans.
+    bool note_born(int a, int b, bool inside) {
         check_();
         Changes::Born born{next_node_, {}};
+        // Ends that are between others on the skin are no further inside.
+        const auto counts = [&](int v) {
+            return spanning_.contains(v) || (band_.in_use(v) && f_.d.constraints.is_on_skin(band_, v));
+        };
+        const bool spans = inside && counts(a) && counts(b);
+        born.spans = spans;
         gather_ancestors(a, born.ancestors);
         gather_ancestors(b, born.ancestors);
         std::ranges::sort(born.ancestors);
         born.ancestors.erase(std::unique(born.ancestors.begin(), born.ancestors.end()), born.ancestors.end());
         out_.changes.born.push_back(std::move(born));
+        return spans;
     }
 
     void gather_ancestors(int v, std::vector<Index>& out) {
@@ -158,7 +166,7 @@ private:
         const auto original = band_.mid_nodes.find(edge_key(a, b));
         if (original == band_.mid_nodes.end()) {
             ++out_.nodes_split;
-            note_born(a, b);
+            note_born(a, b, !f_.d.constraints.is_skin_edge(band_, a, b));
             return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
         }
         if (moved(a) || moved(b) || f_.d.edge_contact(a, b) || f_.d.mids.is_mended(a, b)) {
@@ -470,6 +478,7 @@ private:
     std::vector<CellRef> triangle_twin_, line_twin_;
     std::vector<CellRef> removed_;
     std::unordered_map<int, std::vector<Index>> ancestors_;  // by new band node
+    std::unordered_set<int> spanning_;                       // new band nodes that are Changes::Born::spans
     struct MidNodes {
         explicit MidNodes(std::uint64_t image) : owner(image) {}
 

@@ -15,11 +15,13 @@ Changes in_one(std::span<const Changes> stages) {
         std::vector<Index> ancestors;
         for (const Index a : b.ancestors) {
             const auto birth = births.find(a);
-            if (birth == births.end())
+            if (birth == births.end()) {
                 ancestors.push_back(a);
-            else
-                ancestors.insert(ancestors.end(), out.born[birth->second].ancestors.begin(),
-                                 out.born[birth->second].ancestors.end());
+                continue;
+            }
+            const Changes::Born& first = out.born[birth->second];
+            ancestors.insert(ancestors.end(), first.ancestors.begin(), first.ancestors.end());
+            b.spans = b.spans || first.spans;
         }
         std::ranges::sort(ancestors);
         ancestors.erase(std::unique(ancestors.begin(), ancestors.end()), ancestors.end());

@@ -24,7 +24,8 @@ struct Changes {
                                        ///< or the corners of the face or element
         /// Nodes of the input and their shares in what a field has at the node; empty if its place is to tell.
         std::vector<std::pair<Index, double>> shares = {};
-        /// Of a point of a beam: what holds its ancestors, the ends, is not known to hold what is between them.
+        /// Of a point of a beam, or one inside the material between two on its skin: what holds its ancestors is not
+        /// known to hold what is between them.
         bool spans = false;
     };
     /// A further part of an element, or a second copy of one.
