@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "operators/poor.h"
+
+#include "cutting/weld.h"
 #include "simple_meshes.h"
 #include "tools/plane.h"
 
@@ -79,6 +81,15 @@ TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
     EXPECT_DOUBLE_EQ(held.largest, 0.5);
     EXPECT_THAT(held.features, testing::ElementsAre("the skin"));
     EXPECT_THAT(f.warnings, testing::ElementsAre(testing::HasSubstr("held by the skin")));
+}
+
+TEST_F(PoorTest, DoubleNodesAreNoCardOfTheSolversInput) {
+    const GroupIndex lips = mesh.add_group(std::string(weld_rim_group), GroupKind::node, true);
+    const Index node = checks::number_near(mesh, {1, 2, 2});
+    mesh.node_families[node] = mesh.families.with(mesh.node_families[node], lips);
+    Workpiece f = interface();
+    f.d.hold_beside(node_at(f, {1, 2, 2}), &plane);
+    EXPECT_THAT(find_held_nodes(f, mesh).features, testing::ElementsAre("double nodes"));
 }
 
 TEST_F(PoorTest, HeldNodesMayBeNew) {

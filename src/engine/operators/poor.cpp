@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "cutting/weld.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
@@ -39,10 +40,13 @@ void add_holders(const Workpiece& f, const Mesh& mesh, int node, Holders& out) {
     if (freedom == NodeFreedom::free) return;
     const std::size_t before = out.groups.size() + out.features.size();
     for (const GroupIndex g : constraints.groups_at(f.d.band, node)) {
-        if (mesh.groups[g].hidden)
-            out.features.insert("a card of the solver's input");
+        const Group& group = mesh.groups[g];
+        if (!group.hidden)
+            out.groups.insert(group.name);
+        else if (group.name == weld_group || group.name == weld_rim_group)
+            out.features.insert("double nodes");
         else
-            out.groups.insert(mesh.groups[g].name);
+            out.features.insert("a card of the solver's input");
     }
     const std::size_t lines = f.d.band.creases.around(node).size();
     if (constraints.is_on_skin(f.d.band, node))
