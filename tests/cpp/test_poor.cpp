@@ -85,8 +85,10 @@ TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
 
 TEST_F(PoorTest, DoubleNodesAreNoCardOfTheSolversInput) {
     const GroupIndex lips = mesh.add_group(std::string(weld_rim_group), GroupKind::node, true);
-    const Index node = checks::number_near(mesh, {1, 2, 2});
-    mesh.node_families[node] = mesh.families.with(mesh.node_families[node], lips);
+    for (const Vec3& x : {Vec3(1, 2, 2), Vec3(2, 2, 2)}) {
+        FamilyIndex& family = mesh.node_families[checks::number_near(mesh, x)];
+        family = mesh.families.with(family, lips);
+    }
     Workpiece f = interface();
     f.d.hold_beside(node_at(f, {1, 2, 2}), &plane);
     EXPECT_THAT(find_held_nodes(f, mesh).features, testing::ElementsAre("double nodes"));
