@@ -23,6 +23,16 @@ struct PoorTest : testing::Test {
         return f;
     }
 
+    /// Elements above z = 3.
+    void put_top_into(GroupIndex group) {
+        CellBlock& tetras = mesh.block(CellType::tetra);
+        for (Index c = 0; c < tetras.size(); ++c) {
+            double z = 0;
+            for (const Index n : tetras.nodes(c)) z += mesh.points[n].z() / 4;
+            if (z > 3) tetras.families[c] = mesh.families.with(tetras.families[c], group);
+        }
+    }
+
     static int node_at(const Workpiece& f, const Vec3& x) {
         for (int v = 0; v < f.d.band.size(); ++v)
             if ((f.d.band.nodes[v].at - x).norm() < 1e-9) return v;
@@ -37,13 +47,7 @@ TEST_F(PoorTest, NothingIsSaidOfGoodElements) {
 }
 
 TEST_F(PoorTest, WhatHoldsIsNamed) {
-    const GroupIndex top = mesh.add_group("TOP", GroupKind::element);
-    for (Index c = 0; c < mesh.block(CellType::tetra).size(); ++c) {
-        double z = 0;
-        for (const Index n : mesh.block(CellType::tetra).nodes(c)) z += mesh.points[n].z() / 4;
-        if (z > 3)
-            mesh.block(CellType::tetra).families[c] = mesh.families.with(mesh.block(CellType::tetra).families[c], top);
-    }
+    put_top_into(mesh.add_group("TOP", GroupKind::element));
     Workpiece f = interface();
     // Nearly onto the border of TOP, which is at z = 3.
     f.d.band.nodes[node_at(f, {2, 2, 2})].at.z() = 3 - 1e-4;
@@ -84,13 +88,9 @@ TEST_F(PoorTest, HeldNodesAreCountedAndNamed) {
 }
 
 TEST_F(PoorTest, DoubleNodesAreNoCardOfTheSolversInput) {
-    const GroupIndex lips = mesh.add_group(std::string(weld_rim_group), GroupKind::node, true);
-    for (const Vec3& x : {Vec3(1, 2, 2), Vec3(2, 2, 2)}) {
-        FamilyIndex& family = mesh.node_families[checks::number_near(mesh, x)];
-        family = mesh.families.with(family, lips);
-    }
+    put_top_into(mesh.add_group(std::string(weld_group), GroupKind::element, true));
     Workpiece f = interface();
-    f.d.hold_beside(node_at(f, {1, 2, 2}), &plane);
+    f.d.hold_beside(node_at(f, {2, 2, 3}), &plane);
     EXPECT_THAT(find_held_nodes(f, mesh).features, testing::ElementsAre("double nodes"));
 }
 
