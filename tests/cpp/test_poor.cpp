@@ -18,7 +18,9 @@ struct PoorTest : testing::Test {
 
     Workpiece interface() const {
         const std::vector<std::int8_t> level(mesh.points.size(), 0);
-        Workpiece f{.d = Deformable(extract_band(mesh, level), mesh, {}), .tool = &plane, .tolerance = 1e-9};
+        ConstraintOptions options;
+        options.kept_hidden.assign(mesh.groups.size(), true);
+        Workpiece f{.d = Deformable(extract_band(mesh, level), mesh, options), .tool = &plane, .tolerance = 1e-9};
         f.distance.assign(static_cast<std::size_t>(f.d.band.size()), 1);
         return f;
     }
