@@ -6,6 +6,7 @@ import femscalpel as fs
 import numpy as np
 import pytest
 import rounding_cases as cases
+from meshes import grid_box
 
 #: How many random cases; 3000 take some minutes.
 COUNT = int(os.environ.get("FEMSCALPEL_ROUNDING_CASES", 150))
@@ -160,3 +161,18 @@ def test_plane_that_nearly_touches_a_coarse_curved_skin():
     assert result.report.straightened.count > 0 and 0 < result.report.straightened.largest < 0.4
     assert result.report.quality.after.minimum > 0.1
     assert fs.scaled_jacobian(result.mesh)["tetra10"].min() > 0
+
+
+@pytest.mark.parametrize("beam", [False, True])
+def test_what_would_grow_over_four_times_is_refused_unless_refined_first(beam):
+    """A plane along the middle of a plate of one layer crosses all its elements; dividing a beam does not change that."""
+    plate = grid_box((24, 24, 1), (24.0, 24.0, 1.0))
+    points, cells = plate.points, dict(plate.cells)
+    if beam:
+        points = np.vstack([points, [(12, 12, -1), (12, 12, 2)]])
+        cells["line"] = np.array([[len(points) - 2, len(points) - 1]])
+    mesh, plane = fs.Mesh(points, cells), fs.Plane((12, 12, 0.5), (0.004, 0.003, 1))
+    with pytest.raises(fs.ToolError, match="would grow from 345[68] to"):
+        fs.crack(mesh, plane)
+    report = fs.crack(mesh, plane, refine=0.6).report
+    assert report.refinement.elements_after > 2 * report.refinement.elements_before and report.nodes_doubled > 500

@@ -324,7 +324,8 @@ void Account::find_warnings(const Workpiece& f, std::span<const Blade> blades, c
     for (const std::vector<std::string>* warnings : {&f.warnings, &opening.warnings, &of_deck})
         for (const std::string& w : *warnings)
             if (std::ranges::find(report_.warnings, w) == report_.warnings.end()) report_.warnings.push_back(w);
-    if (!was_refined()) check_growth(edit_.whole().cell_count(), *blades.front().tool, report_);
+    // What refining added is told elsewhere; what was converted counts as it became.
+    if (!was_refined() || !refined_->summary) check_growth(edit_.whole().cell_count(), *blades.front().tool, report_);
 }
 
 /// Makes the counts of the report those of refinement and operation together: what both made and removed does not
