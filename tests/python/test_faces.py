@@ -282,3 +282,26 @@ def test_of_several_elements_on_a_face_those_of_the_group_are_the_lips():
     lip = after.cells["quad"][np.isin(after.cell_ids["quad"], after.groups["T_N"].ids)]
     left = set(after.cells["hexahedron"][after.points[after.cells["hexahedron"]][:, :, 0].mean(axis=1) < 1].ravel())
     assert set(lip.ravel()) <= left  # the quads of G face the positive side
+
+
+def test_shells_that_stay_joined_have_one_lip():
+    """A square is cut out of a floor beside a wall: along the wall the rest of the floor and the wall hold together."""
+    number, points, quads = {}, [], []
+
+    def node(*place):
+        if place not in number:
+            number[place] = len(points)
+            points.append(place)
+        return number[place]
+
+    for j in range(6):
+        quads += [[node(i, j, 0), node(i + 1, j, 0), node(i + 1, j + 1, 0), node(i, j + 1, 0)] for i in (-2, -1, 0, 1)]
+        quads += [[node(0, j, k), node(0, j, k + 1), node(0, j + 1, k + 1), node(0, j + 1, k)] for k in (0, 1)]
+    around = [(-2, 2), (-1, 2), (0, 2), (0, 3), (-1, 3), (-2, 3)]
+    lines = [[number[*a, 0], number[*b, 0]] for a, b in zip(around, around[1:])]
+    mesh = fs.Mesh(np.array(points, float), {"quad": np.array(quads), "line": np.array(lines)})
+    mesh.add_group("G", "element", mesh.cell_ids["line"])
+    after = fs.crack(mesh, fs.Faces("G"), name="T").mesh
+    for lip in ("T_N", "T_P"):
+        segments = np.sort(after.cells["line"][np.isin(after.cell_ids["line"], after.groups[lip].ids)], axis=1)
+        assert len(segments) == 5 and len(np.unique(segments, axis=0)) == 5

@@ -212,21 +212,21 @@ private:
             std::vector<std::vector<Index>> sides;
             sides.reserve(face.owners.size());
             for (const Owner& o : face.owners) sides.push_back(FaceCover::nodes_of(out_.mesh, o));
-            const auto is_first = [&](std::vector<Index> nodes) {
-                std::ranges::sort(nodes);
-                std::vector<Index> first = sides[0];
-                std::ranges::sort(first);
-                return nodes == first;
-            };
-            if (std::ranges::all_of(sides, is_first)) {
+            for (std::vector<Index>& nodes : sides) std::ranges::sort(nodes);
+            if (std::ranges::all_of(sides, [&](const auto& nodes) { return nodes == sides[0]; })) {
                 ++out_.closed;
                 keep_on(face);
                 continue;
             }
             opened_.push_back(&face);
-            for (std::size_t o = 0; o < face.owners.size(); ++o)
+            for (std::size_t o = 0; o < face.owners.size(); ++o) {
+                // Of shells at a junction, some may stay joined, and have one lip.
+                if (std::find(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(o), sides[o]) !=
+                    sides.begin() + static_cast<std::ptrdiff_t>(o))
+                    continue;
                 make_lip(face, face.owners[o], FaceCover::side(face, o) > 0 ? negative_ : positive_,
                          FaceCover::side(face, o) > 0);
+            }
         }
         if (opened_.empty())
             cover_.refuse("has all its " + cover_.what() + "s where the crack would end: none could be opened");
