@@ -15,9 +15,12 @@ namespace femscalpel::bindings {
 void bind_io(py::module_& module) {
     module.def(
         "read",
-        [](const std::filesystem::path& path) {
-            return interruptible([&] { return std::make_shared<Mesh>(read(path)); });
+        [](const std::filesystem::path& path, const std::string& mesh) {
+            return interruptible([&] { return std::make_shared<Mesh>(read(path, mesh)); });
         },
+        py::arg("path"), py::arg("mesh") = std::string());
+    module.def(
+        "meshes_in", [](const std::filesystem::path& path) { return interruptible([&] { return meshes_in(path); }); },
         py::arg("path"));
     module.def(
         "write", [](const Mesh& mesh, const std::filesystem::path& path) { interruptible([&] { write(mesh, path); }); },

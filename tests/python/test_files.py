@@ -36,7 +36,7 @@ def test_round_trip(tmp_path, suffix, as_path):
 
 def test_formats():
     assert fs.formats()[:3] == [
-        ("MED: Code_Aster, SALOME", (".med",), True, True),
+        ("MED: Code_Aster, SALOME", (".med", ".mmed", ".rmed"), True, True),
         ("CalculiX", (".inp", ".inp.gz"), True, True),
         ("ParaView", (".vtu",), False, True),
     ]
@@ -85,3 +85,18 @@ def test_files_of_med_2_3(capfd):
     assert mesh.points.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     assert list(mesh.cells) == ["tetra"] and fs.measure(mesh)["tetra"] == pytest.approx([1 / 6])
     assert not any(capfd.readouterr())
+
+
+def test_files_of_several_meshes(recwarn):
+    path = pathlib.Path(__file__).parent / "files" / "two_meshes.med"
+    assert fs.meshes_in(path) == ["FIRST", "SECOND"] and not recwarn
+    with pytest.warns(UserWarning, match="holds 2 meshes: 'FIRST', 'SECOND'. The first was read"):
+        first = fs.read(path)
+    assert first.name == "FIRST"
+    second = fs.read(path, mesh="SECOND")
+    assert second.name == "SECOND"
+    with pytest.raises(fs.ReadError, match="has no mesh 'THIRD'; it has 'FIRST', 'SECOND'"):
+        fs.read(path, mesh="THIRD")
+    with pytest.raises(fs.ReadError, match="hold one mesh, without a name"):
+        fs.read("box.inp", mesh="A")
+    assert fs.meshes_in("box.inp") == []

@@ -11,8 +11,11 @@ namespace femscalpel {
 namespace {
 
 constexpr Format table[] = {
-    {"MED: Code_Aster, SALOME", {".med"}, read_med, write_med},
-    {"CalculiX", {".inp", ".inp.gz"}, read_inp, write_inp},
+    {"MED: Code_Aster, SALOME", {".med", ".mmed", ".rmed"}, read_med, write_med, med_meshes},
+    {"CalculiX",
+     {".inp", ".inp.gz"},
+     [](const std::filesystem::path& path, const std::string&) { return read_inp(path); },
+     write_inp},
     {"ParaView", {".vtu"}, nullptr, write_vtu},
 };
 

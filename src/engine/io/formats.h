@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -17,8 +18,11 @@ struct Format {
     std::string_view title;  ///< for file dialogs, in every language: "MED: Code_Aster, SALOME"
     /// In lower case, with the dot, the usual one first: ".inp", ".inp.gz". Empty ones end the list.
     std::array<std::string_view, 4> listed;
-    Mesh (*read)(const std::filesystem::path&);                ///< null for a format that is written only
+    /// Null for a format that is written only. The name is that of one of the file's meshes; empty: the first.
+    Mesh (*read)(const std::filesystem::path&, const std::string& mesh);
     void (*write)(const Mesh&, const std::filesystem::path&);  ///< null for a format that is read only
+    /// The names of a file's meshes; null for a format whose files hold one, without a name.
+    std::vector<std::string> (*meshes)(const std::filesystem::path&) = nullptr;
 
     /// The extensions without the empty ones.
     std::span<const std::string_view> extensions() const;

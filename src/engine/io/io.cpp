@@ -13,15 +13,28 @@ std::string unknown(const std::filesystem::path& path, const std::string& known)
     return path.string() + ": the format is told by the extension, one of " + known;
 }
 
-}  // namespace
-
-Mesh read(const std::filesystem::path& path) {
+/// Throws ReadError when files of that kind cannot be read.
+const Format& format_to_read(const std::filesystem::path& path) {
     const Format* format = format_of(path);
     if (format && !format->read)
         throw ReadError(path.string() + ": files of this kind can only be written; those that can be read are " +
                         extensions_read());
     if (!format) throw ReadError(unknown(path, extensions_read()));
-    return format->read(path);
+    return *format;
+}
+
+}  // namespace
+
+Mesh read(const std::filesystem::path& path, const std::string& mesh) {
+    const Format& format = format_to_read(path);
+    if (!mesh.empty() && !format.meshes)
+        throw ReadError(path.string() + ": files of this kind hold one mesh, without a name; leave `mesh` out");
+    return format.read(path, mesh);
+}
+
+std::vector<std::string> meshes_in(const std::filesystem::path& path) {
+    const Format& format = format_to_read(path);
+    return format.meshes ? format.meshes(path) : std::vector<std::string>();
 }
 
 void write(const Mesh& mesh, const std::filesystem::path& path) {

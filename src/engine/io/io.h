@@ -2,14 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 
 namespace femscalpel {
 
-/// Reads a mesh; the format follows the extension, case ignored, see formats.h.
+/// Reads a mesh; the format follows the extension, case ignored, see formats.h. Of a file of several, `mesh` names the
+/// one; the first if empty.
 /// Throws ReadError that names the file and, for text, the line.
-Mesh read(const std::filesystem::path& path);
+Mesh read(const std::filesystem::path& path, const std::string& mesh = {});
+
+/// The names of a file's meshes; none in formats whose files hold one, without a name. Throws as read() does.
+std::vector<std::string> meshes_in(const std::filesystem::path& path);
 
 /// Writes a mesh; the format follows the extension, case ignored, see formats.h.
 /// A temporary file beside `path` is renamed when complete, so `path` is whole or untouched.

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 
 namespace femscalpel {
 
-/// Reads the first unstructured mesh of a MED file (SALOME, Code_Aster, Gmsh, FreeCAD), at its first
-/// computation step. Files of MED 2.2 to 4.1; fields and profiles are not read.
+/// Reads the unstructured mesh of that name, or the first if `mesh` is empty, of a MED file (SALOME, Code_Aster, Gmsh,
+/// FreeCAD), at its first computation step. Files of MED 2.2 to 4.1; fields and profiles are not read.
 ///
 /// Nodes: coordinates bit for bit, z (and y) = 0 where the file is 2-D (1-D). Cartesian axes only. The
 /// unit of the first axis becomes Mesh::unit.
@@ -29,7 +31,10 @@ namespace femscalpel {
 /// Throws ReadError that names the file and what is wrong with it: missing, not a MED file, truncated,
 /// damaged, contradictory. The mesh returned is valid (Mesh::validate).
 /// MED-fichier and HDF5 are not thread-safe: calls of read_med and write_med wait for each other.
-Mesh read_med(const std::filesystem::path& path);
+Mesh read_med(const std::filesystem::path& path, const std::string& mesh = {});
+
+/// The names of the unstructured meshes of a MED file. Throws as read_med() does.
+std::vector<std::string> med_meshes(const std::filesystem::path& path);
 
 /// Writes a mesh as MED 4.1: three-dimensional Cartesian coordinates (axes X, Y, Z in Mesh::unit), node
 /// and element numbers, groups as families. The order of the groups is not part of the format.

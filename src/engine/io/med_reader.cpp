@@ -77,9 +77,40 @@ private:
 
 class Reader {
 public:
-    explicit Reader(const std::filesystem::path& path) : path_(path.string()) {}
+    explicit Reader(const std::filesystem::path& path, std::string wanted = {})
+        : path_(path.string()), wanted_(std::move(wanted)) {}
 
     Mesh read() {
+        const std::unique_ptr<MedFile> file = open();
+        find_mesh();
+        read_families();
+        read_nodes();
+        read_elements();
+        make_families();
+        number_elements();
+        try {
+            mesh_.validate();
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& e) {
+            fail(std::string("contradictory or damaged: ") + e.what());
+        }
+        return std::move(mesh_);
+    }
+
+    std::vector<std::string> meshes() {
+        const std::unique_ptr<MedFile> file = open();
+        std::vector<std::string> out;
+        const med_int count = MEDnMesh(fid_);
+        if (count < 0) damaged("the list of meshes");
+        for (int i = 1; i <= count; ++i)
+            if (describe_mesh(i).type == MED_UNSTRUCTURED_MESH) out.emplace_back(name_);
+        return out;
+    }
+
+private:
+    /// Of a file that can be read.
+    std::unique_ptr<MedFile> open() {
         std::error_code error;
         const auto status = std::filesystem::status(path_, error);
         if (!std::filesystem::exists(status)) fail("there is no such file");
@@ -98,63 +129,66 @@ public:
         if (!med_good) fail("not a MED file, or one of a MED version this library (" MED_VERSION_STR ") cannot read");
 
         check_cancelled();
-        MedFile file(MEDfileOpen(path_.c_str(), MED_ACC_RDONLY));
-        fid_ = file.id();
+        auto file = std::make_unique<MedFile>(MEDfileOpen(path_.c_str(), MED_ACC_RDONLY));
+        fid_ = file->id();
         if (fid_ < 0) damaged("the file");
         med_int major = 0, minor = 0, release = 0;
         if (MEDfileNumVersionRd(fid_, &major, &minor, &release) < 0) damaged("its MED version");
         is_old_ = major < 3;
-        find_mesh();
-        read_families();
-        read_nodes();
-        read_elements();
-        make_families();
-        number_elements();
-        try {
-            mesh_.validate();
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& e) {
-            fail(std::string("contradictory or damaged: ") + e.what());
-        }
-        return std::move(mesh_);
+        return file;
     }
 
-private:
     [[noreturn]] void fail(const std::string& what) const { throw ReadError(path_ + ": " + what); }
     [[noreturn]] void damaged(const std::string& what) const { fail("truncated or damaged: cannot read " + what); }
+
+    /// What a file says of a mesh, but for its name, which is in name_.
+    struct Header {
+        med_int axes = 0, space_dimension = 0, steps = 0;
+        med_mesh_type type = MED_UNDEF_MESH_TYPE;
+        med_axis_type axis_type = MED_UNDEF_AXIS_TYPE;
+        std::string unit;  ///< of the first axis
+    };
+    Header describe_mesh(int i) {
+        Header out;
+        out.axes = MEDmeshnAxis(fid_, i);
+        if (out.axes < 0) damaged("the number of axes of mesh " + std::to_string(i));
+        if (out.axes < 1 || out.axes > 3)
+            fail("mesh " + std::to_string(i) + " has " + std::to_string(out.axes) + " axes");
+        char description[MED_COMMENT_SIZE + 1] = "", dt_unit[MED_SNAME_SIZE + 1] = "";
+        char axis_names[3 * MED_SNAME_SIZE + 1] = "", axis_units[3 * MED_SNAME_SIZE + 1] = "";
+        med_int mesh_dimension = 0;
+        med_sorting_type sorting = MED_SORT_UNDEF;
+        if (MEDmeshInfo(fid_, i, name_, &out.space_dimension, &mesh_dimension, &out.type, description, dt_unit,
+                        &sorting, &out.steps, &out.axis_type, axis_names, axis_units) < 0)
+            damaged("the description of mesh " + std::to_string(i));
+        out.unit = trimmed(axis_units, MED_SNAME_SIZE);
+        return out;
+    }
 
     void find_mesh() {
         const med_int meshes = MEDnMesh(fid_);
         if (meshes < 0) damaged("the list of meshes");
         if (meshes == 0) fail("contains no mesh");
+        std::string names;
         for (int i = 1; i <= meshes; ++i) {
-            const med_int axes = MEDmeshnAxis(fid_, i);
-            if (axes < 0) damaged("the number of axes of mesh " + std::to_string(i));
-            if (axes < 1 || axes > 3) fail("mesh " + std::to_string(i) + " has " + std::to_string(axes) + " axes");
-            char description[MED_COMMENT_SIZE + 1] = "", dt_unit[MED_SNAME_SIZE + 1] = "";
-            char axis_names[3 * MED_SNAME_SIZE + 1] = "", axis_units[3 * MED_SNAME_SIZE + 1] = "";
-            med_int space_dimension = 0, mesh_dimension = 0, steps = 0;
-            med_mesh_type type = MED_UNDEF_MESH_TYPE;
-            med_sorting_type sorting = MED_SORT_UNDEF;
-            med_axis_type axis_type = MED_UNDEF_AXIS_TYPE;
-            if (MEDmeshInfo(fid_, i, name_, &space_dimension, &mesh_dimension, &type, description, dt_unit, &sorting,
-                            &steps, &axis_type, axis_names, axis_units) < 0)
-                damaged("the description of mesh " + std::to_string(i));
-            if (type != MED_UNSTRUCTURED_MESH) continue;
-            if (axis_type != MED_CARTESIAN)
+            const Header header = describe_mesh(i);
+            if (header.type != MED_UNSTRUCTURED_MESH) continue;
+            names += (names.empty() ? "'" : ", '") + std::string(name_) + "'";
+            if (!wanted_.empty() && wanted_ != name_) continue;
+            if (header.axis_type != MED_CARTESIAN)
                 fail("mesh '" + std::string(name_) +
                      "' has cylindrical or spherical coordinates; convert it to Cartesian ones");
-            if (space_dimension != axes) damaged("the dimension of mesh '" + std::string(name_) + "'");
+            if (header.space_dimension != header.axes) damaged("the dimension of mesh '" + std::string(name_) + "'");
             med_float time = 0;
-            if (steps < 1 || MEDmeshComputationStepInfo(fid_, name_, 1, &step_, &iteration_, &time) < 0)
+            if (header.steps < 1 || MEDmeshComputationStepInfo(fid_, name_, 1, &step_, &iteration_, &time) < 0)
                 fail("mesh '" + std::string(name_) + "' is declared but has no nodes, or the file is damaged");
-            dimension_ = static_cast<int>(axes);
+            dimension_ = static_cast<int>(header.axes);
             mesh_.name = name_;
-            mesh_.unit = trimmed(axis_units, MED_SNAME_SIZE);
+            mesh_.unit = header.unit;
             return;
         }
-        fail("contains structured grids only; convert the grid to an unstructured mesh");
+        if (names.empty()) fail("contains structured grids only; convert the grid to an unstructured mesh");
+        fail("has no mesh '" + wanted_ + "'; it has " + names);
     }
 
     void read_families() {
@@ -410,6 +444,7 @@ private:
 
     std::string path_;
     std::uintmax_t file_size_ = 0;
+    std::string wanted_;  // the mesh's name; the first if empty
     med_idt fid_ = -1;
     bool is_old_ = false;  // before version 3
     char name_[MED_NAME_SIZE + 1] = "";
@@ -422,16 +457,24 @@ private:
     Mesh mesh_;
 };
 
-}  // namespace
-
-Mesh read_med(const std::filesystem::path& path) {
+auto from_file(const std::filesystem::path& path, auto read) {
     const auto lock = lock_libraries();
     const QuietHdf5 quiet;
     try {
-        return Reader(path).read();
+        return read();
     } catch (const std::bad_alloc&) {
         throw ReadError(path.string() + ": truncated or damaged, or larger than the memory");
     }
+}
+
+}  // namespace
+
+Mesh read_med(const std::filesystem::path& path, const std::string& mesh) {
+    return from_file(path, [&] { return Reader(path, mesh).read(); });
+}
+
+std::vector<std::string> med_meshes(const std::filesystem::path& path) {
+    return from_file(path, [&] { return Reader(path).meshes(); });
 }
 
 }  // namespace femscalpel

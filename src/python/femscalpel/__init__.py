@@ -19,7 +19,7 @@ from .cancel import CancelToken
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
-from .meshfile import Format, formats, read, write
+from .meshfile import Format, formats, meshes_in, read, write
 from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine, reshape
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import (
@@ -84,6 +84,7 @@ __all__ = [
     "mean_ratio",
     "measure",
     "merge",
+    "meshes_in",
     "read",
     "refine",
     "reshape",

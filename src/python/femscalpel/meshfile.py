@@ -2,7 +2,8 @@
 """Reading and writing mesh files."""
 
 import os
-from typing import List, NamedTuple, Tuple, Union
+import warnings
+from typing import List, NamedTuple, Optional, Tuple, Union
 
 from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
@@ -28,15 +29,34 @@ def formats() -> List[Format]:
     return [Format(*row) for row in _engine.formats()]
 
 
-def read(path: Path) -> Mesh:
+def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     """Reads a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
     A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
-    them in place.
+    them in place. Of a .med with several meshes `mesh` names the one; without it the first is read, with a UserWarning
+    that lists them, as what is written later holds that one alone (:func:`meshes_in`).
 
     Raises :class:`femscalpel.ReadError`, which names the file and, for text, the line.
     """
-    return Mesh._wrap(_engine.read(_arguments.path(path, "path")))
+    file = _arguments.path(path, "path")
+    if mesh is not None:
+        return Mesh._wrap(_engine.read(file, _arguments.text(mesh, "mesh")))
+    out = Mesh._wrap(_engine.read(file))
+    names = _engine.meshes_in(file)
+    if len(names) > 1:
+        listed = ", ".join(repr(name) for name in names)
+        warnings.warn(
+            f"{file} holds {len(names)} meshes: {listed}. The first was read; mesh= names another", stacklevel=2
+        )
+    return out
+
+
+def meshes_in(path: Path) -> List[str]:
+    """The names of the meshes in a file; none where files of its format hold one mesh, without a name.
+
+    Raises :class:`femscalpel.ReadError` as :func:`read` does.
+    """
+    return _engine.meshes_in(_arguments.path(path, "path"))
 
 
 def write(mesh: Mesh, path: Path) -> None:
