@@ -15,9 +15,11 @@ struct Family {
     bool plane;
 };
 
+/// What begins as another does comes before it.
 constexpr Family families[] = {
-    {"C3D", 3, false}, {"F3D", 3, false}, {"M3D", 2, false}, {"CPS", 2, true},
-    {"CPE", 2, true},  {"CAX", 2, true},  {"S", 2, false},
+    {"C3D", 3, false}, {"F3D", 3, false}, {"M3D", 2, false},   {"CPS", 2, true},   {"CPEG", 2, true},
+    {"CPE", 2, true},  {"CAX", 2, true},  {"COH3D", 3, false}, {"COH2D", 2, true}, {"AC3D", 3, false},
+    {"AC2D", 2, true}, {"R3D", 2, false}, {"SFM3D", 2, false}, {"SC", 3, false},   {"S", 2, false},
 };
 
 std::optional<CellType> cell_of(int dimension, int nodes) {
@@ -71,13 +73,32 @@ std::optional<DeckElementType> deck_element_type(std::string_view written) {
         {"T2D2", CellType::line},
         {"T3D2", CellType::line},
         {"T3D3", CellType::line3},
+        {"T2D3", CellType::line3},
+        {"B22", CellType::line3},
+        {"B23", CellType::line},
+        {"B33", CellType::line},
+        {"PIPE21", CellType::line},
+        {"PIPE31", CellType::line},
+        {"PIPE22", CellType::line3},
+        {"PIPE32", CellType::line3},
+        {"SAX1", CellType::line},
+        {"SAX2", CellType::line3},
+        {"R2D2", CellType::line},
+        {"RAX2", CellType::line},
+        {"STRI3", CellType::triangle},
+        {"STRI65", CellType::triangle6},
+        {"S4R5", CellType::quad},
+        {"S8R5", CellType::quad8},
         {"D", CellType::line3, true},
         {"GAPUNI", CellType::line, true},
         {"SPRINGA", CellType::line, true},
         {"SPRING2", CellType::line, true},
         {"DASHPOTA", CellType::line, true},
+        {"CONN2D2", CellType::line, true},
+        {"CONN3D2", CellType::line, true},
         {"SPRING1", CellType::vertex},
         {"MASS", CellType::vertex},
+        {"ROTARYI", CellType::vertex},
         {"DCOUP3D", CellType::vertex},
     };
     for (const Named& n : named)

@@ -22,7 +22,9 @@ struct DeckElementType {
 };
 
 /// Element types CalculiX 2.20 knows, and C3D5; suffixes for integration and formulation (R, I, T, H,
-/// ...), heat transfer (DC3D8, DCAX4, ...) and fluid (F3D8) variants included. None for others.
+/// ...), heat transfer (DC3D8, DCAX4, ...) and fluid (F3D8) variants included; and those of Abaqus that are triangles,
+/// quadrangles, solids or segments like them (STRI3, S4R5, B33, R3D4, SFM3D3, COH3D8, SC8R, CONN3D2, ...). None for
+/// others.
 /// CalculiX and VTK number the nodes of all of them alike, except that three-node lines (B32, T3D3, D)
 /// have their middle node second.
 std::optional<DeckElementType> deck_element_type(std::string_view label);
