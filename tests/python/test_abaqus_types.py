@@ -41,7 +41,11 @@ def test_they_are_read_and_stay_as_they_are_while_a_tool_stays_away(tmp_path, ce
     places = np.random.default_rng(1).normal(size=(COUNT[cell], 3)) + (50, 0, 0)
     nodes = "".join(f"{k + 7}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(places))
     numbers = ",".join(str(k + 7) for k in range(COUNT[cell]))
-    text = PLATE + nodes + f"*ELEMENT,TYPE=S4,ELSET=PLATE\n1,1,2,5,4\n2,2,3,6,5\n*ELEMENT,TYPE={label},ELSET=X\n9,{numbers}\n"
+    text = (
+        PLATE
+        + nodes
+        + f"*ELEMENT,TYPE=S4,ELSET=PLATE\n1,1,2,5,4\n2,2,3,6,5\n*ELEMENT,TYPE={label},ELSET=X\n9,{numbers}\n"
+    )
     (tmp_path / "in.inp").write_text(text)
     mesh = fs.read(tmp_path / "in.inp")
     assert mesh.cell_ids[cell].tolist()[-1] == 9
@@ -55,3 +59,26 @@ def test_shells_with_five_freedoms_are_cut_into_triangles(tmp_path):
     result = fs.crack(fs.read(tmp_path / "in.inp"), fs.Plane((1.5, 0, 0), (1, 0, 0)))
     fs.write(result.mesh, tmp_path / "out.inp")
     assert len(lines_of(tmp_path / "out.inp", "*ELEMENT,TYPE=S3,ELSET=PLATE")) >= 3
+
+
+@pytest.mark.parametrize(
+    "placed, words",
+    [
+        (
+            "*INSTANCE, NAME=A-1, PART=A\n10, 0, 0\n*END INSTANCE\n",
+            "in.inp:14: an instance of part 'A' is moved: parts",
+        ),
+        ("*INSTANCE, NAME=A-1, PART=A\n0, 0, 0\n0, 0, 0, 0, 0, 1, 90\n*END INSTANCE\n", "in.inp:15: an instance"),
+        ("*INSTANCE, NAME=A-1, PART=A\n*END INSTANCE\n" * 2, "in.inp:15: part 'A' has a second instance: parts"),
+        ("*INSTANCE, NAME=A-1, PART=A\n0, 0., 0\n*END INSTANCE\n", None),
+    ],
+    ids=["moved", "turned", "twice", "as it is"],
+)
+def test_instances_elsewhere_than_their_part_are_refused(tmp_path, placed, words):
+    part = "*PART, NAME=A\n" + PLATE + "*ELEMENT, TYPE=S4\n1,1,2,5,4\n*END PART\n"
+    (tmp_path / "in.inp").write_text(part + "*ASSEMBLY, NAME=ALL\n" + placed + "*END ASSEMBLY\n")
+    if words:
+        with pytest.raises(fs.ReadError, match=words):
+            fs.read(tmp_path / "in.inp")
+    else:
+        assert fs.read(tmp_path / "in.inp").node_count == 6
