@@ -153,6 +153,8 @@ HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
     bool seen = false;
     for (int v = 0; v < f.d.band.size(); ++v) {
         if (f.d.held_off[v] == 0 || !f.d.band.in_use(v)) continue;
+        // Nodes made where a seam's lines end are where they belong.
+        if (f.d.band.is_new(v) && f.d.contact[v].count() > 1) continue;
         ++out.count;
         out.largest = std::max(out.largest, f.d.held_off[v]);
         seen = seen || f.d.held_off[v] > worth_a_word * f.d.band.mean_edge_length(v);

@@ -20,8 +20,8 @@ constexpr double size_noticed = 0.005;
 
 /// A mesh that grows to more times its elements is an error.
 constexpr Index most_growth = 4;
-/// Unless it still has so few.
-constexpr Index small_mesh = 1000;
+/// One of so few elements may.
+constexpr Index small_mesh = 300;
 
 /// An element whose mean ratio fell below this part of what it was has become clearly worse.
 constexpr double clearly_worse = 0.75;
@@ -260,7 +260,7 @@ void check_growth(Index cells, const Tool& tool, Report& report) {
                              tool.kind() +
                              " crosses most of them, or passes close to surfaces or borders over much of it";
     const bool cuts = report.operation == "crack" || report.operation == "drill" || report.operation == "cut";
-    if (cuts && grown > small_mesh)
+    if (cuts && cells > small_mesh)
         throw ToolError("the mesh would grow" + what + ". Turn the " + tool.kind() +
                         ", move it, or make smaller elements first, of which it crosses fewer (refine)");
     report.warnings.push_back("the mesh grows" + what);
