@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "deck/pyramid_ties.h"
+#include "deck/edge_ties.h"
 
 #include "deck_testing.h"
 #include "mesh/order.h"
@@ -22,7 +22,7 @@ Mesh pyramid_and_tetrahedron() {
     return to_second_order(mesh);
 }
 
-class PyramidTies : public DeckSemantics {
+class EdgeTiesOf : public DeckSemantics {
 protected:
     std::string text_of_file(const Mesh& mesh) const {
         write_inp(mesh, folder_ / "out.inp");
@@ -31,13 +31,13 @@ protected:
     }
 };
 
-TEST_F(PyramidTies, KeepEdgesStraightThatATetrahedronIsAcrossFrom) {
+TEST_F(EdgeTiesOf, KeepEdgesStraightThatATetrahedronIsAcrossFrom) {
     Mesh mesh = pyramid_and_tetrahedron();
     const Index middle = mesh.node_ids[checks::number_near(mesh, {0.5, 0, 0})];
-    const std::string ties = pyramid_ties(mesh), number = std::to_string(middle);
+    const std::string ties = edge_ties(mesh).text, number = std::to_string(middle);
     EXPECT_EQ(std::ranges::count(ties, '\n'), 2 + 3 * 2);
     EXPECT_THAT(ties, HasSubstr("3\n" + number + ", 2, 1., 1, 2, -0.5, 2, 2, -0.5\n"));
-    EXPECT_THAT(pyramid_ties(to_first_order(mesh)), IsEmpty());
+    EXPECT_THAT(edge_ties(to_first_order(mesh)).text, IsEmpty());
     const std::string text = text_of_file(mesh);
     EXPECT_THAT(text, HasSubstr(ties));
     // Reading leaves them out, and comments behind them stay.
@@ -47,14 +47,14 @@ TEST_F(PyramidTies, KeepEdgesStraightThatATetrahedronIsAcrossFrom) {
     EXPECT_THAT(again, HasSubstr("** a comment\n"));
     EXPECT_EQ(text_of_file(read(again)), again);
     mesh.block(CellType::tetra10) = {CellType::tetra10, {}, {}, {}};
-    EXPECT_THAT(pyramid_ties(mesh), IsEmpty());
+    EXPECT_THAT(edge_ties(mesh).text, IsEmpty());
 }
 
-TEST_F(PyramidTies, LeaveOutWhatIsSetOtherwise) {
+TEST_F(EdgeTiesOf, LeaveOutWhatIsSetOtherwise) {
     const Mesh mesh = pyramid_and_tetrahedron();
     const std::string number = std::to_string(mesh.node_ids[checks::number_near(mesh, {0.5, 0, 0})]),
                       text = text_of_file(mesh);
-    const auto ties = [&](const std::string& cards) { return pyramid_ties(read(text + cards)); };
+    const auto ties = [&](const std::string& cards) { return edge_ties(read(text + cards)).text; };
     EXPECT_THAT(ties("*BOUNDARY\n" + number + ", 2\n"), testing::Not(HasSubstr(number + ", 2, 1.")));
     EXPECT_THAT(ties("*BOUNDARY\n" + number + ", 2\n"), HasSubstr(number + ", 3, 1."));
     EXPECT_THAT(ties("*NSET, NSET=A\n" + number + "\n*BOUNDARY\nA, 1, 3\n"), IsEmpty());
