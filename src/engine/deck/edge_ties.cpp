@@ -83,19 +83,20 @@ public:
         EdgeTies out;
         const BoundNodes bound(mesh_);
         const std::vector<int> freedoms = computed_freedoms(mesh_);
+        std::vector<std::vector<int>> tied;
+        for (const auto* edges : {&of_pyramids_, &between_orders_})
+            for (const TiedEdge& e : *edges) {
+                tied.push_back(tied_freedoms(e, freedoms, bound));
+                // Two are enough to find another.
+                if (dependent_.size() < 2 && (tied.back().size() == freedoms.size() || !turned_->contains(e.middle)))
+                    for (const int f : tied.back())
+                        if (f <= 3) dependent_[e.middle] = f;
+            }
         std::string equations;
+        auto of_edge = tied.begin();
         const auto add = [&](const std::vector<TiedEdge>& edges, std::string_view mark) {
             std::string text;
-            for (const TiedEdge& e : edges) {
-                const bool leaves = leaves_supports(e, freedoms);
-                std::vector<int> tied;
-                for (const int f : freedoms)
-                    if (!bound.is_dependent(e.middle, f) && (leaves || !held_ || !held_->is_held(e.middle, f)))
-                        tied.push_back(f);
-                if (!is_readable(e)) std::erase_if(tied, [](int f) { return f <= 3; });
-                if (leaves && !tied.empty()) leaving_.insert(e.middle);
-                text += tie(e, tied);
-            }
+            for (const TiedEdge& e : edges) text += tie(e, *of_edge++);
             if (!text.empty()) equations += "*EQUATION\n" + std::string(mark) + "\n" + text;
         };
         add(of_pyramids_, pyramid_mark);
@@ -139,38 +140,62 @@ private:
         return at_times;
     }
 
+    /// Those that get an equation; whether the mid-side node leaves supports is noted.
+    std::vector<int> tied_freedoms(const TiedEdge& e, const std::vector<int>& freedoms, const BoundNodes& bound) {
+        const bool leaves = leaves_supports(e, freedoms);
+        std::vector<int> tied;
+        for (const int f : freedoms)
+            if (!bound.is_dependent(e.middle, f) && (leaves || !held_ || !held_->is_held(e.middle, f)))
+                tied.push_back(f);
+        if (!is_readable(e)) std::erase_if(tied, [](int f) { return f <= 3; });
+        if (leaves && !tied.empty()) leaving_.insert(e.middle);
+        return tied;
+    }
+
     bool is_readable(const TiedEdge& e) const {
         return turned_->axes(e.middle) && turned_->axes(e.a) && turned_->axes(e.b);
     }
 
-    std::string tie(const TiedEdge& e, std::vector<int> freedoms) const {
-        const bool turned = turned_->contains(e.middle) || turned_->contains(e.a) || turned_->contains(e.b);
+    std::string tie(const TiedEdge& e, const std::vector<int>& freedoms) {
+        std::vector<int> left = freedoms, motions;
         std::string out;
-        if (turned) {
-            std::vector<int> motions;
+        if (turned_->contains(e.middle) || turned_->contains(e.a) || turned_->contains(e.b)) {
             std::ranges::copy_if(freedoms, std::back_inserter(motions), [](int f) { return f <= 3; });
-            std::erase_if(freedoms, [](int f) { return f <= 3; });
+            std::erase_if(left, [](int f) { return f <= 3; });
             if (!motions.empty()) out = turned_tie(e, motions);
         }
-        for (const int f : freedoms) out += equation_text({{e.middle, f, 1}, {e.a, f, -0.5}, {e.b, f, -0.5}});
+        for (const int f : left) out += equation_text({{e.middle, f, 1}, {e.a, f, -0.5}, {e.b, f, -0.5}});
         return out;
     }
 
     /// In the directions of the mid-side node, those of the ends in theirs.
-    std::string turned_tie(const TiedEdge& e, const std::vector<int>& directions) const {
+    std::string turned_tie(const TiedEdge& e, const std::vector<int>& directions) {
         const Eigen::Matrix3d middle = *turned_->axes(e.middle);
         std::string out;
         for (const int d : turned_->contains(e.middle) ? order_to_eliminate(directions, middle) : directions) {
             std::vector<TieTerm> terms{{e.middle, d, 1}};
+            bool is_repeated = false;
             for (const Index end : {e.a, e.b}) {
                 const Eigen::Matrix3d axes = *turned_->axes(end);
+                const std::size_t before = terms.size();
                 for (int k = 0; k < 3; ++k)
                     if (const double factor = -0.5 * middle.col(d - 1).dot(axes.col(k)); std::abs(factor) > 1e-14)
                         terms.push_back({end, k + 1, factor});
+                is_repeated = is_repeated || (turned_->contains(end) && terms.size() > before + 1);
             }
+            if (is_repeated)
+                if (const auto other = other_dependent(e.middle)) terms.push_back({other->first, other->second, 0});
             out += equation_text(terms);
         }
         return out;
+    }
+
+    /// A dependent degree of freedom of another mid-side node. CalculiX resolves the terms of a turned node into global
+    /// ones, and adds up those that are then there more than once only where it replaces a dependent term.
+    std::optional<std::pair<Index, int>> other_dependent(Index middle) const {
+        for (const auto& [node, freedom] : dependent_)
+            if (node != middle) return std::pair(node, freedom);
+        return {};
     }
 
     /// Makes *BOUNDARY cards without the nodes that leave them.
@@ -260,6 +285,7 @@ private:
     std::optional<DeckView> deck_;
     std::optional<HeldNodes> held_;
     HeldNodes::Numbers leaving_;
+    std::map<Index, int> dependent_;  // some mid-side nodes with one of their dependent degrees of freedom
 };
 
 /// What stands behind a card's keyword line.
