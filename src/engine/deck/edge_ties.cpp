@@ -11,7 +11,7 @@
 #include "deck/bound_nodes.h"
 #include "deck/card_edits.h"
 #include "deck/card_numbers.h"
-#include "deck/held_nodes.h"
+#include "deck/supported_nodes.h"
 #include "deck/tied_edges.h"
 #include "deck/turned_nodes.h"
 
@@ -207,7 +207,7 @@ private:
             CardEdits edits;
             CardReader line(card);
             while (const auto what = next_entry(line)) {
-                const HeldNodes::Line read = HeldNodes::read_line(*deck_, leaving_, *what, line);
+                const SupportedNodes::Line read = SupportedNodes::read_line(*deck_, leaving_, *what, line);
                 if (read.nodes.empty() ||
                     std::ranges::none_of(freedoms, [&](int f) { return read.first <= f && f <= read.last; }))
                     continue;
@@ -283,8 +283,8 @@ private:
     std::vector<TiedEdge> of_pyramids_, between_orders_;
     std::optional<TurnedNodes> turned_;
     std::optional<DeckView> deck_;
-    std::optional<HeldNodes> held_;
-    HeldNodes::Numbers leaving_;
+    std::optional<SupportedNodes> held_;
+    SupportedNodes::Numbers leaving_;
     std::map<Index, int> dependent_;  // some mid-side nodes with one of their dependent degrees of freedom
 };
 
@@ -295,6 +295,11 @@ bool has_mark(const Card& card, std::string_view keyword, std::string_view mark)
 
 /// Puts the lines of a support back that edge_ties() replaced.
 void restore_supports(Card& card) {
+    if (std::ranges::none_of(card.text, [](const DeckText& piece) {
+            return piece.text.find(replaced_mark) != piece.text.npos ||
+                   piece.text.find(left_out_mark) != piece.text.npos;
+        }))
+        return;
     std::vector<DeckText> out;
     for (const DeckText& piece : card.text) {
         std::string_view rest = piece.text;

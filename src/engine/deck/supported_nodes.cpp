@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "deck/held_nodes.h"
+#include "deck/supported_nodes.h"
 
 #include <algorithm>
 
 namespace femscalpel {
 
-HeldNodes::Line HeldNodes::read_line(const DeckView& deck, const Numbers& nodes, NumberOrSet what, CardReader line) {
+SupportedNodes::Line SupportedNodes::read_line(const DeckView& deck, const Numbers& nodes, NumberOrSet what,
+                                               CardReader line) {
     Line out{std::move(what), {}, 1, 11};
     if (line.integer(out.first) && (line.at_end() || !line.integer(out.last) || out.last == 0)) out.last = out.first;
     out.last = std::min<Index>(out.last, 11);
@@ -18,7 +19,7 @@ HeldNodes::Line HeldNodes::read_line(const DeckView& deck, const Numbers& nodes,
     return out;
 }
 
-HeldNodes::HeldNodes(const DeckView& deck, const Numbers& nodes) {
+SupportedNodes::SupportedNodes(const DeckView& deck, const Numbers& nodes) {
     for (std::size_t c = 0; c < deck.cards().size(); ++c) {
         const Card& card = deck.cards()[c];
         const int step = deck.step(c);
@@ -35,7 +36,7 @@ HeldNodes::HeldNodes(const DeckView& deck, const Numbers& nodes) {
     }
 }
 
-std::vector<char> HeldNodes::steps(Index node, int freedom) const {
+std::vector<char> SupportedNodes::steps(Index node, int freedom) const {
     std::vector<char> out(static_cast<std::size_t>(step_count_), 0);
     const auto found = given_.find({node, freedom});
     if (found == given_.end()) return out;
@@ -47,11 +48,11 @@ std::vector<char> HeldNodes::steps(Index node, int freedom) const {
     return out;
 }
 
-bool HeldNodes::is_always_held(Index node, int freedom) const {
+bool SupportedNodes::is_always_held(Index node, int freedom) const {
     return is_held(node, freedom) && std::ranges::all_of(steps(node, freedom), [](char held) { return held != 0; });
 }
 
-bool HeldNodes::is_held_with(Index node, Index other, int freedom) const {
+bool SupportedNodes::is_held_with(Index node, Index other, int freedom) const {
     const std::vector<char> mine = steps(node, freedom), its = steps(other, freedom);
     for (std::size_t s = 0; s < mine.size(); ++s)
         if (mine[s] && !its[s]) return false;

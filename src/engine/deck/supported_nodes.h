@@ -12,7 +12,7 @@
 namespace femscalpel {
 
 /// The degrees of freedom that the *BOUNDARY cards of a deck set, of some nodes, by step.
-class HeldNodes {
+class SupportedNodes {
 public:
     using Numbers = std::unordered_set<Index>;
 
@@ -24,7 +24,7 @@ public:
     };
 
     /// Looks at `nodes` alone.
-    HeldNodes(const DeckView& deck, const Numbers& nodes);
+    SupportedNodes(const DeckView& deck, const Numbers& nodes);
 
     /// In any step.
     bool is_held(Index node, int freedom) const { return given_.contains({node, freedom}); }
