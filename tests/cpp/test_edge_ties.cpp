@@ -63,7 +63,9 @@ TEST_F(EdgeTiesOf, LeaveOutWhatIsSetOtherwise) {
     const std::string other = "*EQUATION\n2\n" + number + ", 1, 1., 6, 1, -1.\n2\n6, 2, 1., " + number + ", 2, -1.\n";
     EXPECT_THAT(ties(other), testing::Not(HasSubstr(number + ", 1, 1.")));
     EXPECT_THAT(ties(other), HasSubstr(number + ", 2, 1.")) << "independent there";
-    EXPECT_THAT(ties("*SURFACE, NAME=S\n1, S1\n*SURFACE, NAME=T\n2, S2\n*TIE, NAME=X\nS, T\n"), IsEmpty());
+    const std::string surfaces = "*SURFACE, NAME=S\n1, S1\n*SURFACE, NAME=T\n2, S2\n";
+    EXPECT_THAT(ties(surfaces + "*TIE, NAME=X\nS, T\n"), HasSubstr(number + ", 1, 1.")) << "follows its ends";
+    EXPECT_THAT(ties(surfaces + "*TIE, NAME=X, CYCLIC SYMMETRY\nS, T\n"), IsEmpty());
     EXPECT_THAT(ties("*STEP\n*HEAT TRANSFER\n*END STEP\n"), HasSubstr(number + ", 11, 1."));
     EXPECT_THAT(ties("*STEP\n*HEAT TRANSFER\n*END STEP\n"), testing::Not(HasSubstr(number + ", 1, 1.")));
 }

@@ -43,7 +43,8 @@ void BoundNodes::collect(const DeckView& deck) {
             add_set(deck, line.field(), nodes);
             if (card.parameter("CYCLICSYMMETRY")) add_set(deck, line.field(), nodes);
             related_.insert(nodes.begin(), nodes.end());
-            dependent_.insert(nodes.begin(), nodes.end());
+            // CalculiX does not tie slaves that an equation makes dependent.
+            if (card.parameter("CYCLICSYMMETRY")) dependent_.insert(nodes.begin(), nodes.end());
         } else if (card.keyword == "TRANSFORM" && card.parameter("NSET")) {
             add_set(deck, *card.parameter("NSET"), turned);
         }

@@ -19,8 +19,8 @@ public:
     /// ones under *TRANSFORM. None without a deck.
     explicit BoundNodes(const Mesh& mesh);
 
-    /// Whether a card makes this degree of freedom dependent: of *EQUATION, that of the first term. Supports are not
-    /// looked at.
+    /// Whether no equation can make this degree of freedom dependent, as a card does: of *EQUATION, that of the first
+    /// term. Supports are not looked at. Slaves of *TIE without CYCLIC SYMMETRY can: CalculiX does not tie them then.
     bool is_dependent(Index node, int freedom) const {
         return dependent_.contains(node) || freedoms_.contains({node, freedom});
     }

@@ -54,6 +54,9 @@ Mesh read_inp(const std::filesystem::path& path);
 /// The *NSET of such a group is left out if a node group has that name. Elements in no group that are not
 /// written as elements are not written at all.
 ///
+/// Edges between elements of second and of first order that an operator made get *EQUATION cards, too. Lines of
+/// *BOUNDARY may name sets without the middles of such edges; reading puts back what was there (edge_ties.h).
+///
 /// CalculiX reads at most 20 characters of a coordinate. Most values fit exactly; of those that do not
 /// (16 or 17 significant digits below 0.1, or with an exponent) the closest that fits is written: at least
 /// 15 significant digits; 14 where the exponent has three digits, and of negative values also where it is -86 or less.
