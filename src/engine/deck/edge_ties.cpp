@@ -43,7 +43,7 @@ std::string equation_text(const std::vector<TieTerm>& terms) {
 /// The order in which equations of a turned node in these local directions find a global degree of freedom each, as
 /// CalculiX takes one: the first that is free, from that of the direction's number on.
 std::vector<int> order_to_eliminate(std::vector<int> directions, const Eigen::Matrix3d& axes) {
-    const std::vector<int> unordered = directions;
+    std::vector<int> unordered = directions;
     std::ranges::sort(directions);
     do {
         std::set<int> taken;
@@ -114,6 +114,7 @@ public:
             for (const TiedEdge& e : *edges)
                 for (const Index n : {e.middle, e.a, e.b})
                     if (!turned_->axes(n) && turned_->contains(n)) unreadable[turned_->where(n)].insert(n);
+        out.reserve(unreadable.size() + 1);
         for (const auto& [where, nodes] : unreadable)
             out.push_back(where + "*TRANSFORM gives no directions that can be told: the equations that keep edges at " +
                           some(nodes) + " straight are left out");

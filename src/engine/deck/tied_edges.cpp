@@ -28,6 +28,7 @@ using Edge = std::array<Index, 3>;
 /// In the order of the mid-side nodes, each once.
 std::vector<TiedEdge> by_number(const Mesh& mesh, const std::map<Index, Edge>& edges) {
     std::vector<TiedEdge> out;
+    out.reserve(edges.size());
     for (const auto& [middle, edge] : edges)
         out.push_back({mesh.node_ids[middle], mesh.node_ids[edge[0]], mesh.node_ids[edge[1]]});
     return out;
