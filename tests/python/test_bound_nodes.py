@@ -73,6 +73,20 @@ def test_pyramids_beside_a_tie(tmp_path, label, axis, at):
     assert off < 1e-7 * 0.011 + 1e-9
 
 
+@pytest.mark.parametrize("axis, at", [(1, (2, 2, 10)), (1, (2, 1.5, 10))])
+def test_second_order_beside_a_tie(tmp_path, axis, at):
+    """Of the slave surface the nodes of the faces are dependent, not all of the elements."""
+    (tmp_path / "in.inp").write_text(tied_blocks("C3D8", axis))
+    part = fs.Disk(at, 1.4)
+    plane, options = fs.Plane(at, (1, 0.2, 0)), dict(second_order=True, refine=False)
+    result = fs.crack(fs.read(tmp_path / "in.inp"), plane, within=part, **options)
+    mesh = result.mesh
+    fs.write(mesh, tmp_path / "out.inp")
+    displacements, _ = solve(tmp_path, (tmp_path / "out.inp").read_text())
+    place = dict(zip(mesh.node_ids.tolist(), mesh.points))
+    assert max(abs(u[2] - 1e-3 * place[n][2]) for n, u in displacements.items()) < 1e-8
+
+
 def test_pyramids_beside_cyclic_symmetry(tmp_path):
     """The four rigid-body modes of a disk's segment stay near zero."""
     mesh = fs.read(f"{TESTS}/segment.inp.gz")

@@ -24,7 +24,7 @@ struct ElementFace {
 std::vector<ElementFace> faces_of(const Mesh& mesh, const CellRef& cell);
 
 /// What a node allows pyramids. CalculiX, which has none, takes their tip for four nodes, which must be free; and the
-/// edges at their base have to stay straight (deck/pyramid_ties.h).
+/// edges at their base have to stay straight (deck/edge_ties.h).
 enum class PyramidRule : char { any, no_tip, no_tip_nor_base };
 
 /// What is to become simplices.

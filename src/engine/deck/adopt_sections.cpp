@@ -163,6 +163,7 @@ public:
         }
         std::ranges::move(cards, std::back_inserter(sets_));
         add_to_model(*deck_, std::move(sets_));
+        deck_->set_ties_orders(deck_->ties_orders() || theirs_.ties_orders());
         united_.companion = std::move(deck_);
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/bound_nodes.h"
 
-#include <algorithm>
+#include "mesh/facet_element.h"
 
 namespace femscalpel {
 namespace {
@@ -20,46 +20,81 @@ BoundNodes::BoundNodes(const Mesh& mesh) {
 
 void BoundNodes::collect(const DeckView& deck) {
     Numbers turned, supported;
-    for (const Card& card : deck.cards()) {
+    const std::vector<Card>& cards = deck.cards();
+    for (std::size_t c = 0; c < cards.size(); ++c) {
+        const Card& card = cards[c];
         CardReader line(card);
         if (card.keyword == "BOUNDARY") {
-            while (const auto what = next_entry(line)) {
-                const std::vector<Index> nodes = nodes_of(deck, *what);
-                supported.insert(nodes.begin(), nodes.end());
-                add_support(nodes, line);
-            }
-        } else if (card.keyword == "EQUATION" || card.keyword == "MPC") {
+            add_supported(deck, card, supported);
+        } else if (card.keyword == "EQUATION") {
+            add_equations(deck, card);
+        } else if (card.keyword == "MPC") {
+            Numbers nodes;
             while (line.next_data_line())
                 while (!line.at_end())
                     if (Index number = 0; line.integer(number))
-                        related_.insert(number);
+                        nodes.insert(number);
                     else
-                        add_set(deck, line.field(), related_);
+                        add_set(deck, line.field(), nodes);
+            related_.insert(nodes.begin(), nodes.end());
+            dependent_.insert(nodes.begin(), nodes.end());
         } else if (card.keyword == "TIE" && line.next_data_line()) {
-            add_set(deck, line.field(), related_);
-            if (card.parameter("CYCLICSYMMETRY")) add_set(deck, line.field(), related_);
+            Numbers nodes;
+            add_set(deck, line.field(), nodes);
+            if (card.parameter("CYCLICSYMMETRY")) add_set(deck, line.field(), nodes);
+            related_.insert(nodes.begin(), nodes.end());
+            // CalculiX does not tie slaves that an equation makes dependent.
+            if (card.parameter("CYCLICSYMMETRY")) dependent_.insert(nodes.begin(), nodes.end());
         } else if (card.keyword == "TRANSFORM" && card.parameter("NSET")) {
             add_set(deck, *card.parameter("NSET"), turned);
         }
+        // The nodes of a distributing coupling stay independent: the reference node follows them.
+        const bool is_coupling =
+            card.keyword == "COUPLING" && !(c + 1 < cards.size() && cards[c + 1].keyword == "DISTRIBUTING");
         for (const char* name : {"SURFACE", "NSET", "ELSET"})
-            if (const std::string* set = card.parameter(name);
-                set && (card.keyword == "COUPLING" || card.keyword == "RIGIDBODY"))
-                add_set(deck, *set, wholly_);
+            if (const std::string* set = card.parameter(name); set && (is_coupling || card.keyword == "RIGIDBODY"))
+                add_set(deck, *set, dependent_);
     }
-    wholly_.insert(related_.begin(), related_.end());
+    bound_ = dependent_;
+    bound_.insert(related_.begin(), related_.end());
     for (const Index node : turned)
-        if (supported.contains(node)) wholly_.insert(node);
+        if (supported.contains(node)) bound_.insert(node);
 }
 
-void BoundNodes::add_support(const std::vector<Index>& nodes, CardReader& line) {
-    Index first = 1, last = 11;
-    if (line.integer(first) && !line.integer(last)) last = first;
-    for (const Index node : nodes)
-        for (Index freedom = first; freedom <= std::min<Index>(last, 11); ++freedom)
-            freedoms_.insert({node, static_cast<int>(freedom)});
+/// All terms are related; the first of an equation is dependent.
+void BoundNodes::add_equations(const DeckView& deck, const Card& card) {
+    CardReader line(card);
+    while (line.next_data_line()) {
+        Index terms = 0;
+        if (card.parameter("REMOVE") || !line.integer(terms)) return;
+        for (Index k = 0; k < terms; ++k) {
+            if ((k == 0 || line.at_end()) && !line.next_data_line()) return;
+            const auto what = read_number_or_set(line);
+            Index freedom = 0;
+            const bool is_term = line.integer(freedom);
+            line.field();
+            if (!what || !is_term) continue;
+            Numbers nodes;
+            if (what->is_number())
+                nodes.insert(what->number);
+            else
+                add_set(deck, what->set, nodes);
+            related_.insert(nodes.begin(), nodes.end());
+            if (k == 0)
+                for (const Index node : nodes) freedoms_.insert({node, static_cast<int>(freedom)});
+        }
+    }
 }
 
-/// All nodes of a set or surface, whatever its kind; of surfaces those of the elements.
+void BoundNodes::add_supported(const DeckView& deck, const Card& card, Numbers& to) {
+    CardReader line(card);
+    while (const auto what = next_entry(line)) {
+        const std::vector<Index> nodes = nodes_of(deck, *what);
+        to.insert(nodes.begin(), nodes.end());
+    }
+}
+
+/// All nodes of a set or surface, whatever its kind; of surfaces of elements those of the faces.
 void BoundNodes::add_set(const DeckView& deck, const std::string& name, Numbers& to) {
     const Mesh& mesh = deck.mesh();
     const auto add_cell = [&](CellType type, Index cell) {
@@ -69,8 +104,11 @@ void BoundNodes::add_set(const DeckView& deck, const std::string& name, Numbers&
         if (const auto group = deck.group(type, name))
             to.insert(deck.members(*group).begin(), deck.members(*group).end());
     if (const auto group = deck.group(DeckSetType::element_surface, name))
-        for (const Facet& f : mesh.facets)
-            if (mesh.families.contains(f.family, *group)) add_cell(f.type, f.cell);
+        for (const Facet& f : mesh.facets) {
+            if (!mesh.families.contains(f.family, *group)) continue;
+            const FacetElement face = facet_element(mesh, f);
+            for (int k = 0; k < face.size; ++k) to.insert(mesh.node_ids[face.nodes[static_cast<std::size_t>(k)]]);
+        }
     if (const auto group = deck.group(DeckSetType::elset, name))
         for (const Index element : deck.members(*group))
             if (const auto cell = deck.numbers().cell(element)) add_cell(cell->type, cell->cell);

@@ -15,26 +15,32 @@ namespace femscalpel {
 /// for dependent.
 class BoundNodes {
 public:
-    /// Nodes of *EQUATION, *MPC, *RIGID BODY, *COUPLING, of the slave surfaces of *TIE, and supported ones under
-    /// *TRANSFORM wholly; the degrees of freedom that *BOUNDARY names. None without a deck.
+    /// Nodes of *EQUATION, *MPC, *RIGID BODY, *COUPLING with *KINEMATIC, of the slave surfaces of *TIE, and supported
+    /// ones under *TRANSFORM. None without a deck.
     explicit BoundNodes(const Mesh& mesh);
 
-    bool contains(Index node, int freedom) const { return is_bound(node) || freedoms_.contains({node, freedom}); }
-    /// In all degrees of freedom.
-    bool is_bound(Index node) const { return wholly_.contains(node); }
+    /// Whether no equation can make this degree of freedom dependent, as a card does: of *EQUATION, that of the first
+    /// term. Supports are not looked at. Slaves of *TIE without CYCLIC SYMMETRY can: CalculiX does not tie them then.
+    bool is_dependent(Index node, int freedom) const {
+        return dependent_.contains(node) || freedoms_.contains({node, freedom});
+    }
+    /// In any degree of freedom.
+    bool is_bound(Index node) const { return bound_.contains(node); }
     /// So that it need not move with its neighbours in one body: as by *EQUATION, *MPC and *TIE.
     bool is_related(Index node) const { return related_.contains(node); }
 
-    bool empty() const { return wholly_.empty(); }
+    bool empty() const { return bound_.empty(); }
 
 private:
     using Numbers = std::unordered_set<Index>;
 
     void collect(const DeckView& deck);
-    void add_support(const std::vector<Index>& nodes, CardReader& line);
+    void add_equations(const DeckView& deck, const Card& card);
+    static void add_supported(const DeckView& deck, const Card& card, Numbers& to);
     static void add_set(const DeckView& deck, const std::string& name, Numbers& to);
 
-    Numbers wholly_, related_;
+    Numbers bound_, related_;  // as far as meshing has to mind them
+    Numbers dependent_;        // in all degrees of freedom
     std::set<std::pair<Index, int>> freedoms_;
 };
 

@@ -105,6 +105,11 @@ public:
     const std::vector<std::string>& warnings() const { return warnings_; }
     std::vector<std::string>& warnings() { return warnings_; }
 
+    /// Whether edges between elements of second and of first order are kept straight where the deck is written
+    /// (edge_ties.h).
+    bool ties_orders() const { return ties_orders_; }
+    void set_ties_orders(bool ties) { ties_orders_ = ties; }
+
     Index largest_other_element() const override;
 
 private:
@@ -112,6 +117,7 @@ private:
     std::vector<DeckSet> sets_;
     std::vector<OtherElement> other_elements_;
     std::vector<std::string> warnings_;
+    bool ties_orders_ = false;
 };
 
 /// The deck of a mesh; null if it was not read from one. Lives as long as the mesh has it.

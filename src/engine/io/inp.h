@@ -44,7 +44,7 @@ Mesh read_inp(const std::filesystem::path& path);
 /// Elements that stand under no *ELEMENT card (made by an operator; all elements of a mesh from another
 /// format) are written by what they are, because an element in the deck always adds stiffness:
 /// - solids: C3D4, C3D10, C3D6, C3D15, C3D8, C3D20; pyramids as C3D8 and C3D20 whose upper nodes are one (and an
-///   *EQUATION card with these, see pyramid_ties.h);
+///   *EQUATION card with these, see edge_ties.h);
 /// - triangles and quadrangles that are faces of a solid: not as elements; their groups become *SURFACE,
 ///   TYPE=ELEMENT (between two solids: the face of the one with the lower number) and *NSET. Others: shells
 ///   S3, S6, S4, S8;
@@ -53,6 +53,9 @@ Mesh read_inp(const std::filesystem::path& path);
 /// - points: not as elements; their groups become *NSET.
 /// The *NSET of such a group is left out if a node group has that name. Elements in no group that are not
 /// written as elements are not written at all.
+///
+/// Edges between elements of second and of first order that an operator made get *EQUATION cards, too. Lines of
+/// *BOUNDARY may name sets without the middles of such edges; reading puts back what was there (edge_ties.h).
 ///
 /// CalculiX reads at most 20 characters of a coordinate. Most values fit exactly; of those that do not
 /// (16 or 17 significant digits below 0.1, or with an exponent) the closest that fits is written: at least

@@ -5,7 +5,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
-#include "deck/pyramid_ties.h"
+#include "deck/edge_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -23,7 +23,7 @@ class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
         input_->cards() = read_cards(path);
-        remove_pyramid_ties(input_->cards());
+        input_->set_ties_orders(remove_edge_ties(input_->cards()));
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
         mesh_.name = stem.stem().string();

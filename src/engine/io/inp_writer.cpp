@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "cancel.h"
-#include "deck/pyramid_ties.h"
+#include "deck/edge_ties.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -36,6 +36,7 @@ public:
         places_ = find_deck_places(mesh_, *input_);
         plan_ = plan_sets(mesh_, *input_, numbers_, index_, places_);
         is_written_.assign(plan_.roles.size(), 0);
+        ties_ = edge_ties(mesh_);
         std::size_t bytes = 1 << 16;
         for (const Card& card : input_->cards())
             for (const DeckText& t : card.text) bytes += t.text.size();
@@ -99,7 +100,9 @@ private:
         else if (card.keyword == "NSET" || card.keyword == "ELSET" || card.keyword == "SURFACE")
             write_set_card(card);
         else
-            for (const DeckText& t : card.text) put(t.text);
+            for (const auto support = ties_.supports.find(c);
+                 const DeckText& t : (support == ties_.supports.end() ? card : support->second).text)
+                put(t.text);
         if (card.keyword == "NODE" || card.keyword == "ELEMENT")
             if (const auto s = set_index(card);
                 s && !plan_.has_own_card[*s] && plan_.roles[*s].state == SetRole::replaced && !is_written_[*s])
@@ -113,9 +116,9 @@ private:
         for (std::string_view line : tail_) put(line);
     }
 
-    /// What is written for pyramids besides themselves.
+    /// What keeps edges straight, the supports aside.
     void put_ties() {
-        const std::string ties = pyramid_ties(mesh_);
+        const std::string& ties = ties_.text;
         for (std::size_t at = 0, end = 0; at < ties.size(); at = end + 1) {
             end = ties.find('\n', at);
             put_line(std::string_view(ties).substr(at, end - at));
@@ -453,6 +456,7 @@ private:
 
     const Mesh& mesh_;
     std::shared_ptr<const SolverInput> input_;
+    EdgeTies ties_;
     NumberIndex numbers_;
     DeckSetIndex index_;
     DeckPlaces places_;

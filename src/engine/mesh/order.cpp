@@ -41,6 +41,7 @@ public:
     Middles(Mesh& mesh, Index number) : mesh_(mesh), known_(middles_of(mesh)), number_(number) {}
 
     Index at(Index a, Index b) {
+        if (a == b) return a;  // of an element with a node twice
         const auto [found, fresh] = known_.emplace(mesh_edge_key(a, b), mesh_.node_count());
         if (!fresh) return found->second;
         std::vector<GroupIndex> both;
@@ -53,7 +54,6 @@ public:
         return mesh_.add_node((mesh_.points[a] + mesh_.points[b]) / 2, number_++, family);
     }
 
-    const std::unordered_map<std::uint64_t, Index>& known() const { return known_; }
     std::vector<std::array<Index, 3>>& made() { return made_; }
 
 private:
@@ -100,26 +100,13 @@ RaisedOrder to_second_order(const Mesh& mesh, const std::array<std::vector<char>
         return nodes;
     });
     out.made = std::move(middles.made());
-    std::unordered_map<std::uint64_t, Index> rim;
-    for (const CellBlock& b : mesh.blocks()) {
-        const CellTraits& t = traits(b.type);
+    for (const CellBlock& b : mesh.blocks())
         for (Index c = 0; c < b.size(); ++c) {
             const CellType type = type_of(b.type, c);
-            if (type != b.type) {
-                out.before.push_back({b.type, c});
-                out.after.push_back({type, place[static_cast<int>(b.type)][static_cast<std::size_t>(c)]});
-            } else if (!t.quadratic && t.dimension > 0) {
-                for (const auto& e : t.edges)
-                    if (const auto found = middles.known().find(mesh_edge_key(b.nodes(c)[e[0]], b.nodes(c)[e[1]]));
-                        found != middles.known().end())
-                        rim.insert(*found);
-            }
+            if (type == b.type) continue;
+            out.before.push_back({b.type, c});
+            out.after.push_back({type, place[static_cast<int>(b.type)][static_cast<std::size_t>(c)]});
         }
-    }
-    const auto number_of = [&](std::uint64_t node) { return out.mesh.node_ids[node]; };
-    for (const auto& [key, middle] : rim)
-        out.on_rim.push_back({out.mesh.node_ids[middle], number_of(key >> 32), number_of(key & 0xffffffffu)});
-    std::ranges::sort(out.on_rim);
     return out;
 }
 

@@ -12,15 +12,15 @@ namespace femscalpel {
 bool is_second_order(const Mesh& mesh);
 
 /// The mesh with mid-side nodes in the middle of all edges that had none. New nodes are numbered above those in use;
-/// they are in the node groups of both ends. Elements with more nodes than those on edges stay.
+/// they are in the node groups of both ends. An edge whose ends are one node has that one. Elements with more nodes
+/// than those on edges stay.
 Mesh to_second_order(const Mesh& mesh);
 
-/// Elements of first order that get mid-side nodes, and the edges they share with others that do not.
+/// Elements of first order that get mid-side nodes.
 struct RaisedOrder {
     Mesh mesh;
-    std::vector<CellRef> before, after;        ///< these elements (indices in the input, in `mesh`)
-    std::vector<std::array<Index, 3>> made;    ///< new nodes and the ends of their edges, by number
-    std::vector<std::array<Index, 3>> on_rim;  ///< of them, or that were there, those that others have the edge of
+    std::vector<CellRef> before, after;      ///< these elements (indices in the input, in `mesh`)
+    std::vector<std::array<Index, 3>> made;  ///< new nodes and the ends of their edges, by number
 };
 
 /// The same for the elements with chosen[type][cell] alone, new nodes numbered from `number` on.

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <unordered_set>
 
 #include "cutting/numbering.h"
 #include "cutting/simplify.h"
-#include "deck/bound_nodes.h"
 #include "deck/carry_over.h"
+#include "deck/edge_ties.h"
 #include "deck/mark_deck.h"
-#include "deck/model_end.h"
 #include "deck/solver_sets.h"
 #include "mesh/middles.h"
 #include "mesh/order.h"
@@ -34,8 +34,16 @@ std::vector<CellRef> converted_ones(const Mesh& input, const Mesh& mesh) {
     return out;
 }
 
-/// Elements with a node of some, and what lies on their faces and edges, if of first order. Springs are whole, and
-/// beams from node to node their own.
+/// Prisms and tetrahedra given as hexahedra with a node twice. With mid-side nodes their triangles do not fit those of
+/// others.
+bool is_collapsed(std::span<const Index> nodes) {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+        if (std::ranges::find(nodes.subspan(k + 1), nodes[k]) != nodes.end()) return true;
+    return false;
+}
+
+/// Elements with a node of some, but for collapsed ones, and what lies on their faces and edges, if of first order.
+/// Springs are whole, and beams from node to node their own.
 Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
     std::vector<char> near(mesh.points.size(), 0);
     std::unordered_set<std::uint64_t> edges;
@@ -48,6 +56,7 @@ Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
         if (traits(b.type).dimension < 3 || traits(b.type).quadratic) continue;
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
+            if (is_collapsed(n)) continue;
             if (std::ranges::none_of(n, [&](Index v) { return near[v] != 0; })) continue;
             list[static_cast<std::size_t>(c)] = 1;
             for (const auto& e : traits(b.type).edges) edges.insert(mesh_edge_key(n[e[0]], n[e[1]]));
@@ -77,23 +86,10 @@ Chosen with_a_ring(const Mesh& mesh, const std::vector<CellRef>& some) {
     return out;
 }
 
-/// Nodes on edges between the orders, in the middle of these.
-void add_equations(Mesh& mesh, const std::vector<std::array<Index, 3>>& on_rim) {
-    const BoundNodes bound(mesh);
-    std::string text;
-    for (const auto& [middle, a, b] : on_rim)
-        for (const int freedom : computed_freedoms(mesh)) {
-            if (bound.contains(middle, freedom)) continue;
-            const auto term = [&](Index node, const char* factor) {
-                return std::to_string(node) + ", " + std::to_string(freedom) + ", " + factor;
-            };
-            text += "3\n" + term(middle, "1.") + ", " + term(a, "-0.5") + ", " + term(b, "-0.5") + "\n";
-        }
-    if (text.empty()) return;
+/// Edges between the orders are to be kept straight.
+void tie_orders(Mesh& mesh) {
     auto deck = std::make_shared<SolverInput>(*solver_input(mesh));
-    std::vector<Card> cards(1);
-    cards[0].set_text("*EQUATION\n** straight edges between elements of second and of first order\n" + text);
-    add_to_model(*deck, std::move(cards));
+    deck->set_ties_orders(true);
     mesh.companion = std::move(deck);
 }
 
@@ -111,9 +107,7 @@ void join(Report& report, const Refined& raised, bool strict) {
     std::ranges::move(warnings_of(raised.trace.deck, strict), std::back_inserter(report.warnings));
 }
 
-}  // namespace
-
-Result with_order_raised(const Mesh& input, Result result, const OperatorOptions& options) {
+Result raise_near(const Mesh& input, Result result, const OperatorOptions& options) {
     if (!options.second_order || options.band_only || result.report.converted.empty()) return result;
     const std::vector<CellRef> converted = converted_ones(input, result.mesh);
     if (converted.empty()) return result;
@@ -124,20 +118,38 @@ Result with_order_raised(const Mesh& input, Result result, const OperatorOptions
             "second_order");
     const DeckMarks marks = mark_deck(result.mesh);
     const Mesh& marked = marks.mesh ? *marks.mesh : result.mesh;
-    RaisedOrder raised = to_second_order(marked, with_a_ring(marked, converted), next_numbers(marked).node);
+    RaisedOrder second = to_second_order(marked, with_a_ring(marked, converted), next_numbers(marked).node);
     Simplified parts;
-    parts.mesh = std::move(raised.mesh);
-    parts.before = std::move(raised.before);
-    parts.after = std::move(raised.after);
-    parts.nodes_added = static_cast<Index>(raised.made.size());
-    for (const auto& [node, a, b] : raised.made)
+    parts.mesh = std::move(second.mesh);
+    parts.before = std::move(second.before);
+    parts.after = std::move(second.after);
+    parts.nodes_added = static_cast<Index>(second.made.size());
+    for (const auto& [node, a, b] : second.made)
         parts.changes.born.push_back({node, {std::min(a, b), std::max(a, b)}, {{a, 0.5}, {b, 0.5}}});
     Refined out = with_parts(result.mesh, std::move(parts), marks, {});
-    add_equations(out.mesh, raised.on_rim);
+    tie_orders(out.mesh);
     std::erase_if(result.report.warnings, is_about_stiffness);
     join(result.report, out, options.strict);
     result.mesh = std::move(out.mesh);
     return result;
+}
+
+}  // namespace
+
+Result with_order_raised(const Mesh& input, Result result, const OperatorOptions& options) {
+    Result out = raise_near(input, std::move(result), options);
+    if (!options.band_only) tell_of_ties(input, options.strict, out);
+    return out;
+}
+
+void tell_of_ties(const Mesh& input, bool strict, Result& result) {
+    std::vector<std::string> problems = problems_of_ties(result.mesh);
+    if (problems.empty()) return;
+    const std::vector<std::string> before = problems_of_ties(input);
+    Remarks remarks;
+    for (const std::string& problem : problems)
+        if (std::ranges::find(before, problem) == before.end()) remarks.add_problem(problem);
+    std::ranges::move(warnings_of(remarks, strict), std::back_inserter(result.report.warnings));
 }
 
 }  // namespace femscalpel

@@ -22,6 +22,7 @@
 #include "mesh/stopwatch.h"
 #include "operators/changed_quality.h"
 #include "operators/edit.h"
+#include "operators/raise_order.h"
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/weld_first.h"
@@ -275,9 +276,10 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     check_extent(input);
     std::vector<Changes> stages;
     SevenNodes seven(input);
-    if (!seven) return refine_pairs(input, distance, options, stages);
-    Result result = refine_pairs(seven.mesh(), distance, options, *seven.known().stages);
-    seven.finish(result);
+    Result result =
+        refine_pairs(seven ? seven.mesh() : input, distance, options, seven ? *seven.known().stages : stages);
+    if (seven) seven.finish(result);
+    tell_of_ties(input, options.strict, result);
     return result;
 }
 
