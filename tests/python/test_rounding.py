@@ -165,7 +165,7 @@ def test_plane_that_nearly_touches_a_coarse_curved_skin():
 
 @pytest.mark.parametrize("beam", [False, True])
 def test_what_would_grow_over_four_times_is_refused_unless_refined_first(beam):
-    """A plane along the middle of a plate of one layer crosses all its elements; a beam that is divided does not count."""
+    """A plane along the middle of a one-layer plate crosses all its elements; a beam that is divided does not count."""
     plate = grid_box((24, 24, 1), (24.0, 24.0, 1.0))
     points, cells = plate.points, dict(plate.cells)
     if beam:
