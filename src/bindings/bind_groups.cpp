@@ -9,6 +9,7 @@
 #include "groups/elementary_groups.h"
 #include "groups/virtual_boundary.h"
 #include "interruptible.h"
+#include "mesh/pieces.h"
 
 namespace py = pybind11;
 
@@ -77,7 +78,28 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
 
 }  // namespace
 
+/// (fields of each piece, the piece of each node).
+py::tuple pieces_of(const Mesh& mesh) {
+    const Pieces found = interruptible([&] { return find_pieces(mesh); });
+    py::list out;
+    for (const Piece& piece : found.list) {
+        py::list groups;
+        for (const GroupIndex g : piece.groups)
+            groups.append(py::make_tuple(mesh.groups[static_cast<std::size_t>(g)].name,
+                                         std::string(to_string(mesh.groups[static_cast<std::size_t>(g)].kind))));
+        py::dict fields;
+        fields["dimension"] = piece.dimension;
+        fields["measure"] = piece.measure;
+        fields["place"] = py::make_tuple(piece.place.x(), piece.place.y(), piece.place.z());
+        fields["groups"] = groups;
+        out.append(fields);
+    }
+    const std::vector<std::int64_t> of_node(found.of_node.begin(), found.of_node.end());
+    return py::make_tuple(out, copied<std::int64_t>(of_node));
+}
+
 void bind_groups(py::module_& module) {
+    module.def("pieces", &pieces_of, py::arg("mesh"));
     module.def(
         "elementary_groups",
         [](const Mesh& mesh) {
