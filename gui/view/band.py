@@ -5,6 +5,7 @@ import itertools
 
 import numpy as np
 
+import femscalpel
 from femscalpel.mesh import CELL_TYPES
 
 from . import faces as mesh_faces
@@ -20,7 +21,7 @@ class Band:
     def __init__(self, source, result, whole=False, removed_region=None):
         """`whole`, `removed_region`: as of make_preview()."""
         mesh, report = result.mesh, result.report
-        self.source, self.mesh = source, mesh
+        self.source, self.mesh, self.report = source, mesh, report
         self.node_count = source.mesh.node_count
         rows = source.rows(mesh.node_ids)
         new = rows < 0
@@ -31,6 +32,7 @@ class Band:
         self.number = np.where(new, self.node_count + np.cumsum(new) - 1, rows)
         self.points = np.concatenate([source.points, mesh.points[new]])
         self.points[self.number] = mesh.points
+        self.node_ids = np.concatenate([source.mesh.node_ids, mesh.node_ids[new]])
         self.total = len(self.points)
         near = np.zeros(self.total, bool)
         near[self.number[new | moved]] = True
@@ -114,6 +116,33 @@ class Band:
         lip = solid & on_tool & ~on_skin & ~beside
         shown = ~beside | ~solid
         return faces[shown], owner[shown], family[shown], lip[shown]
+
+    def whole_mesh(self):
+        """The whole mesh as it is after the operation, by corners and without groups; None where it is not known to the
+        last element."""
+        source, report = self.source.mesh, self.report
+        lines, ids = segments(self.mesh)
+        before, ids_before = segments(source)
+        kept = ~np.isin(ids_before, ids)
+        parts = {"line": [(self.number[lines], ids), (before[kept], ids_before[kept])]}
+        rest = self.source.cells
+        for cells, chosen in ((self.cells, np.ones(len(self.cells), bool)), (rest, self.stays)):
+            numbers, first = cells.ids, 0
+            for kind, nodes in cells.blocks:
+                at = chosen[first : first + len(nodes)]
+                parts.setdefault(kind.rstrip("0123456789"), []).append(
+                    (nodes[at], numbers[first : first + len(nodes)][at])
+                )
+                first += len(nodes)
+        cells = {kind: np.concatenate([nodes for nodes, _ in found]) for kind, found in parts.items()}
+        cell_ids = {kind: np.concatenate([ids for _, ids in found]) for kind, found in parts.items()}
+        points = len(source.cells.get("vertex", ()))
+        if (
+            sum(map(len, cells.values())) + points
+            != source.cell_count + report.elements_added - report.elements_removed
+        ):
+            return None
+        return femscalpel.Mesh(self.points, cells, self.node_ids, cell_ids)
 
     def _faces_beside(self):
         """Faces of the source's solids that are as they were and reach to the changed ones."""
