@@ -5,7 +5,6 @@ import itertools
 
 import numpy as np
 
-import femscalpel
 from femscalpel.mesh import CELL_TYPES
 
 from . import faces as mesh_faces
@@ -32,13 +31,13 @@ class Band:
         self.number = np.where(new, self.node_count + np.cumsum(new) - 1, rows)
         self.points = np.concatenate([source.points, mesh.points[new]])
         self.points[self.number] = mesh.points
-        self.node_ids = np.concatenate([source.mesh.node_ids, mesh.node_ids[new]])
         self.total = len(self.points)
         near = np.zeros(self.total, bool)
         near[self.number[new | moved]] = True
         for ids in report.node_sets.values():
             at = source.rows(ids)
             near[at[at >= 0]] = True
+        self._near = near
         self._find_cells(near, whole, removed_region)
 
     def _find_cells(self, near, whole, removed_region):
@@ -51,6 +50,7 @@ class Band:
         lacking = np.ones(len(source.cells), bool)
         for ids in mesh.cell_ids.values():
             lacking[source.cells.find(ids)] = False
+        self._lacking = lacking
         #: Mask of the source's elements that are removed as a whole.
         self.gone = np.zeros(len(source.cells), bool)
         #: Mask of the source's elements that the changed ones stand for.
@@ -117,32 +117,14 @@ class Band:
         shown = ~beside | ~solid
         return faces[shown], owner[shown], family[shown], lip[shown]
 
-    def whole_mesh(self):
-        """The whole mesh as it is after the operation, by corners and without groups; None where it is not known to the
-        last element."""
-        source, report = self.source.mesh, self.report
-        lines, ids = segments(self.mesh)
-        before, ids_before = segments(source)
-        kept = ~np.isin(ids_before, ids)
-        parts = {"line": [(self.number[lines], ids), (before[kept], ids_before[kept])]}
-        rest = self.source.cells
-        for cells, chosen in ((self.cells, np.ones(len(self.cells), bool)), (rest, self.stays)):
-            numbers, first = cells.ids, 0
-            for kind, nodes in cells.blocks:
-                at = chosen[first : first + len(nodes)]
-                parts.setdefault(kind.rstrip("0123456789"), []).append(
-                    (nodes[at], numbers[first : first + len(nodes)][at])
-                )
-                first += len(nodes)
-        cells = {kind: np.concatenate([nodes for nodes, _ in found]) for kind, found in parts.items()}
-        cell_ids = {kind: np.concatenate([ids for _, ids in found]) for kind, found in parts.items()}
-        points = len(source.cells.get("vertex", ()))
-        if (
-            sum(map(len, cells.values())) + points
-            != source.cell_count + report.elements_added - report.elements_removed
-        ):
-            return None
-        return femscalpel.Mesh(self.points, cells, self.node_ids, cell_ids)
+    def gone_for_sure(self):
+        """Numbers of all elements of the source that are gone, beside those that the result has; None where the counts
+        say that this is not known to the last element."""
+        source, report = self.source, self.report
+        lines, line_ids = segments(source.mesh)
+        lines_gone = self._near[lines].any(axis=1) & ~np.isin(line_ids, segments(self.mesh)[1])
+        gone = np.concatenate([source.cells.ids[self._lacking & ~self.stays], line_ids[lines_gone]])
+        return gone if len(gone) == report.elements_removed else None
 
     def _faces_beside(self):
         """Faces of the source's solids that are as they were and reach to the changed ones."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the preview draws, as arrays. Made off the GUI thread; knows neither FreeCAD nor Coin."""
+"""What the preview draws and says, as arrays. Made off the GUI thread; makes no use of FreeCAD and Coin."""
 
 import functools
 from dataclasses import dataclass, field
@@ -207,8 +207,11 @@ def group_in_preview(source, data, name, kind):
 
 
 def _parting(source, band, whole):
-    mesh = band.mesh if whole else band.whole_mesh()
-    return None if mesh is None else parting_of(mesh, source.pieces, source.mesh)
+    """The Parting that is shown, if any; None also where it is not known."""
+    if whole:
+        return parting_of(band.mesh, source.pieces)
+    gone = band.gone_for_sure()
+    return None if gone is None else parting_of(source.mesh, source.pieces, band.mesh, gone)
 
 
 def _removed(source, gone):

@@ -78,28 +78,32 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
 
 }  // namespace
 
-/// (fields of each piece, the piece of each node).
-py::tuple pieces_of(const Mesh& mesh) {
-    const Pieces found = interruptible([&] { return find_pieces(mesh); });
+/// Fields of each piece. `changed` may be null.
+py::list pieces_of(const Mesh& mesh, const Mesh* changed, const IndexArray& gone) {
+    const std::vector<std::int64_t> gone_ids = to_vector(gone);
+    const std::vector<Piece> found =
+        interruptible([&] { return changed ? find_pieces(mesh, *changed, gone_ids) : find_pieces(mesh); });
     py::list out;
-    for (const Piece& piece : found.list) {
+    for (const Piece& piece : found) {
         py::list groups;
-        for (const GroupIndex g : piece.groups)
-            groups.append(py::make_tuple(mesh.groups[static_cast<std::size_t>(g)].name,
-                                         std::string(to_string(mesh.groups[static_cast<std::size_t>(g)].kind))));
+        for (const GroupIndex g : piece.groups) {
+            const Group& group = mesh.groups[static_cast<std::size_t>(g)];
+            groups.append(py::make_tuple(group.name, std::string(to_string(group.kind))));
+        }
         py::dict fields;
         fields["dimension"] = piece.dimension;
         fields["measure"] = piece.measure;
         fields["place"] = py::make_tuple(piece.place.x(), piece.place.y(), piece.place.z());
+        fields["elements"] = copied<std::int64_t>(piece.elements);
+        fields["nodes"] = copied<std::int64_t>(piece.nodes);
         fields["groups"] = groups;
         out.append(fields);
     }
-    const std::vector<std::int64_t> of_node(found.of_node.begin(), found.of_node.end());
-    return py::make_tuple(out, copied<std::int64_t>(of_node));
+    return out;
 }
 
 void bind_groups(py::module_& module) {
-    module.def("pieces", &pieces_of, py::arg("mesh"));
+    module.def("pieces", &pieces_of, py::arg("mesh"), py::arg("changed"), py::arg("gone"));
     module.def(
         "elementary_groups",
         [](const Mesh& mesh) {

@@ -8,9 +8,9 @@ import femscalpel as fs
 from meshes import grid_box
 
 
-def box():
-    """6 x 5 x 4, with the node groups of both ends in x."""
-    plain = grid_box()
+def box(*counts_and_size):
+    """6 x 5 x 4, if nothing else is said, with the node groups of both ends in x."""
+    plain = grid_box(*counts_and_size)
     ids = 10 * np.arange(1, plain.node_count + 1)
     ends = {
         name: ("node", ids[plain.points[:, 0] == x]) for name, x in (("LOW", 0), ("HIGH", plain.points[:, 0].max()))
@@ -71,6 +71,35 @@ def test_many_pieces():
     assert all(len(piece.nodes) == 2 and len(piece.elements) == 1 for piece in found)
 
 
-def test_wants_a_mesh():
-    with pytest.raises(TypeError, match="Mesh"):
+@pytest.mark.parametrize("origin", [12.3, 13.0, 13.6])
+def test_part_of_a_mesh_after_a_crack(origin):
+    mesh, plane = box((30, 5, 4), (30.0, 5.0, 4.0)), fs.Plane((origin, 0, 0), (1, 0.1, 0.2))
+    whole, band = fs.crack(mesh, plane), fs.crack(mesh, plane, band_only=True)
+    assert band.mesh.cell_count < whole.mesh.cell_count
+    gone = np.setdiff1d(mesh.cell_ids["tetra"], whole.mesh.cell_ids["tetra"])
+    assert len(gone) == whole.report.elements_removed
+    expected, found = fs.pieces(whole.mesh), fs.pieces(mesh, band.mesh, gone)
+    assert len(found) == len(expected) == 2
+    for a, b in zip(found, expected):
+        np.testing.assert_array_equal(a.elements, b.elements)
+        np.testing.assert_array_equal(a.nodes, b.nodes)
+        assert a.measure == pytest.approx(b.measure) and a.place == pytest.approx(b.place)
+        assert a.groups == [g for g in b.groups if not g[0].startswith("CRACK")]
+    inner = fs.HalfPlane((origin, 2, 2), (0, 1, 0))
+    band = fs.crack(mesh, plane, within=inner, band_only=True)
+    assert len(fs.pieces(mesh, band.mesh, gone)) == 1
+
+
+def test_arguments():
+    with pytest.raises(TypeError, match="mesh must be a femscalpel.Mesh"):
         fs.pieces("mesh.med")
+    with pytest.raises(TypeError, match="changed must be a femscalpel.Mesh"):
+        fs.pieces(box(), "mesh.med")
+    for gone, kind, text in (
+        ([1], ValueError, "needs changed"),
+        ([[1]], ValueError, "one-dimensional"),
+        ([1.5], TypeError, "integers"),
+    ):
+        with pytest.raises(kind, match=text) as error:
+            fs.pieces(box(), None, gone)
+        assert error.value.parameter == "gone"

@@ -213,7 +213,10 @@ class MeshOperation:
         self._check_names(obj, report)
         femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
         token = inputs + (surroundings or contents.unique())
-        parting = pieces.parting_of(result.mesh, len(femscalpel.pieces(mesh)), mesh) if self.TELLS_PIECES else None
+        parting = None
+        if self.TELLS_PIECES:
+            known = {(group.name, group.kind) for group in mesh.groups.all()}
+            parting = pieces.parting_of(result.mesh, len(femscalpel.pieces(mesh)), known=known)
         made = Made(inputs, surroundings, token, femmesh, _results(report, on_shape.lost), report, parting=parting)
         return made, True
 

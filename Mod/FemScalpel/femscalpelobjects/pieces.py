@@ -49,13 +49,13 @@ class Parting:
     dimension: int  #: of the largest elements
 
 
-def parting_of(mesh, before, source):
-    """The Parting of a mesh made of `source`, which had `before` pieces; None when there are no more now. Where `mesh`
-    has no groups, those of `source` count by number."""
-    found = femscalpel.pieces(mesh)
+def parting_of(mesh, before, changed=None, gone=(), known=None):
+    """The Parting of a mesh, or of what it becomes by `changed` and `gone` (see femscalpel.pieces), whose source had
+    `before` pieces; None when there are no more now. `known`: (name, kind) of the groups that are named; all when not
+    given."""
+    found = femscalpel.pieces(mesh, changed, gone)
     if len(found) <= before:
         return None
-    known, by_number = source.groups.all(), not mesh.groups.all()
     dimension = found[0].dimension
     total = sum(piece.measure for piece in found if piece.dimension == dimension) or 1.0
     axis, middle, width = _lie_along(mesh, found)
@@ -64,19 +64,9 @@ def parting_of(mesh, before, source):
         share = piece.measure / total if piece.dimension == dimension else 0.0
         offset = piece.place[axis] - middle if axis >= 0 else 0.0
         side = 0 if len(found) > 2 and abs(offset) < 0.3 * width else int(np.sign(offset))
-        there = [g.name for g in known if (_has_some(piece, g) if by_number else (g.name, g.kind) in piece.groups)]
-        parts.append(
-            Part(share, piece.dimension, len(piece.elements), axis, side, piece.nodes, tuple(dict.fromkeys(there)))
-        )
+        groups = dict.fromkeys(name for name, kind in piece.groups if known is None or (name, kind) in known)
+        parts.append(Part(share, piece.dimension, len(piece.elements), axis, side, piece.nodes, tuple(groups)))
     return Parting(before, parts, dimension)
-
-
-def _has_some(piece, group):
-    """Whether a piece has members of a group of nodes or elements, by number."""
-    if group.kind == "facet":
-        return False
-    members = piece.nodes if group.kind == "node" else piece.elements
-    return bool(np.isin(group.ids, members).any())
 
 
 def _lie_along(mesh, found):

@@ -2,8 +2,9 @@
 #include "mesh/pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <optional>
 
 #include "cancel.h"
 #include "mesh/quality.h"
@@ -13,122 +14,199 @@ namespace femscalpel {
 
 namespace {
 
-std::vector<const CellBlock*> blocks_with_extent(const Mesh& mesh) {
-    std::vector<const CellBlock*> out;
-    for (const CellBlock& b : mesh.blocks())
-        if (b.size() > 0 && traits(b.type).dimension > 0) out.push_back(&b);
-    return out;
-}
+/// A mesh, some elements of which do not count, with its nodes in a numbering it may share with another.
+struct Layer {
+    const Mesh& mesh;
+    std::vector<int> joint;                                   ///< of each node; empty: its own index
+    std::array<std::vector<bool>, cell_type_count> left_out;  ///< per element; empty: none
+    std::vector<bool> hidden;                                 ///< nodes that another layer has, too; empty: none
+    std::vector<std::optional<GroupIndex>> groups;            ///< of each group, what it counts as
 
-/// For each node the piece it is in, numbered by their first nodes; -1 for nodes without elements.
-std::vector<int> joined_nodes(Index count, const std::vector<const CellBlock*>& blocks) {
-    UnionFind sets(static_cast<std::size_t>(count));
-    std::vector<bool> used(static_cast<std::size_t>(count));
-    SparseCheck check;
-    for (const CellBlock* b : blocks)
-        for (Index c = 0; c < b->size(); ++c, check())
-            for (const Index n : b->nodes(c)) {
-                used[n] = true;
-                sets.unite(static_cast<int>(b->nodes(c)[0]), static_cast<int>(n));
-            }
-    std::vector<int> out(static_cast<std::size_t>(count), -1);
-    int next = 0;
-    for (int n = 0; n < static_cast<int>(count); ++n) {
-        if (!used[n]) continue;
-        const int root = sets.find(n);  // its smallest
-        out[n] = root == n ? next++ : out[root];
+    explicit Layer(const Mesh& m) : mesh(m) {}
+    int node(Index n) const { return joint.empty() ? static_cast<int>(n) : joint[n]; }
+    bool counts(CellType type, Index c) const {
+        const std::vector<bool>& out = left_out[static_cast<int>(type)];
+        return out.empty() || !out[c];
     }
-    return out;
-}
+    void leave_out(const CellRef& cell) {
+        std::vector<bool>& out = left_out[static_cast<int>(cell.type)];
+        if (out.empty()) out.resize(mesh.block(cell.type).ids.size());
+        out[cell.cell] = true;
+    }
+};
 
-/// Counts, sizes and centres of the pieces.
-void measure_pieces(const Mesh& mesh, const std::vector<const CellBlock*>& blocks, Pieces& pieces) {
-    for (const CellBlock* b : blocks)
-        for (Index c = 0; c < b->size(); ++c) {
-            Piece& piece = pieces.list[pieces.of_node[b->nodes(c)[0]]];
-            ++piece.elements;
-            piece.dimension = std::max(piece.dimension, traits(b->type).dimension);
+/// Finds the pieces of layers that share a numbering of `count` nodes.
+class Finder {
+public:
+    Finder(std::span<const Layer> layers, std::size_t count) : layers_(layers), of_node_(count, -1) {}
+
+    std::vector<Piece> find() {
+        join();
+        measure();
+        sort();
+        list_members();
+        find_groups();
+        return std::move(pieces_);
+    }
+
+private:
+    /// f(layer, block, element, its piece) for what counts.
+    template <class Function>
+    void for_each_element(Function f) {
+        SparseCheck check;
+        for (const Layer& layer : layers_)
+            for (const CellBlock& b : layer.mesh.blocks())
+                if (traits(b.type).dimension > 0)
+                    for (Index c = 0; c < b.size(); ++c, check())
+                        if (layer.counts(b.type, c)) f(layer, b, c, of_node_[layer.node(b.nodes(c)[0])]);
+    }
+
+    void join() {
+        UnionFind sets(of_node_.size());
+        std::vector<bool> used(of_node_.size());
+        for_each_element([&](const Layer& layer, const CellBlock& b, Index c, int) {
+            const int first = layer.node(b.nodes(c)[0]);
+            for (const Index n : b.nodes(c)) {
+                used[layer.node(n)] = true;
+                sets.unite(first, layer.node(n));
+            }
+        });
+        int next = 0;
+        for (int n = 0; n < static_cast<int>(of_node_.size()); ++n) {
+            if (!used[n]) continue;
+            const int root = sets.find(n);  // its smallest
+            of_node_[n] = root == n ? next++ : of_node_[root];
         }
-    std::vector<Vec3> middles(pieces.list.size(), Vec3::Zero());  // where all elements have no size
-    std::vector<Index> counts(pieces.list.size(), 0);
-    SparseCheck check;
-    for (const CellBlock* b : blocks)
-        for (Index c = 0; c < b->size(); ++c, check()) {
-            const auto nodes = b->nodes(c).first(traits(b->type).corners);
-            const int k = pieces.of_node[nodes[0]];
-            Piece& piece = pieces.list[k];
-            if (traits(b->type).dimension < piece.dimension) continue;
+        pieces_.resize(next);
+    }
+
+    void measure() {
+        for_each_element([&](const Layer&, const CellBlock& b, Index, int k) {
+            pieces_[k].dimension = std::max(pieces_[k].dimension, traits(b.type).dimension);
+        });
+        std::vector<Vec3> middles(pieces_.size(), Vec3::Zero());  // for those whose elements have no size
+        std::vector<Index> counts(pieces_.size(), 0);
+        for_each_element([&](const Layer& layer, const CellBlock& b, Index c, int k) {
+            Piece& piece = pieces_[k];
+            if (traits(b.type).dimension < piece.dimension) return;
+            const auto nodes = b.nodes(c).first(traits(b.type).corners);
             Vec3 centre = Vec3::Zero();
-            for (const Index n : nodes) centre += mesh.points[n];
+            for (const Index n : nodes) centre += layer.mesh.points[n];
             centre /= static_cast<double>(nodes.size());
-            const double size = std::abs(cell_measure(mesh, b->type, c));
+            const double size = std::abs(cell_measure(layer.mesh, b.type, c));
             piece.measure += size;
             piece.place += size * centre;
             middles[k] += centre;
             ++counts[k];
+        });
+        for (std::size_t k = 0; k < counts.size(); ++k) {
+            Piece& piece = pieces_[k];
+            if (piece.measure > 0)
+                piece.place /= piece.measure;
+            else
+                piece.place = middles[k] / static_cast<double>(counts[k]);
         }
-    for (std::size_t k = 0; k < counts.size(); ++k) {
-        Piece& piece = pieces.list[k];
-        piece.place =
-            piece.measure > 0 ? Vec3(piece.place / piece.measure) : Vec3(middles[k] / static_cast<double>(counts[k]));
     }
-}
 
-void sort_pieces(Pieces& pieces) {
-    std::vector<int> order(pieces.list.size()), place(pieces.list.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
-        const Piece &a = pieces.list[i], &b = pieces.list[j];
-        return a.dimension != b.dimension ? a.dimension > b.dimension : a.measure > b.measure;
-    });
-    std::vector<Piece> sorted;
-    sorted.reserve(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        place[order[k]] = static_cast<int>(k);
-        sorted.push_back(std::move(pieces.list[order[k]]));
+    void sort() {
+        std::vector<int> order(pieces_.size()), place(pieces_.size());
+        for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+        std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
+            const Piece &a = pieces_[i], &b = pieces_[j];
+            return a.dimension != b.dimension ? a.dimension > b.dimension : a.measure > b.measure;
+        });
+        std::vector<Piece> sorted;
+        sorted.reserve(order.size());
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            place[order[k]] = static_cast<int>(k);
+            sorted.push_back(std::move(pieces_[order[k]]));
+        }
+        pieces_ = std::move(sorted);
+        for (int& k : of_node_)
+            if (k >= 0) k = place[k];
     }
-    pieces.list = std::move(sorted);
-    for (int& k : pieces.of_node)
-        if (k >= 0) k = place[k];
-}
 
-/// The groups of each piece: of each family that is met there once.
-void find_groups(const Mesh& mesh, Pieces& pieces) {
-    const auto family_count = static_cast<std::size_t>(mesh.families.size());
-    std::vector<std::pair<int, FamilyIndex>> met;
-    std::vector<int> last(family_count, -1);  // most neighbours are alike
-    const auto meet = [&](int piece, FamilyIndex family) {
-        if (piece < 0 || family == 0 || last[family] == piece) return;
-        last[family] = piece;
-        met.emplace_back(piece, family);
-    };
-    for (std::size_t n = 0; n < pieces.of_node.size(); ++n) meet(pieces.of_node[n], mesh.node_families[n]);
-    for (const CellBlock& b : mesh.blocks())
-        for (Index c = 0; c < b.size(); ++c) meet(pieces.of_node[b.nodes(c)[0]], b.families[c]);
-    for (const Facet& f : mesh.facets) meet(pieces.of_node[mesh.block(f.type).nodes(f.cell)[0]], f.family);
-    std::sort(met.begin(), met.end());
-    met.erase(std::unique(met.begin(), met.end()), met.end());
-    for (const auto& [piece, family] : met)
-        for (const GroupIndex g : mesh.families.groups(family))
-            if (!mesh.groups[g].hidden) pieces.list[piece].groups.push_back(g);
-    for (Piece& piece : pieces.list) {
-        std::sort(piece.groups.begin(), piece.groups.end());
-        piece.groups.erase(std::unique(piece.groups.begin(), piece.groups.end()), piece.groups.end());
+    void list_members() {
+        for_each_element(
+            [&](const Layer&, const CellBlock& b, Index c, int k) { pieces_[k].elements.push_back(b.ids[c]); });
+        for (const Layer& layer : layers_)
+            for (Index n = 0; n < layer.mesh.node_count(); ++n)
+                if (layer.hidden.empty() || !layer.hidden[n])
+                    if (const int k = of_node_[layer.node(n)]; k >= 0)
+                        pieces_[k].nodes.push_back(layer.mesh.node_ids[n]);
+        for (Piece& piece : pieces_)
+            for (std::vector<Index>* ids : {&piece.elements, &piece.nodes})
+                if (!std::is_sorted(ids->begin(), ids->end())) std::sort(ids->begin(), ids->end());
     }
+
+    /// The groups of every family that is met in a piece.
+    void find_groups() {
+        for (const Layer& layer : layers_) {
+            const Mesh& mesh = layer.mesh;
+            std::vector<std::pair<int, FamilyIndex>> met;
+            std::vector<int> last(mesh.families.size(), -1);  // neighbours are mostly alike
+            const auto meet = [&](Index node, FamilyIndex family) {
+                const int piece = of_node_[layer.node(node)];
+                if (piece < 0 || family == 0 || last[family] == piece) return;
+                last[family] = piece;
+                met.emplace_back(piece, family);
+            };
+            for (Index n = 0; n < mesh.node_count(); ++n)
+                if (layer.hidden.empty() || !layer.hidden[n]) meet(n, mesh.node_families[n]);
+            for (const CellBlock& b : mesh.blocks())
+                for (Index c = 0; c < b.size(); ++c)
+                    if (layer.counts(b.type, c)) meet(b.nodes(c)[0], b.families[c]);
+            for (const Facet& f : mesh.facets)
+                if (layer.counts(f.type, f.cell)) meet(mesh.block(f.type).nodes(f.cell)[0], f.family);
+            std::sort(met.begin(), met.end());
+            met.erase(std::unique(met.begin(), met.end()), met.end());
+            for (const auto& [piece, family] : met)
+                for (const GroupIndex g : mesh.families.groups(family))
+                    if (layer.groups[g]) pieces_[piece].groups.push_back(*layer.groups[g]);
+        }
+        for (Piece& piece : pieces_) {
+            std::sort(piece.groups.begin(), piece.groups.end());
+            piece.groups.erase(std::unique(piece.groups.begin(), piece.groups.end()), piece.groups.end());
+        }
+    }
+
+    std::span<const Layer> layers_;
+    std::vector<int> of_node_;  ///< piece of each node; -1 without an element
+    std::vector<Piece> pieces_;
+};
+
+/// A layer whose groups count as those of `named` of the same name and kind.
+Layer layer_of(const Mesh& mesh, const Mesh& named) {
+    Layer out(mesh);
+    for (const Group& g : mesh.groups) out.groups.push_back(g.hidden ? std::nullopt : named.find_group(g.name, g.kind));
+    return out;
 }
 
 }  // namespace
 
-Pieces find_pieces(const Mesh& mesh) {
-    const std::vector<const CellBlock*> blocks = blocks_with_extent(mesh);
-    Pieces pieces;
-    pieces.of_node = joined_nodes(mesh.node_count(), blocks);
-    const auto last = std::max_element(pieces.of_node.begin(), pieces.of_node.end());
-    pieces.list.resize(last == pieces.of_node.end() ? 0 : static_cast<std::size_t>(*last + 1));
-    measure_pieces(mesh, blocks, pieces);
-    sort_pieces(pieces);
-    find_groups(mesh, pieces);
-    return pieces;
+std::vector<Piece> find_pieces(const Mesh& mesh) {
+    const std::array<Layer, 1> layers{layer_of(mesh, mesh)};
+    return Finder(layers, mesh.points.size()).find();
+}
+
+std::vector<Piece> find_pieces(const Mesh& mesh, const Mesh& changed, std::span<const Index> gone) {
+    std::array<Layer, 2> layers{layer_of(mesh, mesh), layer_of(changed, mesh)};
+    Layer &before = layers[0], &after = layers[1];
+    const NumberIndex index(mesh);
+    before.hidden.resize(mesh.points.size());
+    auto count = static_cast<int>(mesh.points.size());
+    for (const Index id : changed.node_ids) {
+        const std::optional<Index> known = index.node(id);
+        if (known) before.hidden[*known] = true;
+        after.joint.push_back(known ? static_cast<int>(*known) : count++);
+    }
+    const auto leave_out = [&](Index id) {
+        if (const std::optional<CellRef> cell = index.cell(id)) before.leave_out(*cell);
+    };
+    for (const CellBlock& b : changed.blocks())
+        for (const Index id : b.ids) leave_out(id);
+    for (const Index id : gone) leave_out(id);
+    return Finder(layers, static_cast<std::size_t>(count)).find();
 }
 
 }  // namespace femscalpel

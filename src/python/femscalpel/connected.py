@@ -2,11 +2,11 @@
 """What a mesh falls into."""
 
 from dataclasses import dataclass
-from typing import List, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import _engine
+from . import _arguments, _engine
 from .mesh import Mesh, check_mesh
 
 
@@ -27,29 +27,32 @@ class Piece:
         return f"<Piece: {len(self.elements)} elements, {what} {self.measure:.6g}>"
 
 
-def pieces(mesh: Mesh) -> List[Piece]:
+def pieces(mesh: Mesh, changed: Optional[Mesh] = None, gone: Sequence[int] = ()) -> List[Piece]:
     """The pieces a mesh falls into: those of solids first, then by measure, the largest first.
 
     Every element of dimension 1 or more belongs to one piece, segments (springs, rigid links) too, which join what
     they lead to. Nodes without elements, and with point elements alone, belong to none. Nodes at one place are not one
     node, and what a solver's input ties together besides (equations, contact) does not count.
 
-    Raises TypeError when `mesh` is no :class:`Mesh`.
+    Parameters
+    ----------
+    mesh : Mesh
+    changed : Mesh, optional
+        A part of `mesh` after a change, such as an operator makes with `band_only`: its nodes and elements take the
+        place of those of the same number. Of its groups those count that `mesh` has.
+    gone : (n,) int array_like
+        Numbers of further elements of `mesh` that the change has taken away; with `changed`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        An argument is of another kind, or `gone` is given without `changed`.
     """
-    found, of_node = _engine.pieces(check_mesh(mesh))
-    counts = len(found)
-    nodes = _sorted_by_piece(of_node, mesh.node_ids, counts)
-    labels, ids = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-    for name, rows in mesh.cells.items():
-        if name != "vertex":
-            labels.append(of_node[rows[:, 0]])
-            ids.append(mesh.cell_ids[name])
-    elements = _sorted_by_piece(np.concatenate(labels), np.concatenate(ids), counts)
-    return [Piece(elements=e, nodes=n, **fields) for fields, e, n in zip(found, elements, nodes)]
-
-
-def _sorted_by_piece(labels, ids, count):
-    """Of each piece the numbers `ids` that are labelled with it, ascending."""
-    order = np.lexsort((ids, labels))
-    at = np.searchsorted(labels[order], np.arange(count + 1))
-    return [ids[order[at[k] : at[k + 1]]] for k in range(count)]
+    engine_mesh = check_mesh(mesh)
+    gone = _arguments.integers(gone, "gone")
+    if gone.ndim != 1:
+        raise _arguments.about("gone", ValueError("gone must be a one-dimensional array of element numbers"))
+    if changed is None and len(gone):
+        raise _arguments.about("gone", ValueError("gone needs changed, the part of the mesh after the change"))
+    other = None if changed is None else check_mesh(changed, "changed")
+    return [Piece(**fields) for fields in _engine.pieces(engine_mesh, other, gone)]
