@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "cancel.h"
 #include "mesh/quality.h"
@@ -14,26 +16,53 @@ namespace femscalpel {
 
 namespace {
 
+/// A set of numbers, quick to ask where they are dense.
+class Numbers {
+public:
+    explicit Numbers(const std::vector<Index>& ids) {
+        const Index largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
+        if (largest < 64 * static_cast<Index>(ids.size()) + 4096) {
+            flat_.resize(static_cast<std::size_t>(largest + 1));
+            for (const Index id : ids)
+                if (id >= 0) flat_[id] = true;
+        } else {
+            sparse_.insert(ids.begin(), ids.end());
+        }
+    }
+
+    bool has(Index id) const {
+        if (sparse_.empty()) return id >= 0 && id < static_cast<Index>(flat_.size()) && flat_[id];
+        return sparse_.contains(id);
+    }
+
+private:
+    std::vector<bool> flat_;
+    std::unordered_set<Index> sparse_;
+};
+
 /// A mesh, some elements of which do not count, with its nodes in a numbering it may share with another.
 struct Layer {
     const Mesh& mesh;
-    std::vector<int> joint;                                   ///< of each node; empty: its own index
-    std::array<std::vector<bool>, cell_type_count> left_out;  ///< per element; empty: none
-    std::vector<bool> hidden;                                 ///< nodes that another layer has, too; empty: none
-    std::vector<std::optional<GroupIndex>> groups;            ///< of each group, what it counts as
+    std::vector<int> joint;                         ///< of each node; empty: its own index
+    const Numbers* left_out = nullptr;              ///< of elements; null: none
+    std::vector<bool> hidden;                       ///< nodes that another layer has, too; empty: none
+    std::vector<std::optional<GroupIndex>> groups;  ///< of each group, what it counts as
 
     explicit Layer(const Mesh& m) : mesh(m) {}
     int node(Index n) const { return joint.empty() ? static_cast<int>(n) : joint[n]; }
-    bool counts(CellType type, Index c) const {
-        const std::vector<bool>& out = left_out[static_cast<int>(type)];
-        return out.empty() || !out[c];
-    }
-    void leave_out(const CellRef& cell) {
-        std::vector<bool>& out = left_out[static_cast<int>(cell.type)];
-        if (out.empty()) out.resize(mesh.block(cell.type).ids.size());
-        out[cell.cell] = true;
-    }
+    bool counts(Index cell_id) const { return !left_out || !left_out->has(cell_id); }
 };
+
+/// std::sort() of what is a few ascending runs, mostly.
+void sort_runs(std::vector<Index>& ids) {
+    auto sorted_to = std::is_sorted_until(ids.begin(), ids.end());
+    for (int run = 0; sorted_to != ids.end(); ++run) {
+        if (run == 8) return std::sort(ids.begin(), ids.end());
+        const auto next = std::is_sorted_until(sorted_to, ids.end());
+        std::inplace_merge(ids.begin(), sorted_to, next);
+        sorted_to = next;
+    }
+}
 
 /// Finds the pieces of layers that share a numbering of `count` nodes.
 class Finder {
@@ -58,7 +87,7 @@ private:
             for (const CellBlock& b : layer.mesh.blocks())
                 if (traits(b.type).dimension > 0)
                     for (Index c = 0; c < b.size(); ++c, check())
-                        if (layer.counts(b.type, c)) f(layer, b, c, of_node_[layer.node(b.nodes(c)[0])]);
+                        if (layer.counts(b.ids[c])) f(layer, b, c, of_node_[layer.node(b.nodes(c)[0])]);
     }
 
     void join() {
@@ -81,9 +110,12 @@ private:
     }
 
     void measure() {
+        std::vector<std::size_t> sizes(pieces_.size());
         for_each_element([&](const Layer&, const CellBlock& b, Index, int k) {
             pieces_[k].dimension = std::max(pieces_[k].dimension, traits(b.type).dimension);
+            ++sizes[k];
         });
+        for (std::size_t k = 0; k < sizes.size(); ++k) pieces_[k].elements.reserve(sizes[k]);
         std::vector<Vec3> middles(pieces_.size(), Vec3::Zero());  // for those whose elements have no size
         std::vector<Index> counts(pieces_.size(), 0);
         for_each_element([&](const Layer& layer, const CellBlock& b, Index c, int k) {
@@ -135,8 +167,7 @@ private:
                     if (const int k = of_node_[layer.node(n)]; k >= 0)
                         pieces_[k].nodes.push_back(layer.mesh.node_ids[n]);
         for (Piece& piece : pieces_)
-            for (std::vector<Index>* ids : {&piece.elements, &piece.nodes})
-                if (!std::is_sorted(ids->begin(), ids->end())) std::sort(ids->begin(), ids->end());
+            for (std::vector<Index>* ids : {&piece.elements, &piece.nodes}) sort_runs(*ids);
     }
 
     /// The groups of every family that is met in a piece.
@@ -155,9 +186,9 @@ private:
                 if (layer.hidden.empty() || !layer.hidden[n]) meet(n, mesh.node_families[n]);
             for (const CellBlock& b : mesh.blocks())
                 for (Index c = 0; c < b.size(); ++c)
-                    if (layer.counts(b.type, c)) meet(b.nodes(c)[0], b.families[c]);
+                    if (layer.counts(b.ids[c])) meet(b.nodes(c)[0], b.families[c]);
             for (const Facet& f : mesh.facets)
-                if (layer.counts(f.type, f.cell)) meet(mesh.block(f.type).nodes(f.cell)[0], f.family);
+                if (layer.counts(mesh.block(f.type).ids[f.cell])) meet(mesh.block(f.type).nodes(f.cell)[0], f.family);
             std::sort(met.begin(), met.end());
             met.erase(std::unique(met.begin(), met.end()), met.end());
             for (const auto& [piece, family] : met)
@@ -192,20 +223,22 @@ std::vector<Piece> find_pieces(const Mesh& mesh) {
 std::vector<Piece> find_pieces(const Mesh& mesh, const Mesh& changed, std::span<const Index> gone) {
     std::array<Layer, 2> layers{layer_of(mesh, mesh), layer_of(changed, mesh)};
     Layer &before = layers[0], &after = layers[1];
-    const NumberIndex index(mesh);
+    std::vector<Index> cells(gone.begin(), gone.end());
+    for (const CellBlock& b : changed.blocks()) cells.insert(cells.end(), b.ids.begin(), b.ids.end());
+    const Numbers left_out(cells), nodes(changed.node_ids);
+    before.left_out = &left_out;
     before.hidden.resize(mesh.points.size());
+    std::unordered_map<Index, int> place;
+    for (Index n = 0; n < mesh.node_count(); ++n)
+        if (nodes.has(mesh.node_ids[n])) {
+            before.hidden[n] = true;
+            place.emplace(mesh.node_ids[n], static_cast<int>(n));
+        }
     auto count = static_cast<int>(mesh.points.size());
     for (const Index id : changed.node_ids) {
-        const std::optional<Index> known = index.node(id);
-        if (known) before.hidden[*known] = true;
-        after.joint.push_back(known ? static_cast<int>(*known) : count++);
+        const auto known = place.find(id);
+        after.joint.push_back(known != place.end() ? known->second : count++);
     }
-    const auto leave_out = [&](Index id) {
-        if (const std::optional<CellRef> cell = index.cell(id)) before.leave_out(*cell);
-    };
-    for (const CellBlock& b : changed.blocks())
-        for (const Index id : b.ids) leave_out(id);
-    for (const Index id : gone) leave_out(id);
     return Finder(layers, static_cast<std::size_t>(count)).find();
 }
 
