@@ -155,13 +155,14 @@ def sentence_of(parting, held, translate=as_given):
     """What the part falls into, and what holds the pieces, as sentences."""
     items = items_of(parting, held, translate)
     if len(items) > 1:
-        items = [*items[:-2], items[-2] + translate("FemScalpel", " and ") + items[-1]]
+        last = translate("FemScalpel", "%1 and %2").replace("%2", items[-1]).replace("%1", items[-2])
+        items = [*items[:-2], last]
     if parting.before > 1:
-        text = translate("FemScalpel", "The mesh has %1 pieces now, %2 before: %3.")
+        text = translate("FemScalpel", "The mesh has %1 pieces now, %3 before: %2.")
     else:
-        text = translate("FemScalpel", "The part falls into %1 pieces: %3.")
-    text = text.replace("%1", str(len(parting.parts))).replace("%2", str(parting.before))
-    text = text.replace("%3", ", ".join(items))
+        text = translate("FemScalpel", "The part falls into %1 pieces: %2.")
+    text = text.replace("%1", str(len(parting.parts))).replace("%3", str(parting.before))
+    text = text.replace("%2", ", ".join(items))
     if held is not None and not all(held):
         text += " " + translate(
             "FemScalpel", "What nothing holds has no solution: hold it, or let the tool end inside the part."
