@@ -209,7 +209,7 @@ def group_in_preview(source, data, name, kind):
 def _parting(source, band, whole):
     """The Parting that is shown, if any; None also where it is not known."""
     if whole:
-        return parting_of(band.mesh, source.pieces)
+        return parting_of(band.mesh, source.pieces, known={(g.name, g.kind) for g in source.mesh.groups.all()})
     gone = band.gone_for_sure()
     return None if gone is None else parting_of(source.mesh, source.pieces, band.mesh, gone)
 

@@ -1270,7 +1270,7 @@
     </message>
     <message>
       <source>Put in place of its source in the analysis</source>
-      <translation>In der Analyse an die Stelle der Quelle setzen</translation>
+      <translation>In der Analyse statt der Quelle</translation>
     </message>
     <message>
       <source>Refine first</source>

@@ -1270,7 +1270,7 @@
     </message>
     <message>
       <source>Put in place of its source in the analysis</source>
-      <translation>Mettre à la place de sa source dans l'analyse</translation>
+      <translation>Dans l'analyse à la place de la source</translation>
     </message>
     <message>
       <source>Refine first</source>
