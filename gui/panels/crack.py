@@ -23,6 +23,7 @@ class CrackPanel(PlanePanel):
 
     def add_inputs(self):
         self.part = self.insert_form("patch.ui")
+        self._first_turn = None  # that of the half plane entered at first
         self._corners = []  # of the polygon, in the axes of placement()
         for text, data in (
             (translate("FemScalpel", "The whole plane"), "Whole"),
@@ -59,11 +60,14 @@ class CrackPanel(PlanePanel):
         self._choose_quietly("HalfPlane")
         self.geometry.set_pose(self.geometry.centre, normal)
         towards = FreeCAD.Rotation(along, FreeCAD.Vector(), normal, "ZXY")
-        self._turn.set(turn_between(self.geometry.rotation(), towards))
+        self._first_turn = turn_between(self.geometry.rotation(), towards)
+        self._turn.set(self._first_turn)
 
     def _choose(self):
         """Shows the fields that matter to the part chosen."""
         shown, p = self._patch(), self.part
+        if shown not in TURNED and self._turn.value == self._first_turn:
+            self._turn.set(0)  # nobody has asked for that
         for widgets, parts in (
             ((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")),
             ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),
