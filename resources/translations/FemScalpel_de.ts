@@ -207,6 +207,10 @@
       <translation>%1 und %2</translation>
     </message>
     <message>
+      <source>%1 and %2 more</source>
+      <translation>%1 und %2 weitere</translation>
+    </message>
+    <message>
       <source>%1 beam elements</source>
       <translation>%1 Balkenelemente</translation>
     </message>

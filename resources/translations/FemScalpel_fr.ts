@@ -207,6 +207,10 @@
       <translation>%1 et %2</translation>
     </message>
     <message>
+      <source>%1 and %2 more</source>
+      <translation>%1 et %2 autres</translation>
+    </message>
+    <message>
       <source>%1 beam elements</source>
       <translation>%1 éléments de poutre</translation>
     </message>

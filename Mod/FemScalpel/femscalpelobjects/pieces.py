@@ -221,11 +221,14 @@ def _held(part, labels, translate):
     if labels is None:
         if not part.groups:
             return translate("FemScalpel", "in no group")
-        return translate("FemScalpel", "with groups %1").replace("%1", _names(part.groups))
+        return translate("FemScalpel", "with groups %1").replace("%1", _names(part.groups, translate))
     if not labels:
         return translate("FemScalpel", "nothing holds it")
-    return translate("FemScalpel", "held by %1").replace("%1", _names(labels))
+    return translate("FemScalpel", "held by %1").replace("%1", _names(labels, translate))
 
 
-def _names(names):
-    return ", ".join(names[:_MOST_NAMES]) + (", …" if len(names) > _MOST_NAMES else "")
+def _names(names, translate):
+    listed, more = ", ".join(names[:_MOST_NAMES]), len(names) - _MOST_NAMES
+    if more <= 0:
+        return listed
+    return translate("FemScalpel", "%1 and %2 more").replace("%2", str(more)).replace("%1", listed)

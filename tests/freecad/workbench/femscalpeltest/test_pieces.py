@@ -156,7 +156,7 @@ class Pieces(DocumentTest):
         many = pieces.Parting(1, [part(0.1, groups=tuple("ABCDEFG"))] * 10, 3)
         items = pieces.items_of(many, None)
         self.assertEqual((len(items), items[-1]), (5, "6 smaller ones"))
-        self.assertIn("with groups A, B, C, D, E, …", items[0])
+        self.assertIn("with groups A, B, C, D, E and 2 more", items[0])
         self.assertEqual(pieces.items_of(many, [["A"]] * 8 + [[]] * 2)[-1], "6 smaller ones (nothing holds 2 of them)")
         self.assertTrue(pieces.is_unsafe(None))
         self.assertFalse(pieces.is_unsafe([["A"]]))
