@@ -23,6 +23,7 @@ class CrackPanel(PlanePanel):
 
     def add_inputs(self):
         self.part = self.insert_form("patch.ui")
+        self._first_turn = None  # that of the half plane entered at first
         self._corners = []  # of the polygon, in the axes of placement()
         for text, data in (
             (translate("FemScalpel", "The whole plane"), "Whole"),
@@ -42,11 +43,31 @@ class CrackPanel(PlanePanel):
         )
         self.part.patch.currentIndexChanged.connect(lambda *_: self._choose())
         self.geometry.picked.connect(self._take_outline)
+        if self.edited is None:
+            self._end_inside()
         self._choose()
+
+    def _end_inside(self):
+        """Enters a crack across the part, at its middle: from the side one looks at to halfway through."""
+        femmesh = self.source_object.FemMesh
+        if not femmesh.FaceCount and not femmesh.VolumeCount:
+            return  # beams are cut as a whole
+        box = femmesh.BoundBox
+        lengths = (box.XLength, box.YLength, box.ZLength)
+        axes = sorted(range(3), key=lambda axis: -round(lengths[axis] / box.DiagonalLength, 3))
+        normal, along = FreeCAD.Vector(), FreeCAD.Vector()
+        normal[axes[0]], along[axes[1]] = 1, (1, -1, 1)[axes[1]]
+        self._choose_quietly("HalfPlane")
+        self.geometry.set_pose(self.geometry.centre, normal)
+        towards = FreeCAD.Rotation(along, FreeCAD.Vector(), normal, "ZXY")
+        self._first_turn = turn_between(self.geometry.rotation(), towards)
+        self._turn.set(self._first_turn)
 
     def _choose(self):
         """Shows the fields that matter to the part chosen."""
         shown, p = self._patch(), self.part
+        if shown not in TURNED and self._turn.value == self._first_turn:
+            self._turn.set(0)  # nobody has asked for that
         for widgets, parts in (
             ((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")),
             ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),

@@ -21,6 +21,7 @@ class MergePanel(ToolPanel):
     def __init__(self, source_object, edited=None, chosen=None):
         self._chosen = chosen
         super().__init__(source_object, edited)
+        self._pieces = lambda parting: ""  # those of the addition are no news
 
     def make_geometry(self):
         chosen = self.edited.Addition if self.edited is not None else self._chosen

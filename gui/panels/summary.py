@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the panels say of a report, above its histogram and its table of groups."""
 
+import html
 from collections import Counter
+
+from femscalpelobjects import pieces
 
 from .. import preferences
 from ..translate import QT_TRANSLATE_NOOP, translate
@@ -12,6 +15,7 @@ def sentence(text):
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
+WARNING = "color:#8a5a00"
 # What Report.converted counts.
 _KINDS = {
     "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
@@ -53,5 +57,23 @@ def summary(report):
             + "</b>"
         )
     for warning in report.warnings:
-        text += f"<br><span style='color:#8a5a00'>{sentence(warning)}</span>"
+        text += f"<br><span style='{WARNING}'>{sentence(warning)}</span>"
     return text
+
+
+class PiecesText:
+    """What a preview falls into, and what holds the pieces, as rich text. `source_object`: the mesh object it is of,
+    whose geometry is searched only once it matters."""
+
+    def __init__(self, source_object):
+        self._source, self._supports = source_object, None
+
+    def __call__(self, parting):
+        if parting is None:
+            return ""
+        if self._supports is None:
+            self._supports = (pieces.find_supports(self._source),)
+        held = pieces.holders(parting, self._supports[0])
+        text = html.escape(pieces.sentence_of(parting, held, translate))
+        style = f" style='{WARNING}'" if pieces.is_unsafe(held) else ""
+        return f"<br><span{style}>{text}</span>"

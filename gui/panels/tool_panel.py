@@ -17,7 +17,7 @@ from . import fields, group_table
 from .histogram import Histogram
 from .placements import as_text
 from .preserve_input import PreserveInput
-from .summary import sentence, summary
+from .summary import PiecesText, sentence, summary
 from .view_panel import ViewPanel, abort_transaction
 
 #: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
@@ -50,7 +50,7 @@ class ToolPanel(ViewPanel):
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object)
-        self.edited = edited
+        self.edited, self._pieces = edited, PiecesText(source_object)
         self.shown = None  # PreviewData of the newest request, None while it is not there or was an error
         self._ticket, self._settled = 0, 0
         self._ok = True  # whether the button is enabled
@@ -310,7 +310,7 @@ class ToolPanel(ViewPanel):
         self.histogram.show_counts(report.quality.after.histogram, report.quality.before.histogram)
         group_table.fill(self.result.groups, report.groups)
         self._light_up()
-        self._status(summary(report))
+        self._status(summary(report) + self._pieces(value.parting))
 
     def failed(self, ticket, error):
         if ticket < self._settled or not self._ticket:

@@ -20,7 +20,7 @@ class Band:
     def __init__(self, source, result, whole=False, removed_region=None):
         """`whole`, `removed_region`: as of make_preview()."""
         mesh, report = result.mesh, result.report
-        self.source, self.mesh = source, mesh
+        self.source, self.mesh, self.report = source, mesh, report
         self.node_count = source.mesh.node_count
         rows = source.rows(mesh.node_ids)
         new = rows < 0
@@ -37,6 +37,7 @@ class Band:
         for ids in report.node_sets.values():
             at = source.rows(ids)
             near[at[at >= 0]] = True
+        self._near = near
         self._find_cells(near, whole, removed_region)
 
     def _find_cells(self, near, whole, removed_region):
@@ -49,6 +50,7 @@ class Band:
         lacking = np.ones(len(source.cells), bool)
         for ids in mesh.cell_ids.values():
             lacking[source.cells.find(ids)] = False
+        self._lacking = lacking
         #: Mask of the source's elements that are removed as a whole.
         self.gone = np.zeros(len(source.cells), bool)
         #: Mask of the source's elements that the changed ones stand for.
@@ -114,6 +116,15 @@ class Band:
         lip = solid & on_tool & ~on_skin & ~beside
         shown = ~beside | ~solid
         return faces[shown], owner[shown], family[shown], lip[shown]
+
+    def gone_for_sure(self):
+        """Numbers of all elements of the source that are gone, beside those that the result has; None where the counts
+        say that this is not known to the last element."""
+        source, report = self.source, self.report
+        lines, line_ids = segments(source.mesh)
+        lines_gone = self._near[lines].any(axis=1) & ~np.isin(line_ids, segments(self.mesh)[1])
+        gone = np.concatenate([source.cells.ids[self._lacking & ~self.stays], line_ids[lines_gone]])
+        return gone if len(gone) == report.elements_removed else None
 
     def _faces_beside(self):
         """Faces of the source's solids that are as they were and reach to the changed ones."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the preview draws, as arrays. Made off the GUI thread; knows neither FreeCAD nor Coin."""
+"""What the preview draws and says, as arrays. Made off the GUI thread; makes no use of FreeCAD and Coin."""
 
 import functools
 from dataclasses import dataclass, field
@@ -8,6 +8,7 @@ from typing import Dict, List, Tuple
 import numpy as np
 
 import femscalpel
+from femscalpelobjects.pieces import parting_of
 
 from . import faces as mesh_faces
 from .band import Band, centres, segments
@@ -55,6 +56,7 @@ class PreviewData:
     worst: np.ndarray  #: edges of the worst element
     worst_centre: np.ndarray  #: (3,) float32
     worst_ratio: float
+    parting: object = None  #: femscalpelobjects.pieces.Parting where the part is known to fall into more pieces
     lip_area: int = 0  #: number of faces (edges of a shell) on the new surface
     seconds: Dict[str, float] = field(default_factory=dict)
 
@@ -94,6 +96,11 @@ class PreviewSource:
         """What no element is longer than."""
         sizes = self.cells.per_cell(lambda nodes: np.linalg.norm(np.ptp(self.points[nodes], axis=1), axis=1))
         return float(sizes.max()) if len(sizes) else 0.0
+
+    @functools.cached_property
+    def pieces(self):
+        """How many pieces the mesh is in."""
+        return len(femscalpel.pieces(self.mesh))
 
     def edge_length(self):
         """Mean length of the edges of the outer faces; of a mesh without such a twentieth of its size."""
@@ -178,6 +185,7 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
         worst=worst,
         worst_centre=centre,
         worst_ratio=ratio,
+        parting=_parting(source, band, whole),
         lip_area=int(lip.sum()),
     )
 
@@ -196,6 +204,14 @@ def group_in_preview(source, data, name, kind):
             shown = np.concatenate([data.replaced, *changed.cell_ids.values()])
             shapes.append(elements_shape(mesh, ids[~np.isin(ids, shown)]))
     return joined(*shapes) if len(shapes) == 2 else shapes[0] if shapes else None
+
+
+def _parting(source, band, whole):
+    """The Parting that is shown, if any; None also where it is not known."""
+    if whole:
+        return parting_of(band.mesh, source.pieces, known={(g.name, g.kind) for g in source.mesh.groups.all()})
+    gone = band.gone_for_sure()
+    return None if gone is None else parting_of(source.mesh, source.pieces, band.mesh, gone)
 
 
 def _removed(source, gone):

@@ -191,6 +191,30 @@
   <context>
     <name>FemScalpel</name>
     <message>
+      <source>%1 % of the area</source>
+      <translation>%1 % der Fläche</translation>
+    </message>
+    <message>
+      <source>%1 % of the length</source>
+      <translation>%1 % der Länge</translation>
+    </message>
+    <message>
+      <source>%1 % of the volume</source>
+      <translation>%1 % des Volumens</translation>
+    </message>
+    <message>
+      <source>%1 and %2</source>
+      <translation>%1 und %2</translation>
+    </message>
+    <message>
+      <source>%1 and %2 more</source>
+      <translation>%1 und %2 weitere</translation>
+    </message>
+    <message>
+      <source>%1 beam elements</source>
+      <translation>%1 Balkenelemente</translation>
+    </message>
+    <message>
       <source>%1 cannot be added. Click another FEM mesh.</source>
       <translation>%1 kann nicht hinzukommen. Klicken Sie auf ein anderes FEM-Netz.</translation>
     </message>
@@ -237,6 +261,14 @@
     <message>
       <source>%1 picked places</source>
       <translation>%1 gewählte Stellen</translation>
+    </message>
+    <message>
+      <source>%1 shell elements</source>
+      <translation>%1 Schalenelemente</translation>
+    </message>
+    <message>
+      <source>%1 smaller ones</source>
+      <translation>%1 kleinere</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -731,6 +763,10 @@
       <translation>Das Dokument hat kein anderes FEM-Netz. Zeichnen Sie das Teil, das hinzukommt, und vernetzen Sie es im Arbeitsbereich FEM, oder importieren Sie eine Netzdatei.</translation>
     </message>
     <message>
+      <source>The mesh has %1 pieces now, %3 before: %2.</source>
+      <translation>Das Netz hat jetzt %1 Stücke, vorher %3: %2.</translation>
+    </message>
+    <message>
       <source>The mesh has neither faces nor volumes.</source>
       <translation>Das Netz hat weder Flächen noch Volumen.</translation>
     </message>
@@ -745,6 +781,10 @@
     <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
+    </message>
+    <message>
+      <source>The part falls into %1 pieces: %2.</source>
+      <translation>Das Bauteil zerfällt in %1 Stücke: %2.</translation>
     </message>
     <message>
       <source>The radius must be larger than 0.</source>
@@ -787,6 +827,10 @@
       <translation>Vektor</translation>
     </message>
     <message>
+      <source>What nothing holds has no solution: hold it, or let the tool end inside the part.</source>
+      <translation>Was nichts hält, hat keine Lösung: Halten Sie es fest, oder lassen Sie das Werkzeug im Bauteil enden.</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Ganzes Teil</translation>
     </message>
@@ -807,8 +851,16 @@
       <translation>alle bleiben</translation>
     </message>
     <message>
+      <source>back, +y</source>
+      <translation>hinten, +y</translation>
+    </message>
+    <message>
       <source>became empty</source>
       <translation>leer geworden</translation>
+    </message>
+    <message>
+      <source>bottom, -z</source>
+      <translation>unten, -z</translation>
     </message>
     <message>
       <source>by a vector</source>
@@ -847,8 +899,20 @@
       <translation>Facetten</translation>
     </message>
     <message>
+      <source>front, -y</source>
+      <translation>vorne, -y</translation>
+    </message>
+    <message>
+      <source>held by %1</source>
+      <translation>gehalten von %1</translation>
+    </message>
+    <message>
       <source>hexahedra</source>
       <translation>Hexaeder</translation>
+    </message>
+    <message>
+      <source>in no group</source>
+      <translation>in keiner Gruppe</translation>
     </message>
     <message>
       <source>kept</source>
@@ -859,8 +923,16 @@
       <translation>angekreuzte bleiben</translation>
     </message>
     <message>
+      <source>left, -x</source>
+      <translation>links, -x</translation>
+    </message>
+    <message>
       <source>mean ratio; line: before</source>
       <translation>Mean ratio; Linie: vorher</translation>
+    </message>
+    <message>
+      <source>middle</source>
+      <translation>Mitte</translation>
     </message>
     <message>
       <source>never</source>
@@ -887,6 +959,14 @@
       <translation>noch keines</translation>
     </message>
     <message>
+      <source>nothing holds %1 of them</source>
+      <translation>%1 davon hält nichts</translation>
+    </message>
+    <message>
+      <source>nothing holds it</source>
+      <translation>nichts hält es</translation>
+    </message>
+    <message>
       <source>onto a surface</source>
       <translation>auf eine Fläche</translation>
     </message>
@@ -911,6 +991,10 @@
       <translation>verkleinert</translation>
     </message>
     <message>
+      <source>right, +x</source>
+      <translation>rechts, +x</translation>
+    </message>
+    <message>
       <source>scaled about a point</source>
       <translation>um einen Punkt skaliert</translation>
     </message>
@@ -921,6 +1005,10 @@
     <message>
       <source>to an edge length</source>
       <translation>bis zu einer Kantenlänge</translation>
+    </message>
+    <message>
+      <source>top, +z</source>
+      <translation>oben, +z</translation>
     </message>
     <message>
       <source>triangles of seven nodes</source>
@@ -937,6 +1025,10 @@
     <message>
       <source>where the tool is finer</source>
       <translation>wo das Werkzeug feiner ist</translation>
+    </message>
+    <message>
+      <source>with groups %1</source>
+      <translation>mit Gruppen %1</translation>
     </message>
     <message>
       <source>worst %1</source>
@@ -1182,7 +1274,7 @@
     </message>
     <message>
       <source>Put in place of its source in the analysis</source>
-      <translation>In der Analyse an die Stelle der Quelle setzen</translation>
+      <translation>In der Analyse statt der Quelle</translation>
     </message>
     <message>
       <source>Refine first</source>

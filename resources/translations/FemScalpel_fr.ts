@@ -191,6 +191,30 @@
   <context>
     <name>FemScalpel</name>
     <message>
+      <source>%1 % of the area</source>
+      <translation>%1 % de l'aire</translation>
+    </message>
+    <message>
+      <source>%1 % of the length</source>
+      <translation>%1 % de la longueur</translation>
+    </message>
+    <message>
+      <source>%1 % of the volume</source>
+      <translation>%1 % du volume</translation>
+    </message>
+    <message>
+      <source>%1 and %2</source>
+      <translation>%1 et %2</translation>
+    </message>
+    <message>
+      <source>%1 and %2 more</source>
+      <translation>%1 et %2 autres</translation>
+    </message>
+    <message>
+      <source>%1 beam elements</source>
+      <translation>%1 éléments de poutre</translation>
+    </message>
+    <message>
       <source>%1 cannot be added. Click another FEM mesh.</source>
       <translation>%1 ne peut pas être ajouté. Cliquez sur un autre maillage EF.</translation>
     </message>
@@ -237,6 +261,14 @@
     <message>
       <source>%1 picked places</source>
       <translation>%1 endroits choisis</translation>
+    </message>
+    <message>
+      <source>%1 shell elements</source>
+      <translation>%1 éléments de coque</translation>
+    </message>
+    <message>
+      <source>%1 smaller ones</source>
+      <translation>%1 plus petits</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -731,6 +763,10 @@
       <translation>Le document n'a pas d'autre maillage EF. Dessinez la pièce à ajouter et maillez-la dans l'atelier FEM, ou importez un fichier de maillage.</translation>
     </message>
     <message>
+      <source>The mesh has %1 pieces now, %3 before: %2.</source>
+      <translation>Le maillage a maintenant %1 morceaux, %3 avant : %2.</translation>
+    </message>
+    <message>
       <source>The mesh has neither faces nor volumes.</source>
       <translation>Le maillage n'a ni faces ni volumes.</translation>
     </message>
@@ -745,6 +781,10 @@
     <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
+    </message>
+    <message>
+      <source>The part falls into %1 pieces: %2.</source>
+      <translation>La pièce se sépare en %1 morceaux : %2.</translation>
     </message>
     <message>
       <source>The radius must be larger than 0.</source>
@@ -787,6 +827,10 @@
       <translation>Vecteur</translation>
     </message>
     <message>
+      <source>What nothing holds has no solution: hold it, or let the tool end inside the part.</source>
+      <translation>Ce que rien ne tient n'a pas de solution : fixez-le, ou faites finir l'outil dans la pièce.</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Pièce entière</translation>
     </message>
@@ -807,8 +851,16 @@
       <translation>tous</translation>
     </message>
     <message>
+      <source>back, +y</source>
+      <translation>derrière, +y</translation>
+    </message>
+    <message>
       <source>became empty</source>
       <translation>devenu vide</translation>
+    </message>
+    <message>
+      <source>bottom, -z</source>
+      <translation>en bas, -z</translation>
     </message>
     <message>
       <source>by a vector</source>
@@ -847,8 +899,20 @@
       <translation>facettes</translation>
     </message>
     <message>
+      <source>front, -y</source>
+      <translation>devant, -y</translation>
+    </message>
+    <message>
+      <source>held by %1</source>
+      <translation>tenu par %1</translation>
+    </message>
+    <message>
       <source>hexahedra</source>
       <translation>hexaèdres</translation>
+    </message>
+    <message>
+      <source>in no group</source>
+      <translation>dans aucun groupe</translation>
     </message>
     <message>
       <source>kept</source>
@@ -859,8 +923,16 @@
       <translation>cochés</translation>
     </message>
     <message>
+      <source>left, -x</source>
+      <translation>à gauche, -x</translation>
+    </message>
+    <message>
       <source>mean ratio; line: before</source>
       <translation>mean ratio ; ligne : avant</translation>
+    </message>
+    <message>
+      <source>middle</source>
+      <translation>au milieu</translation>
     </message>
     <message>
       <source>never</source>
@@ -887,6 +959,14 @@
       <translation>aucun encore</translation>
     </message>
     <message>
+      <source>nothing holds %1 of them</source>
+      <translation>rien ne tient %1 d'entre eux</translation>
+    </message>
+    <message>
+      <source>nothing holds it</source>
+      <translation>rien ne le tient</translation>
+    </message>
+    <message>
       <source>onto a surface</source>
       <translation>sur une surface</translation>
     </message>
@@ -911,6 +991,10 @@
       <translation>réduit</translation>
     </message>
     <message>
+      <source>right, +x</source>
+      <translation>à droite, +x</translation>
+    </message>
+    <message>
       <source>scaled about a point</source>
       <translation>à l'échelle</translation>
     </message>
@@ -921,6 +1005,10 @@
     <message>
       <source>to an edge length</source>
       <translation>jusqu'à une longueur d'arête</translation>
+    </message>
+    <message>
+      <source>top, +z</source>
+      <translation>en haut, +z</translation>
     </message>
     <message>
       <source>triangles of seven nodes</source>
@@ -937,6 +1025,10 @@
     <message>
       <source>where the tool is finer</source>
       <translation>où l'outil est plus fin</translation>
+    </message>
+    <message>
+      <source>with groups %1</source>
+      <translation>avec les groupes %1</translation>
     </message>
     <message>
       <source>worst %1</source>
@@ -1182,7 +1274,7 @@
     </message>
     <message>
       <source>Put in place of its source in the analysis</source>
-      <translation>Mettre à la place de sa source dans l'analyse</translation>
+      <translation>Dans l'analyse à la place de la source</translation>
     </message>
     <message>
       <source>Refine first</source>

@@ -9,6 +9,7 @@
 #include "groups/elementary_groups.h"
 #include "groups/virtual_boundary.h"
 #include "interruptible.h"
+#include "mesh/pieces.h"
 
 namespace py = pybind11;
 
@@ -77,7 +78,32 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
 
 }  // namespace
 
+/// Fields of each piece. `changed` may be null.
+py::list pieces_of(const Mesh& mesh, const Mesh* changed, const IndexArray& gone) {
+    const std::vector<std::int64_t> gone_ids = to_vector(gone);
+    const std::vector<Piece> found =
+        interruptible([&] { return changed ? find_pieces(mesh, *changed, gone_ids) : find_pieces(mesh); });
+    py::list out;
+    for (const Piece& piece : found) {
+        py::list groups;
+        for (const GroupIndex g : piece.groups) {
+            const Group& group = mesh.groups[static_cast<std::size_t>(g)];
+            groups.append(py::make_tuple(group.name, std::string(to_string(group.kind))));
+        }
+        py::dict fields;
+        fields["dimension"] = piece.dimension;
+        fields["measure"] = piece.measure;
+        fields["place"] = py::make_tuple(piece.place.x(), piece.place.y(), piece.place.z());
+        fields["elements"] = copied<std::int64_t>(piece.elements);
+        fields["nodes"] = copied<std::int64_t>(piece.nodes);
+        fields["groups"] = groups;
+        out.append(fields);
+    }
+    return out;
+}
+
 void bind_groups(py::module_& module) {
+    module.def("pieces", &pieces_of, py::arg("mesh"), py::arg("changed"), py::arg("gone"));
     module.def(
         "elementary_groups",
         [](const Mesh& mesh) {

@@ -44,6 +44,8 @@ MORE_EXACT = {
     "cell_types.return": "dict[str, tuple[int, int, int]]",
     "cut.bottom": "Tool | None",
     "elementary_groups.return": "list[tuple[str, int, tuple[str, ...], NDArray[np.int64]]]",
+    "pieces.return": "list[dict[str, Any]]",
+    "pieces.changed": "Mesh | None",
     "virtual_boundaries.return": (
         "list[\n    tuple[dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]], dict[str, NDArray[np.int64]], "
         "NDArray[np.int64]]\n]"

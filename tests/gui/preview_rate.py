@@ -26,7 +26,7 @@ def measure(path, out):
     import femscalpel
     from femscalpelgui.latest_wins import LatestWins
     from femscalpelgui.view.preview_scene import PreviewScene
-    from femscalpelguitest.gui_testing import press_cancel, screenshot, spin, view, wait_until, widget
+    from femscalpelguitest.gui_testing import choose, press_cancel, screenshot, spin, view, wait_until, widget
 
     shown, worked = [], []
     request = LatestWins.request
@@ -57,6 +57,7 @@ def measure(path, out):
     view().viewIsometric()
     view().fitAll()
     FreeCADGui.runCommand("FemScalpel_Crack")
+    choose("patch", "Whole")
     spin(0.2)
     for name, number in (("normalX", 0.9), ("normalY", 0.3), ("normalZ", 0.2), ("originX", 7.3)):
         widget(name).setProperty("rawValue", number)

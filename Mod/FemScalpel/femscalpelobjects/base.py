@@ -10,7 +10,7 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from . import contents
+from . import contents, pieces
 from .geometry import shapes_of
 from .memory import Made, Shown, memory
 from .mesh_parts import nodes_around
@@ -40,6 +40,11 @@ _RESULTS = (
         "OffShape",
         "Faces and edges of the geometry that mesh nodes could not be put back on; "
         "FreeCAD finds loads and supports by geometry and would miss these nodes",
+    ),
+    (
+        "App::PropertyStringList",
+        "Pieces",
+        "Where the mesh is in more pieces than its source: how large each is, where, and what holds it",
     ),
     ("App::PropertyStringList", "GroupReport", "Summary and table of groups, line by line"),
     ("App::PropertyMap", "NodeSetCounts", "Number of nodes in the sets ICN, ECN (interface), ITN, ETN (transition)"),
@@ -80,6 +85,8 @@ class MeshOperation:
     TAKES_SKIN = True
     #: Whether the operator moves walls off the geometry on purpose.
     MOVES_WALLS = False
+    #: Whether a mesh in more pieces than its source is worth a word.
+    TELLS_PIECES = True
 
     def __init__(self, obj):
         self._forget_state()
@@ -188,7 +195,7 @@ class MeshOperation:
             memory.keep(obj.Document, made)
             for warning in made.report.warnings:
                 FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
-        self._give(obj, made)
+        self._give(obj, made, aloud=True)
 
     def _made(self, obj, inputs):
         """(Made, whether it was made just now)."""
@@ -206,7 +213,12 @@ class MeshOperation:
         self._check_names(obj, report)
         femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
         token = inputs + (surroundings or contents.unique())
-        return Made(inputs, surroundings, token, femmesh, _results(report, on_shape.lost), report), True
+        parting = None
+        if self.TELLS_PIECES:
+            known = {(group.name, group.kind) for group in mesh.groups.all()}
+            parting = pieces.parting_of(result.mesh, len(femscalpel.pieces(mesh)), known=known)
+        made = Made(inputs, surroundings, token, femmesh, _results(report, on_shape.lost), report, parting=parting)
+        return made, True
 
     def _result(self, obj, mesh, tools, near):
         marked = mesh.copy()
@@ -280,8 +292,8 @@ class MeshOperation:
         if not made.error:
             obj.purgeTouched()
 
-    def _give(self, obj, made, cause=None):
-        """Shows a Made. Raises Reason when it is a failure."""
+    def _give(self, obj, made, cause=None, aloud=False):
+        """Shows a Made, and says `aloud` what its part falls into. Raises Reason when it is a failure."""
         if made.femmesh is None:
             self._clear(obj)
             self.shown = Shown(made.inputs, made.token)
@@ -294,7 +306,23 @@ class MeshOperation:
             self._set_mesh(obj, made.femmesh)
         self.shown = Shown(made.inputs, made.token)
         self._set_results(obj, made.results)
+        if made.parting is not None:  # what holds the pieces may have changed since
+            self._describe_pieces(obj, made.parting, aloud)
         self.report = made.report
+
+    @staticmethod
+    def _describe_pieces(obj, parting, aloud):
+        """Says what the part falls into and what holds the pieces, `aloud` in the report view."""
+        held = pieces.holders(parting, pieces.find_supports(obj))
+        sentence = pieces.sentence_of(parting, held)
+        obj.Pieces = pieces.items_of(parting, held)
+        label = f"  {'pieces':<12} "
+        lines = [line for line in obj.GroupReport if not line.startswith(label)]
+        lines.insert(lines.index("") if "" in lines else len(lines), label + sentence)
+        obj.GroupReport = lines
+        if aloud:
+            tell = FreeCAD.Console.PrintWarning if pieces.is_unsafe(held) else FreeCAD.Console.PrintMessage
+            tell(f"{obj.Label}: {sentence}\n")
 
     def _set_mesh(self, obj, femmesh):
         if self.shown is not None and self.shown.loaded:
@@ -347,6 +375,7 @@ def _results(report, lost):
         "MinimumQualityBefore": before.minimum,
         "MaxDisplacement": report.max_displacement,
         "Warnings": report.warnings,
+        "Pieces": [],
         "OffShape": lost,
         "GroupReport": report.to_text().splitlines(),
         "NodeSetCounts": {name: str(len(ids)) for name, ids in report.node_sets.items()},

@@ -26,6 +26,7 @@ class Merge(MeshOperation):
 
     Type = "FemScalpel::Merge"
     TAKES_SKIN = False
+    TELLS_PIECES = False
 
     INPUTS = (
         ("App::PropertyLink", "Addition", "FEM mesh object that is added; it is not changed"),

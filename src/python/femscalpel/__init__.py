@@ -16,6 +16,7 @@ the name of the parameter at fault. Ctrl-C (KeyboardInterrupt) and :class:`Cance
 from . import tools
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
 from .cancel import CancelToken
+from .connected import Piece, pieces
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Mesh
@@ -58,6 +59,7 @@ __all__ = [
     "HalfPlane",
     "HeldNodes",
     "Mesh",
+    "Piece",
     "Polygon",
     "PoorPlace",
     "Quality",
@@ -85,6 +87,7 @@ __all__ = [
     "measure",
     "merge",
     "meshes_in",
+    "pieces",
     "read",
     "refine",
     "reshape",

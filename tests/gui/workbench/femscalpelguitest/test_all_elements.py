@@ -104,6 +104,8 @@ class Panels(GuiTest):
 
     def open_panel(self, name):
         self.run_command(name)
+        if is_shown("patch"):
+            choose("patch", "Whole")
         wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
 
     def colours_of(self, name):

@@ -61,7 +61,9 @@ class CrackTest(GuiTest):
         self.mesh = self.add_mesh(long_box())
 
     def open_panel(self):
+        """The panel, for the whole plane."""
         self.run_command("FemScalpel_Crack")
+        choose("patch", "Whole")
         self.wait_for_preview()
 
 

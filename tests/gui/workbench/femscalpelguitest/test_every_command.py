@@ -143,6 +143,7 @@ class EveryCommand(GuiTest):
         screenshot("example")
         self.doc = caisson
         self.run_command("FemScalpel_Crack")
+        choose("patch", "Whole")
         for name, number in zip(
             ("originX", "originY", "originZ", "normalX", "normalY", "normalZ"), (200, -50, 430, -0.33, -0.30, 1)
         ):

@@ -144,6 +144,7 @@ class Patches(CylinderTest):
     def open_crack(self, *plane):
         """The crack's panel, with origin and normal of a plane entered."""
         self.run_command("FemScalpel_Crack")
+        choose("patch", "Whole")
         spin(0.2)
         if plane:
             enter_plane(*plane)

@@ -46,6 +46,7 @@ class Preserve(GuiTest):
 
     def test_made_edited(self):
         self.open_panel("FemScalpel_Crack")
+        choose("patch", "Whole")
         self.assertEqual(widget("preserve").currentData(), "All")
         self.assertFalse(is_shown("preserved"))
         for name, text in (("originX", "5.1"), ("normalY", "0.3"), ("normalZ", "0.2")):

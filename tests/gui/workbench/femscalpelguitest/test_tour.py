@@ -20,6 +20,7 @@ class Tour(GuiTest):
         screenshot("tour_1_mesh")
         FreeCADGui.Selection.clearSelection()
         self.run_command("FemScalpel_Crack")
+        choose("patch", "Whole")
         self.wait_for_preview()
         plane = (6.2, 2.5, 2.0), (1.0, 0.25, 0.15)
         enter_plane(*plane)
