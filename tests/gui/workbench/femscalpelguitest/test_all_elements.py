@@ -123,8 +123,9 @@ class Panels(GuiTest):
                 type_into("originX", "2.3")
                 shape = kind.rstrip("0123456789")
                 text = f"First became triangles or tetrahedra: {report.converted[kind]} {CALLED[shape]}."
-                wait_until(lambda: text in widget("status").text(), "what is converted")
-                np.testing.assert_array_equal(widget("histogram").after, report.quality.after.histogram)
+                after = report.quality.after.histogram
+                wait_until(lambda: np.array_equal(widget("histogram").after, after), "the crack as it was typed")
+                self.assertIn(text, widget("status").text())
                 np.testing.assert_array_equal(widget("histogram").before, report.quality.before.histogram)
                 self.assertGreater(widget("histogram").before.sum(), 0)
                 self.assertEqual(self.colours_of("FemScalpelBand"), faces_drawn("FemScalpelBand"))

@@ -615,7 +615,7 @@ class Export(GuiTest):
         self.assertEqual(asked[0], mesh.Label + ".med")
         self.assertEqual(
             asked[1].split(";;")[:3],
-            ["MED: Code_Aster, SALOME (*.med)", "CalculiX (*.inp *.inp.gz)", "ParaView (*.vtu)"],
+            ["MED: Code_Aster, SALOME (*.med *.mmed *.rmed)", "CalculiX (*.inp *.inp.gz)", "ParaView (*.vtu)"],
         )
 
 
