@@ -76,8 +76,6 @@ py::list boundaries(const Mesh& mesh, const std::vector<GroupIndex>& groups) {
     return out;
 }
 
-}  // namespace
-
 /// Fields of each piece. `changed` may be null.
 py::list pieces_of(const Mesh& mesh, const Mesh* changed, const IndexArray& gone) {
     const std::vector<std::int64_t> gone_ids = to_vector(gone);
@@ -101,6 +99,8 @@ py::list pieces_of(const Mesh& mesh, const Mesh* changed, const IndexArray& gone
     }
     return out;
 }
+
+}  // namespace
 
 void bind_groups(py::module_& module) {
     module.def("pieces", &pieces_of, py::arg("mesh"), py::arg("changed"), py::arg("gone"));

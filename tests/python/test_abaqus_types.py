@@ -11,12 +11,12 @@ TYPES = {
     "line3": ("B22", "PIPE32", "SAX2", "T2D3"),
     "triangle": ("STRI3", "R3D3", "SFM3D3", "CPEG3", "CPE3H", "AC2D3"),
     "triangle6": ("STRI65", "SFM3D6", "CPS6M", "CPEG6"),
-    "quad": ("S4R5", "R3D4", "SFM3D4R", "COH2D4", "CPEG4R"),
+    "quad": ("S4R5", "R3D4", "SFM3D4R", "CPEG4R"),
     "quad8": ("S8R5",),
     "tetra": ("AC3D4", "C3D4P"),
     "tetra10": ("C3D10M", "C3D10MH", "C3D10HS"),
-    "wedge": ("COH3D6", "SC6R"),
-    "hexahedron": ("COH3D8", "SC8R", "AC3D8R"),
+    "wedge": ("SC6R",),
+    "hexahedron": ("SC8R", "AC3D8R"),
 }
 COUNT = {"line": 2, "line3": 3, "triangle": 3, "triangle6": 6, "quad": 4, "quad8": 8, "tetra": 4, "tetra10": 10}
 COUNT |= {"wedge": 6, "hexahedron": 8}
@@ -82,3 +82,19 @@ def test_instances_elsewhere_than_their_part_are_refused(tmp_path, placed, words
             fs.read(tmp_path / "in.inp")
     else:
         assert fs.read(tmp_path / "in.inp").node_count == 6
+
+
+CUBE = "*NODE\n" + "".join(f"{4 * k + 2 * j + i + 1},{i},{j},{k}\n" for k in (0, 1) for j in (0, 1) for i in (0, 1))
+
+
+def test_continuum_shells_have_no_parts(tmp_path):
+    (tmp_path / "in.inp").write_text(CUBE + "*ELEMENT,TYPE=SC8R,ELSET=PLATE\n1,1,2,4,3,5,6,8,7\n")
+    with pytest.raises(fs.UnsupportedElementError, match="type SC8R have no parts of their kind"):
+        fs.crack(fs.read(tmp_path / "in.inp"), fs.Plane((0.5, 0, 0), (1, 0.1, 0)))
+
+
+def test_cohesive_elements_are_not_known(tmp_path):
+    """They have no thickness, and nothing here knows which of their faces may open."""
+    (tmp_path / "in.inp").write_text(CUBE + "*ELEMENT,TYPE=COH3D8,ELSET=LAYER\n1,1,2,4,3,5,6,8,7\n")
+    with pytest.raises(fs.ReadError, match="elements of type COH3D8 are not known to CalculiX"):
+        fs.read(tmp_path / "in.inp")

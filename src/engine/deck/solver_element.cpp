@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "deck/solver_input.h"
+#include "error.h"
 
 namespace femscalpel {
 namespace {
@@ -17,9 +18,9 @@ struct Family {
 
 /// What begins as another does comes before it.
 constexpr Family families[] = {
-    {"C3D", 3, false}, {"F3D", 3, false}, {"M3D", 2, false},   {"CPS", 2, true},   {"CPEG", 2, true},
-    {"CPE", 2, true},  {"CAX", 2, true},  {"COH3D", 3, false}, {"COH2D", 2, true}, {"AC3D", 3, false},
-    {"AC2D", 2, true}, {"R3D", 2, false}, {"SFM3D", 2, false}, {"SC", 3, false},   {"S", 2, false},
+    {"C3D", 3, false},   {"F3D", 3, false}, {"M3D", 2, false},  {"CPS", 2, true},  {"CPEG", 2, true},
+    {"CPE", 2, true},    {"CAX", 2, true},  {"AC3D", 3, false}, {"AC2D", 2, true}, {"R3D", 2, false},
+    {"SFM3D", 2, false}, {"SC", 3, false},  {"S", 2, false},
 };
 
 std::optional<CellType> cell_of(int dimension, int nodes) {
@@ -41,6 +42,9 @@ bool holds(const DeckElementType& said, CellType type) {
 std::string deck_label_for(std::string_view written, CellType type) {
     std::string label = deck_key(written);
     if (const auto said = deck_element_type(written); said && said->cell == type) return label;
+    if (label.starts_with("SC"))
+        throw UnsupportedElementError("elements of type " + label +
+                                      " have no parts of their kind: the tool must stay away from them");
     const bool heat = label.starts_with("DC") || label.starts_with("DS");
     std::size_t digits = 0;
     for (const Family& f : families)

@@ -23,7 +23,7 @@ struct DeckElementType {
 
 /// Element types CalculiX 2.20 knows, and C3D5; suffixes for integration and formulation (R, I, T, H,
 /// ...), heat transfer (DC3D8, DCAX4, ...) and fluid (F3D8) variants included; and those of Abaqus that are triangles,
-/// quadrangles, solids or segments like them (STRI3, S4R5, B33, R3D4, SFM3D3, COH3D8, SC8R, CONN3D2, ...). None for
+/// quadrangles, solids or segments like them (STRI3, S4R5, B33, R3D4, SFM3D3, SC8R, CONN3D2, ...). None for
 /// others.
 /// CalculiX and VTK number the nodes of all of them alike, except that three-node lines (B32, T3D3, D)
 /// have their middle node second.
@@ -35,7 +35,8 @@ bool holds(const DeckElementType& said, CellType type);
 
 /// The label for elements of `type` that are parts of one with the label `written`: of the same family (shells,
 /// membranes, plane strain, heat transfer, ...), without the formulation (R, I, ...) if the number of nodes is another,
-/// and for pyramids of first order.
+/// and for pyramids of first order. Throws UnsupportedElementError for continuum shells, of which there are no smaller
+/// ones.
 std::string deck_label_for(std::string_view written, CellType type);
 
 /// The label for elements that no card says more about: solids C3D*, shells S*, beams B*; empty for
