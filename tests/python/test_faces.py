@@ -272,10 +272,10 @@ def test_of_several_elements_on_a_face_those_of_the_group_are_the_lips():
     points, hexahedra = grid((2, 2, 2), 0)
     index = {tuple(p): n for n, p in enumerate(np.round(points, 9))}
     quads = [[index[1, j + a, k + b] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))] for j in (0, 1) for k in (0, 1)]
-    mesh = fs.Mesh(points, {"hexahedron": hexahedra, "quad": np.array(quads + [q[::-1] for q in quads])})
+    mesh = fs.Mesh(points, {"hexahedron": hexahedra, "quad": np.array([q[::-1] for q in quads] + quads)})
     ids = mesh.cell_ids["quad"]
-    mesh.add_group("G", "element", ids[:4])
-    mesh.add_group("OTHER", "element", ids[4:])
+    mesh.add_group("OTHER", "element", ids[:4])
+    mesh.add_group("G", "element", ids[4:])
     after = fs.crack(mesh, fs.Faces("G"), name="T").mesh
     assert {g.name: len(g) for g in after.groups.all()} == {"G": 8, "OTHER": 8, "T_N": 4, "T_P": 4}
     assert np.isin(after.groups["T_N"].ids, after.groups["G"].ids).all()
