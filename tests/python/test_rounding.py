@@ -176,3 +176,34 @@ def test_what_would_grow_over_four_times_is_refused_unless_refined_first(beam):
         fs.crack(mesh, plane)
     report = fs.crack(mesh, plane, refine=0.6).report
     assert report.refinement.elements_after > 2 * report.refinement.elements_before and report.nodes_doubled > 500
+
+
+def plate_with_left(below):
+    points, kind, cells = cases._grid_plate(6, 6.0)
+    left = points[cells].mean(axis=1)[:, 0] < below
+    return fs.Mesh(points, {kind: cells}, groups={"LEFT": ("element", np.arange(1, len(cells) + 1)[left])})
+
+
+def test_wedge_between_a_plane_and_a_border_is_closed_where_it_is_thin():
+    """Of 1.7 degrees: nodes of the border up to a twentieth of an element beside the plane are the crack's."""
+    mesh = plate_with_left(3)
+    result = fs.crack(mesh, fs.Plane((3.05, 3, 0), (1, 0.03, 0)))
+    held = result.report.held
+    assert result.report.quality.after.minimum > 0.3  # 0.05 with the wedge filled
+    assert held.count > 0 and held.largest < 0.05 and "LEFT" in held.groups
+    assert any("held by" in w for w in result.report.warnings)
+    report = {g.name: g for g in result.report.groups}
+    assert report["LEFT"].measure_after == pytest.approx(report["LEFT"].measure_before, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "normal, depth", [((0.7068, 0.7069, 0.028), 2.3e-3), ((0.0045, 0.9999, 0.0091), 1.6e-3), ((0.08, 1, 0.01), 1.2e-3)]
+)
+def test_a_corner_is_cut_off_though_all_of_it_could_be_held(normal, depth):
+    """Where holding nodes beside the plane would leave nothing to part, they are not held."""
+    points, kind, cells = cases._grid_box()
+    normal = np.array(normal) / np.linalg.norm(normal)
+    corner = points[np.argmax(points @ normal)]
+    result = fs.crack(fs.Mesh(points, {kind: cells}), fs.Plane(corner - depth * normal, normal))
+    assert result.report.nodes_doubled > 0 and len(fs.pieces(result.mesh)) == 2
+    assert result.report.quality.after.minimum > 0.02

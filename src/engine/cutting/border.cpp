@@ -177,8 +177,7 @@ private:
             if (snap(c.node, c.length, tools)) continue;
             const double reach = reach_beyond(c.node);
             if (!is_beside(value_[c.node], reach, f_.part_to_hold(c.node))) {
-                if (is_beside(value_[c.node], reach, along_beside))
-                    f_.passed[c.node] = std::abs(value_[c.node]) / reach;
+                if (is_beside(value_[c.node], reach, far_beside)) f_.passed[c.node] = std::abs(value_[c.node]) / reach;
                 continue;
             }
             d_.hold_beside(c.node, tools);

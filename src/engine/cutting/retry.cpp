@@ -17,7 +17,7 @@
 namespace femscalpel {
 namespace {
 
-/// The part for is_beside() where elements came out poor enough to try again.
+/// The part for is_beside() where elements came out poor enough to try again; where that is not enough, far_beside.
 constexpr double poor_beside = 2e-3;
 /// A new node may be this many edge lengths off the curved surface or curve it was born on.
 constexpr double largest_misfit = 5e-4;
@@ -29,6 +29,8 @@ constexpr double second_order_quality = 0.27;
 constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 5, hard_polishings = 8;
+/// Beside a curved tool, whose walls come out better where it was refined, nodes are held farther only after so many.
+constexpr int tries_before_far = 2;
 /// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever
 /// along a wall too thin for elements, and what is cut in the end should not be another mesh.
 constexpr double largest_growth = 4, largest_part = 1;
@@ -212,17 +214,28 @@ public:
             Slots bad = misfits(f_);
             // What could not be mended before does not get better by trying again; once, a plane may pass beside it.
             if (attempt > 1) check_folded_input(f_, newly_folded(f_, folded_elements(f_, least_curved)));
-            const bool sound = bad.empty();
+            bool sound = bad.empty();
             if (sound) {
                 const Verdict verdict = judge(bad);
                 if (verdict == Verdict::good) return;
                 if (verdict == Verdict::settled) break;
             }
-            if (attempt == attempts_ || is_exhausted()) {
+            const bool in_vain = before_far_ && (!sound || !is_best_);
+            if (before_far_) {
+                if (in_vain) {  // goes on as if it had not been tried
+                    bad = std::move(*before_far_);
+                    sound = true;
+                    start_->may_hold.clear();
+                }
+                before_far_.reset();
+            }
+            if (attempt >= attempts_ || is_exhausted()) {
+                if (!in_vain && try_to_hold(bad, sound, true)) continue;
                 if (!best_) try_straight(sound);
                 if (!best_ && !resort_) fail_at(f_, bad);
                 break;
             }
+            if (!in_vain && try_to_hold(bad, sound, false)) continue;
             if (!choose_otherwise(bad, sound, attempt)) break;
             f_ = *start_;
         }
@@ -239,11 +252,12 @@ private:
     Verdict judge(Slots& poor) {
         const double enough = f_.d.mids.any() ? second_order_quality : poor_quality;
         const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
-        if (quality >= enough) return Verdict::good;
+        const bool too_little = best_ && held_far_ && !has_two_sides();
+        if (quality >= enough && !too_little) return Verdict::good;
         const double lips = lips_of_node_ * static_cast<double>(f_.nodes.size());
         const double more = element_count(f_.d.band) + lips - elements_;
         const bool too_many = more > (largest_growth - 1) * mesh_elements_;
-        is_best_ = quality > best_quality_ && !(too_many && best_ && best_quality_ >= hold_quality);
+        is_best_ = quality > best_quality_ && !too_little && !(too_many && best_ && best_quality_ >= hold_quality);
         if (is_best_) {
             best_quality_ = quality;
             best_ = std::move(f_);
@@ -252,9 +266,21 @@ private:
             start_->may_hold.clear();
         }
         // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
-        if (plain_ && (tried_to_hold_ || quality >= poor_quality)) return Verdict::settled;
+        if (plain_ && quality >= poor_quality) return Verdict::settled;
         const int enough_tries = best_quality_ < poor_quality ? hard_polishings : polishings;
-        return ++polished_ >= enough_tries && best_ ? Verdict::settled : Verdict::again;
+        if (!before_far_) ++polished_;
+        return polished_ >= enough_tries && best_ ? Verdict::settled : Verdict::again;
+    }
+
+    /// Whether the tool still passes through the mesh: of a corner cut off, all may have been held.
+    bool has_two_sides() const {
+        bool positive = false, negative = false;
+        for (int v = 0; v < f_.d.band.size(); ++v) {
+            if (!f_.d.band.in_use(v)) continue;
+            positive = positive || f_.distance[v] > 0;
+            negative = negative || f_.distance[v] < 0;
+        }
+        return positive && negative;
     }
 
     bool is_exhausted() const {
@@ -265,10 +291,7 @@ private:
     /// get farther into elements whose nodes are not put on it. False when nothing else is to be tried.
     bool choose_otherwise(const Slots& bad, bool sound, int attempt) {
         std::vector<char>& off_tool = start_->d.off_tool;
-        const bool may_hold = sound && !tried_to_hold_ && best_quality_ < poor_quality;
-        if (may_hold && allow_to_hold(*start_, made(), best_quality_ < hold_quality ? along_beside : poor_beside)) {
-            tried_to_hold_ = true;
-        } else if (plain_ && sound) {
+        if (plain_ && sound) {
             return false;
         } else if (attempt % 2 == 1 && !sound && !std::isfinite(start_->tool->feature_size())) {
             for_parts(start_->d.band, bad, [&](const auto& nodes) {
@@ -281,6 +304,27 @@ private:
         is_best_ = false;
         return true;
     }
+
+    /// Lets nodes of poor elements be held beside the tool: once near ones, once farther ones; beside a curved tool
+    /// those only where refining was tried and did not help, or as the `last` thing to try. False when there are none
+    /// for it.
+    bool try_to_hold(const Slots& bad, bool sound, bool last) {
+        if (!sound || best_quality_ >= poor_quality) return false;
+        const double nearest = best_quality_ < hold_quality ? along_beside : poor_beside;
+        for (const auto& [part, tried] : {std::pair(nearest, &held_near_), std::pair(far_beside, &held_far_)}) {
+            if (*tried || (tried == &held_far_ && !last && !may_hold_far())) continue;
+            if (!allow_to_hold(*start_, made(), part)) continue;
+            *tried = true;
+            if (tried == &held_far_) before_far_ = bad;
+            is_best_ = false;
+            if (last) start_->most_visits = start_->d.visits + static_cast<long>(fewest_visits / 3);
+            f_ = *start_;
+            return true;
+        }
+        return false;
+    }
+
+    bool may_hold_far() const { return polished_ >= tries_before_far || !std::isfinite(start_->tool->feature_size()); }
 
     /// What there is when no try gives sound elements that are good enough: the best of those that are not, or of those
     /// with straight edges where curved ones are folded.
@@ -341,8 +385,9 @@ private:
     double best_quality_;
     std::optional<Workpiece> resort_;  // taken if there is no best one
     double resort_quality_ = 0;
-    bool is_best_ = false;  // the last one is: f_ was moved there
-    bool tried_to_hold_ = false;
+    bool is_best_ = false;                       // the last one is: f_ was moved there
+    std::optional<Slots> before_far_;            // poor elements of the last try, when this one may hold nodes farther
+    bool held_near_ = false, held_far_ = false;  // was tried
     int polished_ = 0;
 };
 

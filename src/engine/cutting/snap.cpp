@@ -251,7 +251,7 @@ private:
     void hold_if_beside(int v, double part) {
         const double reach = reach_beyond(v);
         if (!is_beside(value_[v], reach, part)) {
-            if (is_beside(value_[v], reach, along_beside))
+            if (is_beside(value_[v], reach, far_beside))
                 f_.passed[v] =
                     d_.constraints[v].freedom == NodeFreedom::curve && runs_along(v) ? 0 : std::abs(value_[v]) / reach;
             return;

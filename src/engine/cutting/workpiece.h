@@ -32,9 +32,12 @@ inline constexpr double blade_margin = 1.5;
 /// The part for is_beside() up to which a node is held in any case, as elements between it and the tool could be no
 /// better than flat.
 inline constexpr double close_beside = 1e-5;
-/// The largest there is: where the tool runs along a surface that holds the node, or elements would come out so poor
-/// that they were an error.
+/// The same where the tool runs along a surface that holds the node, or elements would come out so poor that they were
+/// an error.
 inline constexpr double along_beside = 0.025;
+/// The largest there is: where elements are poor whatever else was tried, in a wedge between the tool and a feature
+/// line or surface.
+inline constexpr double far_beside = 0.05;
 
 /// A band in which element faces are being made to lie on tools.
 struct Workpiece {
