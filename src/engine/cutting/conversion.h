@@ -32,6 +32,8 @@ struct Conversion {
     CellLists cells;
     /// Quadrangular faces between these and solids that stay: pyramids stand on them.
     QuadTable<char> bases;
+    /// Diagonals of faces that are not to be those that are better for the face alone.
+    QuadTable<QuadDiagonal> diagonals = {};
 
     std::vector<PyramidRule> rules = {};  ///< by node, or empty
 

@@ -2,6 +2,7 @@
 #include "cutting/quad_cuts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "deformation/mid_sides.h"
 #include "mesh/middles.h"
@@ -34,8 +35,9 @@ std::span<const FaceMiddle> face_middles(CellType type) {
 }  // namespace
 
 QuadCuts::QuadCuts(Mesh& mesh, const CellLists& cells,
-                   std::function<Index(const Blend&, const std::array<Index, 4>&)> add_node)
-    : mesh_(mesh), add_node_(std::move(add_node)) {
+                   std::function<Index(const Blend&, const std::array<Index, 4>&)> add_node,
+                   QuadTable<QuadDiagonal> given)
+    : mesh_(mesh), given_(std::move(given)), add_node_(std::move(add_node)) {
     for (const CellBlock& b : mesh.blocks()) {
         const CellTraits& t = traits(b.type);
         if (!t.quadratic) continue;
@@ -108,9 +110,11 @@ std::array<Index, 2> QuadCuts::diagonal(const std::array<Index, 4>& corners) {
     std::array<Index, 4> q = corners;
     std::ranges::rotate(q, std::ranges::min_element(q, {}, number));
     if (number(q[3]) < number(q[1])) std::swap(q[1], q[3]);
-    Choice best = choice(q, 0);
-    if (Choice other = choice(q, 1); other.quality > best.quality + as_good * std::abs(best.quality))
-        best = std::move(other);
+    Choice best = choice(q, 0), other = choice(q, 1);
+    const QuadDiagonal* given = given_.find(key);
+    const bool takes_other = given ? std::ranges::find(*given, static_cast<std::int32_t>(q[0])) == given->end()
+                                   : other.quality > best.quality + as_good * std::abs(best.quality);
+    if (takes_other) best = std::move(other);
     if (best.middle.size() == 1 && best.middle.front().second == 1)
         set_middle(best.ends[0], best.ends[1], best.middle.front().first);
     else if (!best.middle.empty())

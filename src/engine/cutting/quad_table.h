@@ -21,6 +21,9 @@ inline QuadKey quad_key(const std::array<Index, 4>& corners) {
     return key;
 }
 
+/// Ends of the diagonal a quadrangle is cut along.
+using QuadDiagonal = std::array<std::int32_t, 2>;
+
 /// A hash table by quadrangular face, with open addressing: the faces of a hundred thousand elements take a fraction of
 /// the time of the standard library's.
 template <class Value>

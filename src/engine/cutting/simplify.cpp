@@ -2,9 +2,12 @@
 #include "cutting/simplify.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "cancel.h"
+#include "cutting/better_diagonals.h"
 #include "cutting/quad_cuts.h"
 #include "cutting/solid_parts.h"
 #include "mesh/quality.h"
@@ -16,6 +19,8 @@ namespace {
 constexpr double poor_pyramid = 0.1;
 /// Parts poorer than this, and than a tenth of the whole, are an error.
 constexpr double too_poor = 0.02;
+/// For solids with parts poorer than this, other diagonals of their faces are tried.
+constexpr double poor_parts = 0.15;
 
 class Simplifier {
 public:
@@ -29,8 +34,10 @@ public:
     }
 
     Simplified run() {
-        QuadCuts cuts(out_.mesh, conversion_.cells,
-                      [&](const Blend& at, const std::array<Index, 4>& corners) { return add_node(at, corners); });
+        QuadCuts cuts(
+            out_.mesh, conversion_.cells,
+            [&](const Blend& at, const std::array<Index, 4>& corners) { return add_node(at, corners); },
+            conversion_.diagonals);
         cuts_ = &cuts;
         for (const CellTraits& t : all_cell_types()) {
             const std::vector<Index>& cells = conversion_.cells[static_cast<int>(t.type)];
@@ -49,6 +56,17 @@ public:
         remove_cells();
         remove_middles();
         return std::move(out_);
+    }
+
+    /// Solids with poor parts, and the quality of these; the least of all.
+    const std::vector<std::pair<double, CellRef>>& poor() const { return poor_; }
+    double worst() const {
+        return poor_.empty() ? poor_parts : std::ranges::min(poor_, {}, &std::pair<double, CellRef>::first).first;
+    }
+
+    /// Throws for an element that has no sound parts.
+    void refuse_too_poor() const {
+        if (too_poor_) refuse(*too_poor_);
     }
 
 private:
@@ -119,7 +137,8 @@ private:
         SolidParts parts = cut_solid(out_.mesh, cell, conversion_, *cuts_);
         const bool unfit = parts.quality < poor_pyramid && has_base(cell);
         if (unfit) out_.unfit.push_back(cell);
-        if (!(unfit && tell_unfit_) && is_too_poor(parts, cell)) refuse(cell);
+        if (parts.quality < poor_parts) poor_.emplace_back(parts.quality, cell);
+        if (!(unfit && tell_unfit_) && !too_poor_ && is_too_poor(parts, cell)) too_poor_ = cell;
         const auto all = input_.block(cell.type).nodes(cell.cell).first(static_cast<std::size_t>(t.corners));
         Index centre = parts.centre_node;
         if (centre < 0 && !parts.centre.empty()) centre = add_node(parts.centre, all);
@@ -280,13 +299,26 @@ private:
     bool number_kept_ = false;
     std::vector<std::size_t> children_from_;  // first in `after`, by place in `before`; then where the last ones end
     std::vector<Blend> blends_;               // of new nodes, by nodes of the input
+    std::vector<std::pair<double, CellRef>> poor_;
+    std::optional<CellRef> too_poor_;
     SparseCheck check_;
 };
 
 }  // namespace
 
 Simplified simplify(const Mesh& mesh, const Conversion& conversion, const Numbering& numbering, bool tell_unfit) {
-    return Simplifier(mesh, conversion, numbering, tell_unfit).run();
+    Simplifier simplifier(mesh, conversion, numbering, tell_unfit);
+    Simplified out = simplifier.run();
+    if (simplifier.poor().empty()) return out;
+    Conversion other = conversion;
+    other.diagonals = better_diagonals(mesh, conversion, simplifier.poor());
+    Simplifier again(mesh, other, numbering, tell_unfit);
+    if (Simplified better = again.run(); again.worst() > simplifier.worst()) {
+        again.refuse_too_poor();
+        return better;
+    }
+    simplifier.refuse_too_poor();
+    return out;
 }
 
 }  // namespace femscalpel
