@@ -41,7 +41,8 @@ TEST(InstancePlacement, TranslatesThenTurns) {
 }
 
 TEST(InstancePlacement, WithoutLinesOrByNothingIsNone) {
-    for (const char* text : {"*INSTANCE\n", "*INSTANCE\n0., 0., 0.\n", "*INSTANCE\n0.\n0., 0., 0., 0., 0., 1., 360.\n"}) {
+    for (const char* text :
+         {"*INSTANCE\n", "*INSTANCE\n0., 0., 0.\n", "*INSTANCE\n0.\n0., 0., 0., 0., 0., 1., 360.\n"}) {
         const Placement p = placement_of_instance(card_of(text));
         EXPECT_FALSE(p.moves || p.turns) << text;
     }
@@ -126,9 +127,10 @@ protected:
 };
 
 TEST_F(PartDecks, AreFlatWithInstancesInTheirPlace) {
-    const Mesh mesh = read("*PART, NAME=P\n" + sheet_ +
-                           "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
-                           "*INSTANCE, NAME=J, PART=p\n0., 0., 2.\n*END INSTANCE\n*END ASSEMBLY\n*STEP\n*CLOAD\nJ.2, 1, 1.\n");
+    const Mesh mesh =
+        read("*PART, NAME=P\n" + sheet_ +
+             "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
+             "*INSTANCE, NAME=J, PART=p\n0., 0., 2.\n*END INSTANCE\n*END ASSEMBLY\n*STEP\n*CLOAD\nJ.2, 1, 1.\n");
     EXPECT_THAT(mesh.node_ids, ElementsAre(1, 2, 3, 11, 12, 13));
     EXPECT_EQ(place(mesh, 12), Vec3(1, 0, 2));
     EXPECT_THAT(element_set(mesh, "J_E"), ElementsAre(11));
@@ -151,8 +153,8 @@ TEST_F(PartDecks, NumbersThatNobodyElseHasStay) {
 TEST_F(PartDecks, NumbersNearTheLargestStayWhereTheyCan) {
     const std::string high = "*NODE\n2147483640,0,0,0\n2147483641,1,0,0\n2147483642,0,1,0\n";
     const std::string ends = "*END PART\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*INSTANCE, NAME=J, PART=";
-    const Mesh mesh = read("*PART, NAME=Q\n" + sheet_ + "*END PART\n*PART, NAME=P\n" + high + ends +
-                           "Q\n*END INSTANCE\n");
+    const Mesh mesh =
+        read("*PART, NAME=Q\n" + sheet_ + "*END PART\n*PART, NAME=P\n" + high + ends + "Q\n*END INSTANCE\n");
     EXPECT_THAT(mesh.node_ids, ElementsAre(2147483640, 2147483641, 2147483642, 1, 2, 3));
     const Mesh last = read("*PART, NAME=P\n" + high + ends + "P\n*END INSTANCE\n");
     EXPECT_EQ(last.node_ids.back(), 2147483645);
@@ -165,8 +167,9 @@ TEST_F(PartDecks, NumbersNearTheLargestStayWhereTheyCan) {
 
 TEST_F(PartDecks, NamesAreCutWhereTheyAreTooLong) {
     const std::string name(78, 'N');
-    const Mesh mesh = read("*PART, NAME=P\n" + sheet_ + "*NSET, NSET=" + name + "\n1\n*END PART\n" +
-                           "*INSTANCE, NAME=LONG, PART=P\n*END INSTANCE\n*INSTANCE, NAME=LONG2, PART=P\n*END INSTANCE\n");
+    const Mesh mesh =
+        read("*PART, NAME=P\n" + sheet_ + "*NSET, NSET=" + name + "\n1\n*END PART\n" +
+             "*INSTANCE, NAME=LONG, PART=P\n*END INSTANCE\n*INSTANCE, NAME=LONG2, PART=P\n*END INSTANCE\n");
     EXPECT_THAT(node_set(mesh, "LONG_" + name.substr(0, 75)), ElementsAre(1));
     EXPECT_THAT(node_set(mesh, "LONG2_" + name.substr(0, 74)), ElementsAre(11));
 }

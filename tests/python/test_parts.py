@@ -176,7 +176,9 @@ def test_three_instances_solve_as_the_flat_deck_written_by_hand_before_and_after
     largest = []
     for cracked in (False, True):
         got, wanted = (
-            solve(tmp_path, written(tmp_path, fs.crack(m, plane, within=within, strict=False).mesh if cracked else m))[0]
+            solve(tmp_path, written(tmp_path, fs.crack(m, plane, within=within, strict=False).mesh if cracked else m))[
+                0
+            ]
             for m in (parts, hand)
         )
         assert got.keys() == wanted.keys() and len(got) >= len(parts.points) - 1
@@ -258,7 +260,10 @@ QUARTER = "0., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n"
     [
         ("*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 30.\n", "NAME=J_O\n0, 1, 0, -1, 0, 0\n3, 30.\n"),
         ("*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n1., 0., 0., 1., 0., 1.\n", "0, 1, 0, 0, 1, 1\n"),
-        ("*NSET, NSET=N\n1\n*TRANSFORM, NSET=N, TYPE=R\n1., 0., 0., 0., 1., 0.\n", "NSET=J_N, TYPE=R\n0, 1, 0, -1, 0, 0\n"),
+        (
+            "*NSET, NSET=N\n1\n*TRANSFORM, NSET=N, TYPE=R\n1., 0., 0., 0., 1., 0.\n",
+            "NSET=J_N, TYPE=R\n0, 1, 0, -1, 0, 0\n",
+        ),
         ("*NORMAL\n1, 2, 1., 0., 0.\n", "*NORMAL\n11, 12, 0, 1, 0\n"),
         ("*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n1., 2.\n1., 0., 0.\n", "1., 2.\n0, 1, 0\n"),
         ("*GAP, ELSET=E\n0.1, 1., 0., 0., , 7.\n", "0.1, 0, 1, 0, , 7.\n"),
@@ -293,7 +298,10 @@ def test_what_cannot_be_turned_or_renumbered_is_refused(tmp_path, cards, words):
     "text, words",
     [
         (two().replace("*END PART\n", ""), r"in.inp:10: \*ASSEMBLY stands before the \*END PART of .*in.inp:1$"),
-        ("*PART, NAME=P\n" + SHEET + "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n", r"in.inp:10: \*INSTANCE stands before"),
+        (
+            "*PART, NAME=P\n" + SHEET + "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n",
+            r"in.inp:10: \*INSTANCE stands before",
+        ),
         (two().replace("*END ASSEMBLY\n", ""), r"in.inp:11: \*ASSEMBLY has no \*END ASSEMBLY"),
         (two().replace("NAME=J", "NAME=i"), "in.inp:14: an instance 'i' is there already .*in.inp:12"),
         (two(more="*PART, NAME=P\n*END PART\n"), "in.inp:11: a part 'P' is there already"),
@@ -306,7 +314,10 @@ def test_what_cannot_be_turned_or_renumbered_is_refused(tmp_path, cards, words):
         (two(second="0.\n1,1,1,1,1,90.\n"), "in.inp:16: not 7 numbers; the rotation"),
         (two(second="0.\n0,0,0,0,0,1,90.\n1.\n"), "in.inp:17: an instance has a line with its translation and one"),
         (two(assembly="*NSET, NSET=A, INSTANCE=K\n1\n"), "in.inp:17: there is no instance 'K'"),
-        (two(assembly="*NSET, NSET=A, INSTANCE=I\n1, 7\n"), "in.inp:18: instance 'I' has no node 7: its nodes are 1 to 4"),
+        (
+            two(assembly="*NSET, NSET=A, INSTANCE=I\n1, 7\n"),
+            "in.inp:18: instance 'I' has no node 7: its nodes are 1 to 4",
+        ),
         (two(assembly="*NSET, NSET=A\n1, 2\n"), "in.inp:18: number 1 is not of the assembly itself; .* as INSTANCE.1"),
         (two(assembly="*NSET, NSET=A\nJ.99\n"), "in.inp:18: instance 'J' has no node 99: its nodes are 1 to 4"),
         (two(assembly="*NSET, NSET=A\nJ.X\n"), "in.inp:18: instance 'J' has no set, surface or orientation 'X'"),
@@ -374,7 +385,9 @@ def test_instances_hold_meshes_of_their_own(tmp_path):
 def test_a_part_without_an_instance_is_left_out_with_a_word(tmp_path):
     mesh = read_text(tmp_path, two(more="*PART, NAME=SPARE\n" + SHEET + "*END PART\n"))
     assert mesh.node_count == 8
-    assert "in.inp:11: part 'SPARE' has no instance, so nothing of it is in the model; left out" in mesh.input_warnings[1]
+    assert (
+        "in.inp:11: part 'SPARE' has no instance, so nothing of it is in the model; left out" in mesh.input_warnings[1]
+    )
 
 
 def test_local_systems_and_cylindrical_coordinates_are_worked_out(tmp_path):

@@ -13,7 +13,18 @@ namespace femscalpel {
 namespace {
 
 /// Where the data lines of a card hold numbers and names of nodes, elements, sets and surfaces.
-enum class Entries : std::uint8_t { nowhere, first, first_two, all, all_but_first, node, element, set, surface, equation };
+enum class Entries : std::uint8_t {
+    nowhere,
+    first,
+    first_two,
+    all,
+    all_but_first,
+    node,
+    element,
+    set,
+    surface,
+    equation
+};
 
 struct CardForm {
     std::string_view keyword;
@@ -116,7 +127,8 @@ std::optional<Card> FlatCards::flat(const Card& original) {
         return {};
     }
     Card card = original;
-    const std::string* of_instance = card.keyword == "NSET" || card.keyword == "ELSET" ? card.parameter("INSTANCE") : nullptr;
+    const std::string* of_instance =
+        card.keyword == "NSET" || card.keyword == "ELSET" ? card.parameter("INSTANCE") : nullptr;
     const FlatScope* scope = scope_;
     if (of_instance && !(scope = names_.find_instance(*of_instance)))
         throw ReadError(card.where() + ": there is no instance '" + unquoted(*of_instance) + "'");
@@ -165,8 +177,8 @@ std::optional<Card> FlatCards::flat(const Card& original) {
 
 void FlatCards::change_head(Card& card) const {
     constexpr std::string_view numbers[] = {"REFNODE", "ROTNODE", "NODE", "ELEMENT"};
-    constexpr std::string_view names[] = {"NSET",    "ELSET",       "SURFACE", "MASTER",           "SLAVE",
-                                          "TIENSET", "PINNSET",     "ORIENTATION", "ANALYTICALSURFACE", "TIE"};
+    constexpr std::string_view names[] = {"NSET",    "ELSET",       "SURFACE",           "MASTER", "SLAVE", "TIENSET",
+                                          "PINNSET", "ORIENTATION", "ANALYTICALSURFACE", "TIE"};
     const CardParameter* defined = defined_name(card);
     std::vector<CardParameter> parameters;
     bool changed = false;
@@ -188,8 +200,8 @@ void FlatCards::change_head(Card& card) const {
         else if (&p != defined && !p.value.empty() && (is_name || is_number))
             text = !is_number && whole_number(p.value)
                        ? std::nullopt
-                       : names_.number_or_name(*scope_, p.value, p.name == "ELEMENT" ? Numbered::element : Numbered::node,
-                                               fail);
+                       : names_.number_or_name(*scope_, p.value,
+                                               p.name == "ELEMENT" ? Numbered::element : Numbered::node, fail);
         if (text) {
             flat.value = *text;
             changed = true;
@@ -347,8 +359,8 @@ void FlatCards::change_unknown(Card& card) {
         const std::string what = where() + "*" + card.keyword +
                                  " is not a card of CalculiX: whether its numbers are nodes or elements is not known";
         if (!in_assembly)
-            throw ReadError(what + ", and those of " + scope_->label + " change by " +
-                            std::to_string(scope_->offset) + ". Take the card out of the part");
+            throw ReadError(what + ", and those of " + scope_->label + " change by " + std::to_string(scope_->offset) +
+                            ". Take the card out of the part");
         if (!told) warnings_.push_back(what + ", so they stay as they are; check them");
         told = true;
     });

@@ -76,8 +76,8 @@ public:
         }
         if (copied == 0) return piece_;
         out += text.substr(copied);
-        const auto file = std::make_shared<const DeckFile>(
-            DeckFile{piece_.file->path, std::move(out), piece_.file->carried});
+        const auto file =
+            std::make_shared<const DeckFile>(DeckFile{piece_.file->path, std::move(out), piece_.file->carried});
         return {file, file->text, piece_.line};
     }
 
@@ -129,7 +129,8 @@ void LineFields::cut(std::size_t count) {
 void change_lines(Card& card, const ChangeLine& change) {
     const std::size_t first = detach_head(card) ? 1 : 0;
     std::size_t number = 0;
-    for (std::size_t p = first; p < card.text.size(); ++p) card.text[p] = PieceWriter(card.text[p], change, number).run();
+    for (std::size_t p = first; p < card.text.size(); ++p)
+        card.text[p] = PieceWriter(card.text[p], change, number).run();
 }
 
 void change_parameters(Card& card, std::vector<CardParameter> parameters) {
@@ -139,8 +140,7 @@ void change_parameters(Card& card, std::vector<CardParameter> parameters) {
     const std::string eol = has_return ? "\r\n" : "\n";
     std::string text(head.text.substr(0, head.text.find(',')));
     while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos) text.pop_back();
-    for (const CardParameter& p : parameters)
-        text += ", " + readable(p.name) + (p.value.empty() ? "" : "=" + p.value);
+    for (const CardParameter& p : parameters) text += ", " + readable(p.name) + (p.value.empty() ? "" : "=" + p.value);
     text += eol;
     for (auto lines = std::ranges::count(head.text, '\n'); lines > 1; --lines) text += "**" + eol;
     const auto file = std::make_shared<const DeckFile>(DeckFile{head.file->path, std::move(text), head.file->carried});

@@ -106,8 +106,8 @@ void ElementLines::end_line(bool with_comma) { continues_ = with_comma; }
 
 const CardParameter* defined_name(const Card& card) {
     constexpr std::pair<std::string_view, std::string_view> defining[] = {
-        {"NODE", "NSET"},        {"ELEMENT", "ELSET"},     {"NSET", "NSET"}, {"ELSET", "ELSET"},
-        {"SURFACE", "NAME"},     {"ORIENTATION", "NAME"},  {"TIE", "NAME"},  {"COUPLING", "CONSTRAINTNAME"},
+        {"NODE", "NSET"},        {"ELEMENT", "ELSET"},    {"NSET", "NSET"}, {"ELSET", "ELSET"},
+        {"SURFACE", "NAME"},     {"ORIENTATION", "NAME"}, {"TIE", "NAME"},  {"COUPLING", "CONSTRAINTNAME"},
         {"DISTRIBUTION", "NAME"}};
     for (const auto& [keyword, parameter] : defining)
         if (card.keyword == keyword)
@@ -160,7 +160,8 @@ void FlatNames::number_scope(FlatScope& scope, std::vector<const FlatScope*>& do
     bool clash = false;
     Index used = 0;
     for (const FlatScope* other : done) {
-        const NumberRange nodes = other->nodes.shifted(other->offset), elements = other->elements.shifted(other->offset);
+        const NumberRange nodes = other->nodes.shifted(other->offset),
+                          elements = other->elements.shifted(other->offset);
         clash = clash || scope.nodes.meets(nodes) || scope.elements.meets(elements);
         used = std::max({used, nodes.last, elements.last});
     }
@@ -224,9 +225,9 @@ Index FlatNames::number(const FlatScope& scope, Index number, Numbered what, con
         const std::string kind = what == Numbered::element ? "element" : "node";
         fail(scope.label + " has no " + kind + (what == Numbered::either ? " and no element " : " ") +
              std::to_string(number) +
-             (range.first > 0 ? ": its " + kind + "s are " + std::to_string(range.first) + " to " +
-                                    std::to_string(range.last)
-                              : ": it has no " + kind + "s"));
+             (range.first > 0
+                  ? ": its " + kind + "s are " + std::to_string(range.first) + " to " + std::to_string(range.last)
+                  : ": it has no " + kind + "s"));
     }
     return number == 0 ? 0 : number + scope.offset;
 }
@@ -285,8 +286,9 @@ std::optional<std::string> FlatNames::number_or_name(const FlatScope& scope, std
                    (what != Numbered::node && assembly_.own_elements.contains(*id))) {
             flat += assembly_.offset;
         } else if (!all_keep_) {
-            fail("number " + std::to_string(*id) + " is not of the assembly itself; say which instance's is meant, as " +
-                 "INSTANCE." + std::to_string(*id));
+            fail("number " + std::to_string(*id) +
+                 " is not of the assembly itself; say which instance's is meant, as " + "INSTANCE." +
+                 std::to_string(*id));
         }
         return flat == *id ? std::nullopt : std::optional(std::to_string(flat));
     }
@@ -295,7 +297,7 @@ std::optional<std::string> FlatNames::number_or_name(const FlatScope& scope, std
     if (!in_assembly)
         if (const auto it = scope.names.find(key); it != scope.names.end())
             return name_key(it->second) == key && field.find('"') == field.npos ? std::nullopt
-                                                                                 : std::optional(it->second);
+                                                                                : std::optional(it->second);
     if (const auto reference = split_reference(field)) {
         const auto& [other, rest] = *reference;
         if (const auto id = whole_number(rest)) return std::to_string(number(*other, *id, what, fail));

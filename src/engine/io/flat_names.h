@@ -33,17 +33,18 @@ struct NumberRange {
 
 /// How numbers and names of an instance, or of the assembly itself, are called in the flat deck.
 struct FlatScope {
-    std::string label;                                   ///< "instance 'A-1'", for messages
-    Index offset = 0;                                    ///< added to numbers
-    NumberRange nodes, elements;                         ///< numbers it has, before that
-    std::unordered_map<std::string, std::string> names;  ///< sets, surfaces, orientations...: by name_key(), the new name
-    std::unordered_set<Index> own_nodes, own_elements;   ///< the assembly's numbers
-    Placement placement;                                 ///< of its coordinates
-    bool is_alone = false;                               ///< no other scope has numbers
+    std::string label;            ///< "instance 'A-1'", for messages
+    Index offset = 0;             ///< added to numbers
+    NumberRange nodes, elements;  ///< numbers it has, before that
+    std::unordered_map<std::string, std::string>
+        names;  ///< sets, surfaces, orientations...: by name_key(), the new name
+    std::unordered_set<Index> own_nodes, own_elements;  ///< the assembly's numbers
+    Placement placement;                                ///< of its coordinates
+    bool is_alone = false;                              ///< no other scope has numbers
 };
 
-/// The name a card gives to something of its part, instance or assembly, if it does: a set, a surface, an orientation, a
-/// distribution, a tie or a coupling. The parameter that holds it, and its value.
+/// The name a card gives to something of its part, instance or assembly, if it does: a set, a surface, an orientation,
+/// a distribution, a tie or a coupling. The parameter that holds it, and its value.
 const CardParameter* defined_name(const Card& card);
 
 /// Says what numbers and names of a deck of parts are in the flat one.

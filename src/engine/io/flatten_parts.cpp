@@ -16,17 +16,17 @@ namespace {
 
 /// Whether a card starts something of the model that is no property of a material.
 bool ends_material(const Card& card) {
-    constexpr std::string_view keywords[] = {"NODE",   "ELEMENT",     "NSET",      "ELSET",    "SURFACE",  "ORIENTATION",
-                                             "SYSTEM", "TRANSFORM",   "COUPLING",  "TIE",      "EQUATION", "MPC",
-                                             "MASS",   "DISTRIBUTION", "RIGIDBODY", "AMPLITUDE"};
+    constexpr std::string_view keywords[] = {
+        "NODE",     "ELEMENT", "NSET",     "ELSET", "SURFACE", "ORIENTATION",  "SYSTEM",    "TRANSFORM",
+        "COUPLING", "TIE",     "EQUATION", "MPC",   "MASS",    "DISTRIBUTION", "RIGIDBODY", "AMPLITUDE"};
     return card.keyword.ends_with("SECTION") || std::ranges::find(keywords, card.keyword) != std::end(keywords);
 }
 
 std::string range_text(const char* what, const std::array<Index, 2>& range) {
     if (range[0] == 0) return "no " + std::string(what) + "s";
-    return std::string(what) + (range[0] == range[1] ? " " + std::to_string(range[0])
-                                                     : "s " + std::to_string(range[0]) + " to " +
-                                                           std::to_string(range[1]));
+    return std::string(what) + (range[0] == range[1]
+                                    ? " " + std::to_string(range[0])
+                                    : "s " + std::to_string(range[0]) + " to " + std::to_string(range[1]));
 }
 
 /// "instance A-2 of part A: nodes 2001 to 2125, elements 2001 to 2384 (numbers + 2000)".

@@ -16,8 +16,7 @@ std::vector<double> numbers_of_next_line(CardReader& line, std::size_t most, con
     if (!line.next_data_line()) return out;
     while (!line.at_end()) {
         double x = 0;
-        if (!line.number(x))
-            throw ReadError(line.where() + "'" + line.field() + "' is not a finite number; " + what);
+        if (!line.number(x)) throw ReadError(line.where() + "'" + line.field() + "' is not a finite number; " + what);
         out.push_back(x);
     }
     if (out.size() > most) throw ReadError(line.where() + "more than " + std::to_string(most) + " numbers; " + what);
@@ -53,8 +52,9 @@ Placement Placement::after(const Placement& inner) const {
 
 Placement placement_of_instance(const Card& card) {
     const std::string shift_line = "the translation of an instance is x, y, z",
-                      axis_line = "the rotation of an instance is two points of its axis and an angle in degrees: "
-                                  "xa, ya, za, xb, yb, zb, angle";
+                      axis_line =
+                          "the rotation of an instance is two points of its axis and an angle in degrees: "
+                          "xa, ya, za, xb, yb, zb, angle";
     CardReader line(card);
     std::vector<double> first = numbers_of_next_line(line, 7, shift_line), second;
     if (first.size() > 3) {  // a line left blank in place of the translation
@@ -69,8 +69,7 @@ Placement placement_of_instance(const Card& card) {
     if (!second.empty()) {
         if (second.size() != 7) throw ReadError(line.where() + "not 7 numbers; " + axis_line);
         const Vec3 a = vector_at(second, 0), along = vector_at(second, 3) - a;
-        if (!(along.norm() > 0))
-            throw ReadError(line.where() + "the two points of the axis are one; " + axis_line);
+        if (!(along.norm() > 0)) throw ReadError(line.where() + "the two points of the axis are one; " + axis_line);
         const auto [s, c] = sine_and_cosine(second[6]);
         if (c != 1) {
             const Vec3 k = along / along.norm();
@@ -82,13 +81,15 @@ Placement placement_of_instance(const Card& card) {
         }
     }
     if (line.next_data_line())
-        throw ReadError(line.where() + "an instance has a line with its translation and one with its rotation, no more");
+        throw ReadError(line.where() +
+                        "an instance has a line with its translation and one with its rotation, no more");
     return out;
 }
 
 Placement placement_of_system(const Card& card) {
-    const std::string lines = "*SYSTEM has a line with the origin and a point on the first axis, and one with a point "
-                              "in the plane of the first two";
+    const std::string lines =
+        "*SYSTEM has a line with the origin and a point on the first axis, and one with a point "
+        "in the plane of the first two";
     CardReader line(card);
     const std::vector<double> first = numbers_of_next_line(line, 6, lines);
     const std::vector<double> second = numbers_of_next_line(line, 3, lines);

@@ -25,9 +25,9 @@ struct Placement {
 /// translated already. Multiples of 90 degrees are exact. Throws ReadError that names the line.
 Placement placement_of_instance(const Card& card);
 
-/// The placement of nodes behind a *SYSTEM card: its origin, a point on its first axis and one in its plane of the first
-/// two. Without the last its third axis stays and the first is projected; without any line it is the global system
-/// again. Throws ReadError that names the line.
+/// The placement of nodes behind a *SYSTEM card: its origin, a point on its first axis and one in its plane of the
+/// first two. Without the last its third axis stays and the first is projected; without any line it is the global
+/// system again. Throws ReadError that names the line.
 Placement placement_of_system(const Card& card);
 
 }  // namespace femscalpel

@@ -96,9 +96,8 @@ private:
         PartInstance instance;
         instance.name = name_of(card);
         if (deck_number(instance.name))
-            throw ReadError(card.where() + ": the instance's name, '" + instance.name +
-                            "', is a number, so that '" + instance.name +
-                            ".1' could be one, too; give it a name that starts with a letter");
+            throw ReadError(card.where() + ": the instance's name, '" + instance.name + "', is a number, so that '" +
+                            instance.name + ".1' could be one, too; give it a name that starts with a letter");
         const auto [it, is_new] = instances_.emplace(name_key(instance.name), &card);
         if (!is_new)
             throw ReadError(card.where() + ": an instance '" + instance.name + "' is there already (" +
@@ -132,8 +131,8 @@ private:
 
     PartDeck out_;
     std::vector<Part> parts_;
-    std::unordered_map<std::string, std::size_t> index_;          // of parts by name
-    std::unordered_map<std::string, const Card*> instances_;      // by name
+    std::unordered_map<std::string, std::size_t> index_;                      // of parts by name
+    std::unordered_map<std::string, const Card*> instances_;                  // by name
     const Card *part_ = nullptr, *instance_ = nullptr, *assembly_ = nullptr;  // that are open
 };
 

@@ -24,7 +24,7 @@ struct PartInstance {
 /// that only say where something starts and ends have a part in it for their comments.
 struct DeckItem {
     const Card* card = nullptr;
-    bool is_bracket = false;                                                ///< *ASSEMBLY, *END PART, ...
+    bool is_bracket = false;                              ///< *ASSEMBLY, *END PART, ...
     std::size_t instance = static_cast<std::size_t>(-1);  ///< into PartDeck::instances, if `card` is null
 };
 
@@ -43,8 +43,8 @@ std::string unquoted(std::string_view name);
 std::string name_key(std::string_view name);
 
 /// Takes the cards of a deck apart, which must outlive the result. Throws ReadError "file:line: ..." for parts,
-/// instances and assemblies that do not end, stand in each other, have no name or one that is used before, for instances
-/// of a part that is not there, and for those imported from an earlier analysis.
+/// instances and assemblies that do not end, stand in each other, have no name or one that is used before, for
+/// instances of a part that is not there, and for those imported from an earlier analysis.
 PartDeck take_parts_apart(const std::vector<Card>& cards);
 
 }  // namespace femscalpel
