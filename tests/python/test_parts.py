@@ -359,6 +359,54 @@ def test_names_and_numbers_of_instances_are_told_apart(tmp_path):
     assert sorted(mesh.groups["J_S"].ids[:, 0].tolist()) == [11, 12]
 
 
+def test_names_may_have_blanks_quotes_and_points(tmp_path):
+    deck = two("*NSET, NSET=N\n1\n", '*NSET, NSET=X\n"J. 2".3, "j. 2".N, I.2\n').replace("NAME=J", 'NAME="J. 2"')
+    alike = deck.replace("NAME=I", "NAME=J").replace(", I.2", ", J.2")  # instances J and J. 2
+    assert members(read_text(tmp_path, alike))["X", "node"] == [2, 11, 13]
+    mesh = read_text(tmp_path, deck.replace("*INSTANCE, NAME=I", "* Instance ,name = i ").replace("PART=P", "PART=p "))
+    assert members(mesh)["X", "node"] == [2, 11, 13]
+
+
+def test_elements_equations_and_loads_name_nodes_of_several_instances(tmp_path):
+    mesh = read_text(
+        tmp_path,
+        two(
+            assembly="*ELEMENT, TYPE=SPRINGA, ELSET=SP\n1, I.1, J.2\n*ELEMENT, TYPE=C3D8\n2, I.1, I.2, I.3, I.4,\n"
+            " J.1, J.2, J.3, J.4\n*EQUATION\n3\nI.2, 1, 1., J.1, 1, -1.\nI.3, 1, 2.\n*MPC\nBEAM, I.2, J.1\n",
+            after="*STEP\n*DLOAD\nI.2, P, 1.\nJ.E, P, 2.\n*NODE PRINT, NSET=SP\nU\n*END STEP\n",
+        ),
+    )
+    text = written(tmp_path, mesh)
+    for lines in (
+        "SPRINGA, ELSET=SP\n21, 1, 12\n", "\n22, 1, 2, 3, 4,\n 11, 12, 13, 14\n",
+        "\n3\n2, 1, 1., 11, 1, -1.\n3, 1, 2.\n*MPC\nBEAM, 2, 11\n", "*DLOAD\n2, P, 1.\nJ_E, P, 2.\n",
+    ):  # fmt: skip
+        assert lines in text
+
+
+def test_materials_in_parts_stand_once_and_comments_stay(tmp_path):
+    cards = (
+        "*SHELL SECTION, ELSET=E, MATERIAL=M\n1.\n*MATERIAL, NAME=M\n** steel\n*ELASTIC\n1., 0.3\n*NSET, NSET=N\n1\n"
+    )
+    text = written(tmp_path, read_text(tmp_path, two(cards)))
+    assert text.count("*MATERIAL") == text.count("*ELASTIC") == text.count("** steel") == 1
+    assert text.count("MATERIAL=M") == text.count("*NSET") == 2
+
+
+def test_reference_points_of_couplings_are_numbers(tmp_path):
+    """As Abaqus/CAE writes them: a set of one node, surfaces of nodes with areas."""
+    cards = (
+        "*NODE\n1, 9., 9., 9.\n*NSET, NSET=RP, INTERNAL\n1,\n*NSET, NSET=EDGE, INSTANCE=J\n1, 2\n"
+        "*SURFACE, TYPE=NODE, NAME=EDGE_CNS_, INTERNAL\nEDGE, 1.\n*COUPLING, CONSTRAINT NAME=C, REF NODE=RP, "
+        "SURFACE=EDGE_CNS_\n*KINEMATIC\n1, 3\n"
+    )
+    text = written(tmp_path, read_text(tmp_path, two(assembly=cards)))
+    assert "*COUPLING, CONSTRAINT NAME=C, REF NODE=21, SURFACE=EDGE_CNS_\n*KINEMATIC\n1, 3\n" in text
+    assert "*SURFACE, TYPE=NODE, NAME=EDGE_CNS_\nEDGE\n" in text
+    with pytest.raises(fs.ReadError, match="in.inp:24: CalculiX has no areas of nodes in a surface"):
+        read_text(tmp_path, two(assembly=cards.replace("EDGE, 1.", "EDGE, 2.5")))
+
+
 def test_two_instances_turned_about_each_other(tmp_path):
     axis = "2., 3., 1., 2.5, 3.5, 4."
     mesh = read_text(tmp_path, two(second=f"1., -2., 0.5\n{axis}, 37.5\n"))

@@ -240,7 +240,8 @@ std::optional<std::pair<const FlatScope*, std::string>> FlatNames::split_referen
         text.erase(0, dot + 1);
         if (!text.empty() && text.find('.') == text.npos) return std::pair(&assembly_, text);
     }
-    for (std::size_t dot = text.find('.'); dot != text.npos; dot = text.find('.', dot + 1))
+    // The longest: names may have points, too.
+    for (std::size_t dot = text.rfind('.'); dot != text.npos && dot > 0; dot = text.rfind('.', dot - 1))
         if (const FlatScope* scope = find_instance(text.substr(0, dot))) return std::pair(scope, text.substr(dot + 1));
     return {};
 }
