@@ -129,8 +129,8 @@ std::optional<Card> FlatCards::flat(const Card& original) {
     Card card = original;
     const std::string* of_instance =
         card.keyword == "NSET" || card.keyword == "ELSET" ? card.parameter("INSTANCE") : nullptr;
-    const FlatScope* scope = scope_;
-    if (of_instance && !(scope = names_.find_instance(*of_instance)))
+    const FlatScope* const scope = of_instance ? names_.find_instance(*of_instance) : scope_;
+    if (!scope)
         throw ReadError(card.where() + ": there is no instance '" + unquoted(*of_instance) + "'");
     change_head(card);
     const auto form = form_of(card);
