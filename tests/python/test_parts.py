@@ -205,6 +205,8 @@ def test_the_table_of_numbers_is_in_the_mesh_the_deck_and_the_warnings(tmp_path)
         fs.Instance("", "", 500, (501, 501), (0, 0)),
     )
     (warning,) = mesh.input_warnings
+    with pytest.warns(UserWarning, match="3 instances of parts are written out"):
+        fs.read(tmp_path / "in.inp")
     assert "in.inp:" in warning and "3 instances of parts are written out" in warning
     lines = written(tmp_path, mesh).splitlines()
     assert lines[:6] == [
@@ -226,6 +228,15 @@ def test_the_table_of_numbers_is_in_the_mesh_the_deck_and_the_warnings(tmp_path)
         "(assembly)            +500 501 to 501       none",
     ]
     assert fs.read(tmp_path / "out.inp").instances == ()
+
+
+def test_many_instances_are_listed_at_the_head_alone(tmp_path):
+    more = "".join(f"*INSTANCE, NAME=K{k}, PART=P\n{k}., 9., 0.\n*END INSTANCE\n" for k in range(10))
+    mesh = read_text(tmp_path, two(assembly=more))
+    assert len(mesh.instances) == 12 and mesh.node_count == 48
+    assert "K5 " in mesh.input_warnings[0] and "K6 " not in mesh.input_warnings[0]
+    assert mesh.input_warnings[0].endswith("; and 4 more, listed at the head of the deck as written")
+    assert "** instance K9 of part P: nodes 201 to 204, elements 201 to 202 (numbers + 200)" in written(tmp_path, mesh)
 
 
 def test_what_is_written_reads_back_as_it_was(tmp_path):

@@ -130,8 +130,7 @@ std::optional<Card> FlatCards::flat(const Card& original) {
     const std::string* of_instance =
         card.keyword == "NSET" || card.keyword == "ELSET" ? card.parameter("INSTANCE") : nullptr;
     const FlatScope* const scope = of_instance ? names_.find_instance(*of_instance) : scope_;
-    if (!scope)
-        throw ReadError(card.where() + ": there is no instance '" + unquoted(*of_instance) + "'");
+    if (!scope) throw ReadError(card.where() + ": there is no instance '" + unquoted(*of_instance) + "'");
     change_head(card);
     const auto form = form_of(card);
     if (!form) {

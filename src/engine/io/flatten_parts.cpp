@@ -169,8 +169,13 @@ private:
         std::string text = deck_.instances.front().card->where() + ": " + std::to_string(deck_.instances.size()) +
                            (deck_.instances.size() == 1 ? " instance of a part is" : " instances of parts are") +
                            " written out: ";
-        for (const DeckInstance& instance : input_.instances())
-            text += (&instance == &input_.instances().front() ? "" : "; ") + text_of(instance);
+        constexpr std::size_t most = 8;
+        const std::vector<DeckInstance>& instances = input_.instances();
+        for (std::size_t i = 0; i < std::min(most, instances.size()); ++i)
+            text += (i == 0 ? "" : "; ") + text_of(instances[i]);
+        if (instances.size() > most)
+            text +=
+                "; and " + std::to_string(instances.size() - most) + " more, listed at the head of the deck as written";
         all.push_back(text);
         std::ranges::move(deck_.warnings, std::back_inserter(all));
         std::ranges::move(warnings_, std::back_inserter(all));
