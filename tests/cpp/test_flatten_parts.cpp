@@ -5,6 +5,9 @@
 #include "deck_testing.h"
 #include "io/flat_cards.h"
 #include "io/flat_lines.h"
+#include "io/flat_names.h"
+#include "io/instance_placement.h"
+#include "io/part_deck.h"
 
 namespace femscalpel {
 namespace FILE_NAMESPACE {
@@ -110,6 +113,30 @@ TEST(ElementLinesOfACard, TellNumbersOfElementsFromThoseOfNodes) {
     EXPECT_EQ(kinds("S3", "1,2,3,4\n2,3,\n4,5\n"), "EnnnEnnn");
     EXPECT_EQ(kinds("S3", "1,2,3,4,5\n2,3\n4,5\n"), "Ennn-Ennn");
     EXPECT_EQ(kinds("U7", "1,2,3,\n4,5\n2,3,4\n"), "EnnnnEnn");
+}
+
+TEST(PartDeckOfCards, HasInstancesWithTheCardsOfTheirParts) {
+    const std::vector<Card> cards{card_of("*INSTANCE, NAME=I, PART=P\n"),
+                                  card_of("*NSET, NSET=\"a b\"\n"),
+                                  card_of("*END INSTANCE\n"),
+                                  card_of("*PART, NAME=p\n"),
+                                  card_of("*NODE\n5, 1.\n7, 2.\n"),
+                                  card_of("*END PART\n"),
+                                  card_of("*STEP\n")};
+    const PartDeck deck = take_parts_apart(cards);
+    ASSERT_EQ(deck.instances.size(), 1u);
+    EXPECT_THAT(deck.instances[0].cards, ElementsAre(&cards[4], &cards[1])) << "the part's, then its own";
+    ASSERT_EQ(deck.items.size(), 5u);
+    EXPECT_EQ(deck.items[0].instance, 0u);
+    EXPECT_TRUE(deck.items[1].is_bracket && !deck.items[4].is_bracket);
+    const FlatNames names(deck);
+    EXPECT_EQ(names.instance(0).nodes.first, 5);
+    EXPECT_EQ(names.instance(0).nodes.last, 7);
+    EXPECT_TRUE(names.instance(0).is_alone && names.keeps_plain_numbers());
+    EXPECT_EQ(names.if_reference(" i . \"A B\" "), "a b");
+    EXPECT_EQ(names.if_reference("I.7"), "7");
+    EXPECT_EQ(names.if_reference("I.c"), std::nullopt);
+    EXPECT_EQ(names.if_reference("1.7"), std::nullopt);
 }
 
 class PartDecks : public DeckSemantics {
