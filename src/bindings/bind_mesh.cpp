@@ -93,6 +93,19 @@ py::dict cell_ids(const py::object& self) {
     return out;
 }
 
+using Range = std::tuple<Index, Index>;
+using InstanceEntry = std::tuple<std::string, std::string, Index, Range, Range>;
+
+/// Name, part, offset, first and last node and element.
+std::vector<InstanceEntry> instances(const Mesh& mesh) {
+    std::vector<InstanceEntry> out;
+    if (const SolverInput* input = solver_input(mesh))
+        for (const DeckInstance& i : input->instances())
+            out.emplace_back(i.name, i.part, i.offset, Range{i.nodes[0], i.nodes[1]},
+                             Range{i.elements[0], i.elements[1]});
+    return out;
+}
+
 }  // namespace
 
 GroupIndex require_group(const Mesh& mesh, const std::string& name, const std::string& kind) {
@@ -136,7 +149,12 @@ void bind_properties(MeshClass& mesh) {
         .def_property_readonly("dimension", &Mesh::dimension)
         .def_property_readonly("node_count", &Mesh::node_count)
         .def_property_readonly("cell_count", &Mesh::cell_count)
-        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; });
+        .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; })
+        .def("instances", &instances)
+        .def("input_warnings", [](const Mesh& mesh) {
+            const SolverInput* input = solver_input(mesh);
+            return input ? input->warnings() : std::vector<std::string>{};
+        });
 }
 
 void bind_functions(MeshClass& mesh) {

@@ -119,7 +119,9 @@ class Outcome:
                 self.add("deck", (self.folder / "out.inp").read_bytes())
 
     def add_report(self, report):
-        fields = {f.name: getattr(report, f.name) for f in dataclasses.fields(report) if f.name != "seconds"}
+        # Instances are the input's; but for decks of parts there are none.
+        left_out = ("seconds",) if report.instances else ("seconds", "instances")
+        fields = {f.name: getattr(report, f.name) for f in dataclasses.fields(report) if f.name not in left_out}
         if not fields["straightened"].count:
             del fields["straightened"]
         if not fields["welded_pairs"]:

@@ -35,6 +35,10 @@ TEST_F(NamelessCardsRule, AreKnownByTheirFirstLetters) {
     const CardRules rules;
     for (const auto& [text, known] : {std::pair("*STATIC\n", true),
                                       {"*FLUID SECTIONS, ELSET=A\n", true},
+                                      {"*RATE DEPENDENT, TYPE=JOHNSON COOK\n", true},
+                                      {"*MATRIX ASSEMBLE\n", true},
+                                      {"*PART, NAME=A\n", true},
+                                      {"*END ASSEMBLY\n", true},
                                       {"*STATI\n", false},
                                       {"*MEMBRANE\n", false}}) {
         Card card;
@@ -71,8 +75,28 @@ TEST_F(NamelessCardsRule, CardsThatCalculixDoesNotHaveAreToldOnce) {
     const Carried after = carried(cards, double_node_2);
     EXPECT_EQ(after.cards, cards);
     EXPECT_THAT(after.warnings,
-                ElementsAre("deck.inp:10: *NOTACARD is not a card of CalculiX 2.20: whether it names nodes or "
+                ElementsAre("deck.inp:10: *NOTACARD is not a card of CalculiX up to 2.23: whether it names nodes or "
                             "elements is not known, so it is kept as it is; check it"));
+}
+
+TEST_F(NamelessCardsRule, CardsThatNameNothingAreNoProblem) {
+    const std::string cards = "*NOTACARD, TYPE=3\n2., EALL, 77\n*NOTACARD, NODE=77\n";
+    const Mesh mesh = two_tetras(cards);
+    Mesh after = mesh;
+    Changes changes;
+    double_node_2(after, changes);
+    EXPECT_THAT(
+        warnings_of(carry_deck(mesh, after, changes), true),  // strict
+        ElementsAre(testing::EndsWith("deck.inp:10: *NOTACARD is not a card of CalculiX up to 2.23: it names no "
+                                      "node or element by number and is kept as it is")));
+}
+
+TEST_F(NamelessCardsRule, CardsThatNameNothingHideNoneThatDo) {
+    for (const std::string line : {"*NOTACARD\n1., 2\n", "*NOTACARD, REF NODE=3\n"})
+        EXPECT_THAT(carried("*NOTACARD\n0.5\n" + line, double_node_2).warnings,
+                    UnorderedElementsAre(testing::HasSubstr("deck.inp:12: *NOTACARD is not a card"),
+                                         testing::HasSubstr("deck.inp:10: *NOTACARD is not a card")))
+            << line;
 }
 
 }  // namespace FILE_NAMESPACE

@@ -61,29 +61,6 @@ def test_shells_with_five_freedoms_are_cut_into_triangles(tmp_path):
     assert len(lines_of(tmp_path / "out.inp", "*ELEMENT,TYPE=S3,ELSET=PLATE")) >= 3
 
 
-@pytest.mark.parametrize(
-    "placed, words",
-    [
-        (
-            "*INSTANCE, NAME=A-1, PART=A\n10, 0, 0\n*END INSTANCE\n",
-            "in.inp:14: an instance of part 'A' is moved: parts",
-        ),
-        ("*INSTANCE, NAME=A-1, PART=A\n0, 0, 0\n0, 0, 0, 0, 0, 1, 90\n*END INSTANCE\n", "in.inp:15: an instance"),
-        ("*INSTANCE, NAME=A-1, PART=A\n*END INSTANCE\n" * 2, "in.inp:15: part 'A' has a second instance: parts"),
-        ("*INSTANCE, NAME=A-1, PART=A\n0, 0., 0\n*END INSTANCE\n", None),
-    ],
-    ids=["moved", "turned", "twice", "as it is"],
-)
-def test_instances_elsewhere_than_their_part_are_refused(tmp_path, placed, words):
-    part = "*PART, NAME=A\n" + PLATE + "*ELEMENT, TYPE=S4\n1,1,2,5,4\n*END PART\n"
-    (tmp_path / "in.inp").write_text(part + "*ASSEMBLY, NAME=ALL\n" + placed + "*END ASSEMBLY\n")
-    if words:
-        with pytest.raises(fs.ReadError, match=words):
-            fs.read(tmp_path / "in.inp")
-    else:
-        assert fs.read(tmp_path / "in.inp").node_count == 6
-
-
 CUBE = "*NODE\n" + "".join(f"{4 * k + 2 * j + i + 1},{i},{j},{k}\n" for k in (0, 1) for j in (0, 1) for i in (0, 1))
 
 

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "cancel.h"
+#include "deck/deck_view.h"
 #include "deck/rules/carrying.h"
+#include "deck/rules/nameless_cards.h"
 #include "deck/rules/rules.h"
 
 namespace femscalpel {
@@ -23,6 +25,39 @@ bool is_mesh_alone(const SolverInput& input) {
            });
 }
 
+/// Whether a line or parameter of a card has a number that is one of a node or an element of the mesh.
+bool may_name_entities(const Card& card, const DeckView& view) {
+    const auto is_one = [&](Index number) {
+        return view.numbers().node(number).has_value() || view.numbers().cell(number).has_value();
+    };
+    for (const CardParameter& p : card.parameters)
+        if (p.name.find("NODE") != p.name.npos || p.name.find("ELEMENT") != p.name.npos) {
+            const auto number = deck_number(p.value);
+            if (number && is_one(static_cast<Index>(*number))) return true;
+        }
+    CardReader line(card);
+    while (line.next_data_line())
+        while (!line.at_end())
+            if (Index number = 0; line.integer(number)) {
+                if (is_one(number)) return true;
+            } else {
+                line.field();
+            }
+    return false;
+}
+
+/// A card that CalculiX does not have, or not yet, as far as the rules know; `told` says of which kinds that is told.
+void tell_unknown(const Card& card, const Carrying& carrying, Remarks& remarks, std::set<std::string>& told) {
+    const bool may_name = may_name_entities(card, carrying.old());
+    if (!told.insert((may_name ? "1" : "0") + card.keyword).second) return;
+    const std::string text =
+        card.where() + ": *" + card.keyword + " is not a card of CalculiX up to " + std::string(latest_calculix) + ": ";
+    if (may_name)
+        remarks.add_problem(text + "whether it names nodes or elements is not known, so it is kept as it is; check it");
+    else
+        remarks.add_note(text + "it names no node or element by number and is kept as it is");
+}
+
 void carry_cards(Carrying& carrying) {
     const CardRules rules;
     const std::vector<Card>& cards = carrying.old().cards();
@@ -34,10 +69,8 @@ void carry_cards(Carrying& carrying) {
         if (CardRule* rule = rules.find(cards[c])) {
             carrying.emptied_sets().tell(c, cards[c], rule->names_per_line(), remarks);
             rule->carry(c, cards[c], carrying);
-        } else if (unknown.insert(cards[c].keyword).second) {
-            remarks.add_problem(cards[c].where() + ": *" + cards[c].keyword +
-                                " is not a card of CalculiX 2.20: whether it names nodes or elements is not known, so "
-                                "it is kept as it is; check it");
+        } else {
+            tell_unknown(cards[c], carrying, remarks, unknown);
         }
     }
     for (const auto& rule : rules.all()) rule->end_carrying(carrying);

@@ -99,6 +99,14 @@ std::string deck_key(std::string_view name) {
     return key;
 }
 
+std::optional<double> deck_number(std::string_view field) {
+    double value = 0;
+    const std::string_view bare = trimmed(field);
+    const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
+    if (error == std::errc{} && end == bare.data() + bare.size() && std::isfinite(value)) return value;
+    return fortran_number(bare, value) ? std::optional(value) : std::nullopt;
+}
+
 void parse_keyword(std::string_view line, std::string& keyword, std::vector<CardParameter>& parameters) {
     parameters.clear();
     bool first = true;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,6 +88,15 @@ struct OtherElement {
     std::size_t card = 0;      ///< index into SolverInput::cards()
 };
 
+/// How an instance of a part of the file that was read is numbered in the mesh (io/flatten_parts.h).
+struct DeckInstance {
+    std::string name;  ///< as in the file; empty: what stands in the assembly itself, as reference points do
+    std::string part;  ///< the part's name; empty for the assembly
+    Index offset = 0;  ///< number in the mesh less number in the part, of nodes and of elements
+    std::array<Index, 2> nodes{};     ///< first and last number in the mesh as it was read; 0 without any
+    std::array<Index, 2> elements{};  ///< the same of elements
+};
+
 /// The deck around a mesh, its companion: every card in order, verbatim, and which of them define what. A value type:
 /// copies share the text of the files. It says what to write in which order; the mesh says what nodes,
 /// elements and groups there are now (io/inp.h).
@@ -105,6 +115,10 @@ public:
     const std::vector<std::string>& warnings() const { return warnings_; }
     std::vector<std::string>& warnings() { return warnings_; }
 
+    /// The instances of parts the deck was put together from, in their order; none of a deck without parts.
+    const std::vector<DeckInstance>& instances() const { return instances_; }
+    std::vector<DeckInstance>& instances() { return instances_; }
+
     /// Whether edges between elements of second and of first order are kept straight where the deck is written
     /// (edge_ties.h).
     bool ties_orders() const { return ties_orders_; }
@@ -117,6 +131,7 @@ private:
     std::vector<DeckSet> sets_;
     std::vector<OtherElement> other_elements_;
     std::vector<std::string> warnings_;
+    std::vector<DeckInstance> instances_;
     bool ties_orders_ = false;
 };
 
@@ -131,6 +146,10 @@ std::string_view to_string(DeckSetType type);
 
 /// How CalculiX compares names: upper case, without blanks.
 std::string deck_key(std::string_view name);
+
+/// A field as a finite number, read as CalculiX does: blanks mean nothing, Fortran exponents count, an empty field is
+/// 0.
+std::optional<double> deck_number(std::string_view field);
 
 /// Splits a keyword line (with continuation lines joined) into keyword and parameters.
 void parse_keyword(std::string_view line, std::string& keyword, std::vector<CardParameter>& parameters);

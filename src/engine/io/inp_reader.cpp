@@ -9,6 +9,7 @@
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
+#include "io/flatten_parts.h"
 #include "io/inp.h"
 #include "io/inp_cards.h"
 #include "io/inp_file.h"
@@ -23,6 +24,7 @@ class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
         input_->cards() = read_cards(path);
+        flatten_parts(*input_);
         input_->set_ties_orders(remove_edge_ties(input_->cards()));
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
@@ -30,7 +32,6 @@ public:
     }
 
     Mesh read() {
-        refuse_moved_instances();
         declare_groups();
         read_nodes();
         read_elements();
@@ -69,28 +70,6 @@ private:
             while (nset_names.contains(set.group)) set.group += "_SURFACE";
             nset_names.insert(set.group);
             mesh_.groups[static_cast<std::size_t>(set_groups_[s])].name = set.group;
-        }
-    }
-
-    /// Parts are read as they are, in their own coordinates: where an assembly moves them, or has one twice, that would
-    /// be another model.
-    void refuse_moved_instances() const {
-        std::map<std::string, std::size_t> first;  // by part: the card of its instance
-        for (std::size_t c = 0; c < input_->cards().size(); ++c) {
-            const Card& card = input_->cards()[c];
-            if (card.keyword != "INSTANCE") continue;
-            const std::string* part = card.parameter("PART");
-            const std::string name = part ? *part : "";
-            const std::string advice =
-                ": parts are not put together here. Write the deck flat (in Abaqus/CAE: Model, Edit "
-                "Attributes, \"Do not use parts and assemblies in input files\")";
-            if (!first.emplace(name, c).second)
-                throw ReadError(card.where() + ": part '" + name + "' has a second instance" + advice);
-            CardReader line(card);
-            while (line.next_data_line())
-                for (double x = 0; !line.at_end();)
-                    if (!line.number(x) || x != 0)
-                        throw ReadError(line.where() + "an instance of part '" + name + "' is moved" + advice);
         }
     }
 

@@ -198,8 +198,17 @@ private:
         }
     }
 
+    /// Nothing is left of what stood under an *ELEMENT card, and no set that is empty now needs the card.
+    bool is_left_empty(std::size_t c, const Card& card) const {
+        if (!plan_.members_of_card[c].empty() || !deck_element_type(*card.parameter("TYPE"))) return false;
+        const auto in_card = [c](const OtherElement& e) { return e.card == c; };
+        if (std::ranges::any_of(input_->other_elements(), in_card) || !CardReader(card).next_data_line()) return false;
+        const auto s = set_index(card);
+        return !s || plan_.drops_parameter[c] || !plan_.members[*s].empty() || !input_->sets()[*s].unheld.empty();
+    }
+
     void write_element_card(std::size_t c, const Card& card) {
-        write_head(c, card, "ELSET");
+        if (!is_left_empty(c, card)) write_head(c, card, "ELSET");
         const auto type = deck_element_type(*card.parameter("TYPE"));
         if (!type) return put_data_lines(card);  // user elements, all kept beside the mesh
         std::unordered_set<Index> others;

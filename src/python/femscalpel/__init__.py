@@ -19,7 +19,7 @@ from .cancel import CancelToken
 from .connected import Piece, pieces
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
-from .mesh import ElementaryGroup, Group, Groups, Mesh
+from .mesh import ElementaryGroup, Group, Groups, Instance, Mesh
 from .meshfile import Format, formats, meshes_in, read, write
 from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine, reshape
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
@@ -58,6 +58,7 @@ __all__ = [
     "Groups",
     "HalfPlane",
     "HeldNodes",
+    "Instance",
     "Mesh",
     "Piece",
     "Polygon",

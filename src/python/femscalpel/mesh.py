@@ -136,6 +136,23 @@ class ElementaryGroup(NamedTuple):
     ids: np.ndarray
 
 
+class Instance(NamedTuple):
+    """How an instance of a part is numbered in a mesh read from a deck of parts (Abaqus/CAE), from
+    :attr:`Mesh.instances`."""
+
+    #: As in the deck; empty for what the assembly itself has (reference points).
+    name: str
+    #: Name of the part; empty for the assembly.
+    part: str
+    #: Number in the mesh less number in the part, of nodes and of elements alike: node 17 of the instance is
+    #: ``17 + offset``.
+    offset: int
+    #: First and last node number in the mesh as it was read; (0, 0) without nodes.
+    nodes: Tuple[int, int]
+    #: First and last element number in the mesh as it was read; (0, 0) without elements.
+    elements: Tuple[int, int]
+
+
 class Mesh:
     """A finite-element mesh with numbers and groups.
 
@@ -275,6 +292,18 @@ class Mesh:
     def groups(self) -> Groups:
         """The groups by name; see :class:`Groups`. Bookkeeping groups of a file format are not shown."""
         return Groups(self._engine_mesh)
+
+    @property
+    def instances(self) -> Tuple[Instance, ...]:
+        """The instances of parts the mesh was read from, with their numbers, in the deck's order; see
+        :class:`Instance`. Empty for other files."""
+        return tuple(Instance(*entry) for entry in self._engine_mesh.instances())
+
+    @property
+    def input_warnings(self) -> Tuple[str, ...]:
+        """What was odd in the deck the mesh was read from, or had to be written out, with file and line. Empty for
+        other files."""
+        return tuple(self._engine_mesh.input_warnings())
 
     @property
     def dimension(self) -> int:

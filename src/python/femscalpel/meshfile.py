@@ -33,8 +33,10 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     """Reads a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
     A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
-    them in place. Of a .med with several meshes `mesh` names the one; without it the first is read, with a UserWarning
-    that lists them, as what is written later holds that one alone (:func:`meshes_in`).
+    them in place. A deck of parts and instances (Abaqus/CAE) becomes a flat one, with a UserWarning that says how its
+    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. Of a .med with
+    several meshes `mesh` names the one; without it the first is read, with a UserWarning that lists them, as what is
+    written later holds that one alone (:func:`meshes_in`).
 
     Raises :class:`femscalpel.ReadError`, which names the file and, for text, the line.
     """
@@ -42,6 +44,8 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     if mesh is not None:
         return Mesh._wrap(_engine.read(file, _arguments.text(mesh, "mesh")))
     out = Mesh._wrap(_engine.read(file))
+    if out.instances:
+        warnings.warn("\n".join(out.input_warnings), stacklevel=2)
     names = _engine.meshes_in(file)
     if len(names) > 1:
         listed = ", ".join(repr(name) for name in names)

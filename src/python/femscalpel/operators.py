@@ -25,7 +25,8 @@ class Result:
     @classmethod
     def _wrap(cls, returned) -> "Result":
         mesh, fields = returned
-        return cls(Mesh._wrap(mesh), Report._from_engine(fields))
+        result = Mesh._wrap(mesh)
+        return cls(result, Report._from_engine(fields, result.instances))
 
 
 def _run(operator, mesh, *arguments) -> Result:

@@ -9,6 +9,8 @@ from typing import Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from .mesh import Instance
+
 
 class ElementQuality(NamedTuple):
     """An element number and its mean ratio."""
@@ -140,10 +142,12 @@ class Report:
     max_displacement: float
     seconds: Dict[str, float]  #: by step, in order
     warnings: List[str]
+    #: Of a mesh from a deck of parts: which numbers are whose, as the mesh was read. See :attr:`Mesh.instances`.
+    instances: Tuple[Instance, ...] = ()
 
     @classmethod
-    def _from_engine(cls, fields: dict) -> "Report":
-        fields = dict(fields)
+    def _from_engine(cls, fields: dict, instances: Tuple[Instance, ...] = ()) -> "Report":
+        fields = dict(fields, instances=instances)
         before, after = (QualitySummary._from_engine(fields.pop(key)) for key in ("quality_before", "quality_after"))
         groups = [GroupRecord(**g) for g in fields.pop("groups")]
         fields["held"] = HeldNodes(**fields["held"])
@@ -165,7 +169,7 @@ class Report:
         return counts
 
     def to_text(self) -> str:
-        """Summary, warnings and the table of groups as aligned text."""
+        """Summary, warnings, the table of groups and, for decks of parts, that of their instances as aligned text."""
         before, after = self.quality
         facts = [
             (
@@ -206,7 +210,18 @@ class Report:
         lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]
         lines += [f"  {'warning':<12} {warning}" for warning in self.warnings] or [f"  {'warnings':<12} none"]
-        return "\n".join(lines + ["", *self._group_table()]) + "\n"
+        return "\n".join(lines + ["", *self._group_table(), *self._instance_table()]) + "\n"
+
+    def _instance_table(self) -> List[str]:
+        """How parts' numbers became the mesh's; nothing for meshes that are not of parts."""
+        if not self.instances:
+            return []
+        rows = [("instance", "part", "numbers", "nodes", "elements")]
+        for name, part, offset, *ranges in self.instances:
+            spans = (f"{first} to {last}" if first else "none" for first, last in ranges)
+            rows.append((name or "(assembly)", part, f"+{offset}" if offset else "as in part", *spans))
+        lines = _aligned(rows, left=2)
+        return ["", lines[0], "-" * len(lines[0]), *lines[1:]]
 
     def _group_table(self) -> List[str]:
         header = (
@@ -249,11 +264,7 @@ class Report:
                     f"{g.nodes_on_surface}/{g.nodes_on_line}/{g.nodes_fixed}",
                 )
             )
-        widths = [max(len(row[i]) for row in rows) for i in range(len(header))]
-        lines = [
-            " ".join(cell.ljust(w) if i < 3 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip()
-            for row in rows
-        ]
+        lines = _aligned(rows, left=3)
         return [lines[0], "-" * len(lines[0]), *lines[1:]] if self.groups else ["no groups"]
 
     def to_csv(self, file) -> None:
@@ -277,6 +288,15 @@ class Report:
             f"<Report {self.operation} {self.name!r}: {self.nodes_added} nodes added, {self.nodes_moved} moved, "
             f"mean ratio at least {self.quality.after.minimum:.3f}, {len(self.warnings)} warnings>"
         )
+
+
+def _aligned(rows: List[Tuple[str, ...]], left: int) -> List[str]:
+    """Rows of a table as lines; the first `left` columns are flush left, the others right."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return [
+        " ".join(cell.ljust(w) if i < left else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip()
+        for row in rows
+    ]
 
 
 def _counts(values: dict) -> str:

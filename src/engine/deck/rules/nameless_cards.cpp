@@ -6,10 +6,12 @@
 namespace femscalpel {
 namespace {
 
-/// Keywords that have a rule of their own stand here, too: for longer ones that start alike.
+/// Keywords that have a rule of their own stand here, too: for longer ones that start alike. Of versions after 2.20:
+/// RATEDEPENDENT and MATRIXASSEMBLE. PART, ASSEMBLY and what ends them CalculiX passes over.
 constexpr std::string_view nameless[] = {
     "",
     "AMPLITUDE",
+    "ASSEMBLY",
     "BASEMOTION",
     "BEAMGENERALSECTION",
     "BEAMSECTION",
@@ -55,6 +57,8 @@ constexpr std::string_view nameless[] = {
     "ELEMENTOUTPUT",
     "ELFILE",
     "ELPRINT",
+    "ENDASSEMBLY",
+    "ENDPART",
     "ENDSTEP",
     "EXPANSION",
     "FACEPRINT",
@@ -81,6 +85,7 @@ constexpr std::string_view nameless[] = {
     "MAGNETICPERMEABILITY",
     "MASS",
     "MATERIAL",
+    "MATRIXASSEMBLE",
     "MEMBRANESECTION",
     "MODALDAMPING",
     "MODALDYNAMIC",
@@ -93,10 +98,12 @@ constexpr std::string_view nameless[] = {
     "OBJECTIVE",
     "ORIENTATION",
     "OUTPUT",
+    "PART",
     "PHYSICALCONSTANTS",
     "PLASTIC",
     "PRE-TENSIONSECTION",
     "RANDOMFIELD",
+    "RATEDEPENDENT",
     "REFINEMESH",
     "RIGIDBODY",
     "ROBUSTDESIGN",

@@ -5,7 +5,10 @@
 
 namespace femscalpel {
 
-/// Cards of CalculiX 2.20 whose lines name no node or element by number: none at all, or sets and surfaces, which
+/// The last CalculiX whose cards are known.
+inline constexpr std::string_view latest_calculix = "2.23";
+
+/// Cards of CalculiX up to 2.23 whose lines name no node or element by number: none at all, or sets and surfaces, which
 /// follow the mesh's groups. CalculiX compares the first letters of keywords ("*FLUID SECTIONS"), and so does this.
 class NamelessCards : public CardRule {
 public:

@@ -25,12 +25,22 @@ void Remarks::add(std::size_t card, Weight weight, const std::string& where, con
 std::vector<std::string> Remarks::problems() const {
     std::vector<std::string> out;
     out.reserve(problems_.size());
-    for (const Problem& p : problems_)
+    for (const Problem& p : problems_) {
+        if (p.weight != Weight::problem) continue;
         out.push_back(p.new_nodes.empty()
                           ? p.text
                           : p.text + std::to_string(p.new_nodes.size()) + " new node(s), the first is " +
                                 std::to_string(*p.new_nodes.begin()) + ", " + p.what);
+    }
     for (std::string& text : texts(Weight::problem)) out.push_back(std::move(text));
+    return out;
+}
+
+std::vector<std::string> Remarks::notes() const {
+    std::vector<std::string> out;
+    for (const Problem& p : problems_)
+        if (p.weight == Weight::note) out.push_back(p.text);
+    for (std::string& text : texts(Weight::note)) out.push_back(std::move(text));
     return out;
 }
 

@@ -53,6 +53,8 @@ public:
     void add(std::size_t card, Weight weight, const std::string& where, const Entity& entity, const std::string& what);
     /// A problem in words of its own.
     void add_problem(const std::string& text) { problems_.push_back({text, {}, {}}); }
+    /// A note in words of its own.
+    void add_note(const std::string& text) { problems_.push_back({text, {}, {}, Weight::note}); }
     /// A problem of nodes (numbers) that the change made: `where` ("deck.inp:12: *MPC: "), and `what` of them ("lie
     /// between...").
     void add_new_nodes(const std::string& where, const std::set<Index>& nodes, const std::string& what) {
@@ -65,8 +67,8 @@ public:
 
     /// Problems: those in words of their own in the order they were added, then remarks by card.
     std::vector<std::string> problems() const;
-    /// Notes, by card.
-    std::vector<std::string> notes() const { return texts(Weight::note); }
+    /// Notes: those in words of their own in the order they were added, then remarks by card.
+    std::vector<std::string> notes() const;
 
 private:
     friend class JoinedRemarks;
@@ -75,6 +77,7 @@ private:
         std::string text;
         std::set<Index> new_nodes;
         std::string what;
+        Weight weight = Weight::problem;
     };
     struct Place {
         std::string where;

@@ -8,7 +8,7 @@
 
 namespace femscalpel {
 
-/// The rules for all cards of CalculiX 2.20, for one walk over a deck.
+/// The rules for all cards of CalculiX up to 2.23, for one walk over a deck.
 class CardRules {
 public:
     CardRules();
