@@ -86,7 +86,5 @@ def as_text(cost, translate):
     text = translate("FemScalpel", "some %1 elements")
     if cost.is_more:
         text = translate("FemScalpel", "more than %1 elements")
-    memory = (
-        f"{cost.memory / 1e9:.1f} GB" if cost.memory >= 1e9 else f"{max(1, round(cost.memory / _MILLION))} MB"
-    )
+    memory = f"{cost.memory / 1e9:.1f} GB" if cost.memory >= 1e9 else f"{max(1, round(cost.memory / _MILLION))} MB"
     return f"{text.replace('%1', number)} ({memory})"

@@ -25,10 +25,10 @@ def refining_text(cost):
 
 
 class RefinementQuestion:
-    """A text with two buttons, under the status of the form `result`: take(size) is called for a coarser refinement,
+    """A text with two buttons, at the top of a form where it is seen: take(size) is called for a coarser refinement,
     agree(elements) for as many elements as it takes."""
 
-    def __init__(self, result, take, agree):
+    def __init__(self, form, take, agree):
         self._box = QtGui.QWidget()
         self._box.setObjectName("refinementQuestion")
         self._text = QtGui.QLabel()
@@ -42,8 +42,7 @@ class RefinementQuestion:
         layout.setContentsMargins(0, 0, 0, 0)
         for widget in (self._text, self._fitting, self._anyway):
             layout.addWidget(widget)
-        rows = result.layout()
-        rows.insertWidget(rows.indexOf(result.status) + 1, self._box)
+        form.layout().insertWidget(0, self._box)
         self._error = None
         self._fitting.clicked.connect(lambda: take(self._error.fitting))
         self._anyway.clicked.connect(lambda: agree(self._accepted()))

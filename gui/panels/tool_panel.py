@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 import femscalpel
+from femscalpelobjects.geometry import geometry_of
 
 from ..refinement_guard import Guard, TooMuch
 from ..translate import form, icon, translate
@@ -52,7 +53,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.form = [self.geometry.window, self.options, self.result]
         self._set_up_options()
         self._set_up_result()
-        self._question = RefinementQuestion(self.result, self._refine_to, self._agree)
+        self._question = RefinementQuestion(self.form[0], self._refine_to, self._agree)
         self.add_inputs()
         if edited is not None:
             self.read(edited)
@@ -68,6 +69,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.geometry.picking_changed.connect(self._picking)
         self._status(translate("FemScalpel", "Reading the mesh…"))
         self.start()
+        self._hide_parts(True)
 
     # What subclasses say.
 
@@ -222,7 +224,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self._settled = ticket
         if isinstance(error, TooMuch):
             self._clear_errors()
-            self._no_result(translate("FemScalpel", "No preview yet: see the question below."))
+            self._no_result(translate("FemScalpel", "No preview yet: see the question above."))
             self._question.ask(error)
             return
         self._place_error(error)
@@ -284,7 +286,10 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         return next(form for form in self.form if form.isAncestorOf(label))
 
     def _status(self, text):
-        self.result.status.setText(text)
+        self.result.status.setText(fields.for_theme(text, self.result))
+        # The panel's own may be scrolled out of sight.
+        bar = FreeCADGui.getMainWindow().statusBar()
+        bar.showMessage(text) if text.endswith("…") else bar.clearMessage()
 
     def _restyle(self):
         r = self.result
@@ -305,10 +310,20 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         """The mesh objects that are shown while something is picked."""
         return (self.source_object,)
 
+    def in_the_way(self):
+        """Objects that are hidden while nothing is picked: the part the mesh was made from has its faces where the mesh
+        has them."""
+        part = geometry_of(self.source_object)
+        return [part] if part is not None and part.ViewObject.Visibility else []
+
+    def _hide_parts(self, hidden):
+        self._meshes.hide_beside(self.in_the_way() if hidden else [])
+
     def _picking(self, on):
         if self._closed:
             return
         self._meshes.pickable(self.pickable() if on else ())
+        self._hide_parts(not on)
         switch = self.scene.root
         graph = self.view.getSceneGraph()
         if on and graph.findChild(switch) >= 0:

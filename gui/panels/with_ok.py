@@ -87,6 +87,8 @@ class WithOk:
         self.document.openTransaction(translate("FemScalpel", self.TITLE))
         try:
             obj = self._change_object() if self.edited is not None else self._make_object()
+            if progress.cancelled:  # while FreeCAD took the mesh over
+                raise femscalpel.Cancelled("cancelled")
             if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
                 raise femscalpel.Error(
                     translate("FemScalpel", "The object could not be computed; see the report view.")

@@ -45,7 +45,9 @@ class MadeCrack:
         for part in self._hidden:
             part.dash()
             covered.addChild(part.root)
-        for node in (unpickable(), self.outline.root, self.front.root, self.lips.root, covered):
+        nearer = coin.SoDepthBuffer()  # than the edges of FreeCAD's picture, which are where the lines are
+        nearer.range.setValue(0.0, 0.9995)
+        for node in (unpickable(), nearer, self.outline.root, self.front.root, self.lips.root, covered):
             self._switch.addChild(node)
         vobj.RootNode.addChild(self._switch)
         self._known, self._shape = False, None

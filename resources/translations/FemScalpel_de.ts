@@ -611,8 +611,8 @@
       <translation>Keine Gruppe des Netzes bedeckt Flächen in seinem Inneren (einer Schale: Kanten). Machen Sie erst eine davon oder von ihren Knoten.</translation>
     </message>
     <message>
-      <source>No preview yet: see the question below.</source>
-      <translation>Noch keine Vorschau: siehe die Frage unten.</translation>
+      <source>No preview yet: see the question above.</source>
+      <translation>Noch keine Vorschau: siehe die Frage oben.</translation>
     </message>
     <message>
       <source>No preview.</source>

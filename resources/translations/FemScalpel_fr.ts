@@ -611,8 +611,8 @@
       <translation>Aucun groupe du maillage ne couvre de faces intérieures (d'une coque : d'arêtes). Créez-en d'abord un, ou un groupe de leurs nœuds.</translation>
     </message>
     <message>
-      <source>No preview yet: see the question below.</source>
-      <translation>Pas encore d’aperçu : voir la question ci-dessous.</translation>
+      <source>No preview yet: see the question above.</source>
+      <translation>Pas encore d’aperçu : voir la question ci-dessus.</translation>
     </message>
     <message>
       <source>No preview.</source>

@@ -13,10 +13,10 @@ namespace femscalpel {
 ///
 /// Each element is counted as if it were bisected alone; that elements beside it have to follow is a measured part.
 struct RefinementEstimate {
-    double size = 0;                ///< longest edge wanted, in the mesh's unit
-    Index elements_before = 0;      ///< of every type
-    Index elements_after = 0;       ///< likewise; most cases are within a quarter of it
-    bool is_more = false;           ///< counting ended at `elements_after`: there would be more
+    double size = 0;            ///< longest edge wanted, in the mesh's unit
+    Index elements_before = 0;  ///< of every type
+    Index elements_after = 0;   ///< likewise; most cases are within a quarter of it
+    bool is_more = false;       ///< counting ended at `elements_after`: there would be more
 
     /// The smallest length, rounded up to two digits, to which the mesh can be refined in the same place with at most
     /// `limit` elements; longer than its longest edge where the mesh alone has more. Throws std::logic_error once the
@@ -33,8 +33,8 @@ using BeforeRefining = std::function<void(const RefinementEstimate&)>;
 /// Most elements that are counted.
 constexpr Index most_counted = 10'000'000;
 
-/// Elements that a mesh would have if each of its triangles and tetrahedra were bisected alone, at most `limit` and one:
-/// it will have no fewer.
+/// Elements that a mesh would have if each of its triangles and tetrahedra were bisected alone, at most `limit` and
+/// one: it will have no fewer.
 Index count_refined(const Mesh& mesh, const SizeField& field, Index limit);
 
 /// The same with those that have to follow.

@@ -77,6 +77,9 @@ class RefinementCost(CrackTest):
             count = made.call_count
         self.assertRegex(text, r"30.00.*elements \(\d+ [MG]B\)")
         self.assertFalse(ok_button().isEnabled())
+        box = widget("refinementQuestion")
+        self.assertFalse(box.visibleRegion().isEmpty())  # it is not scrolled out of sight
+        self.assertEqual(box.visibleRegion().boundingRect().height(), box.height())
         self.assertIn("question", widget("status").text())
         self.assertFalse(is_shown("resultError"))
         screenshot("refinement_question")

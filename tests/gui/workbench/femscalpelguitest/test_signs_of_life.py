@@ -7,6 +7,7 @@ from unittest import mock
 
 import femmesh_bridge
 import ObjectsFemScalpel
+from femscalpelgui.panels import with_ok
 from femscalpelobjects.crack import Crack
 from .gui_testing import *  # noqa: F403
 from .gui_testing import QTest
@@ -127,6 +128,29 @@ class SignsOfLife(CrackTest):
         self.assertEqual(read.call_count, 0)  # the preview has read it
         self.assertEqual(len(made.threads), 1)
 
+    def test_escape_while_freecad_takes_the_mesh_over(self):
+        self.open_panel()
+        recompute = with_ok.FreeCADGui.doCommand
+
+        def late(line):
+            recompute(line)
+            if "recompute()" in line:
+                panel.append(FreeCADGui.Control.activeDialog())
+                progress[0].cancelled = True
+
+        panel, progress = [], []
+        original = with_ok.Progress
+
+        def kept(*args):
+            progress.append(original(*args))
+            return progress[0]
+
+        with mock.patch.object(with_ok, "Progress", kept), mock.patch.object(with_ok.FreeCADGui, "doCommand", late):
+            press_ok()
+        self.assertTrue(panel)
+        self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
+        self.assertIn("Cancelled", widget("status").text())
+
     def test_ok_waits_for_the_preview_and_escape_ends_that(self):
         from femscalpelgui.panels import tool_panel
 
@@ -134,7 +158,7 @@ class SignsOfLife(CrackTest):
         preview_of, pressed = tool_panel.preview_of, []
 
         def slow(*args):
-            time.sleep(1.5)
+            time.sleep(3)
             return preview_of(*args)
 
         def escape():
