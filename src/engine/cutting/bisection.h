@@ -55,8 +55,8 @@ public:
     }
 
 private:
-    /// Whether the surface may be between two points so far from each other. Where it ends the distance changes its
-    /// sign far from it, too: behind a disk, from beside the column beneath it to within.
+    /// Whether the surface may be between two points so far from each other. The distance changes its sign far from
+    /// it, too: behind a disk, at the border of the column beneath it; and where another of two surfaces is nearer.
     static bool may_cross(double apart, double da, double db) {
         return (da < 0) != (db < 0) && std::abs(da) + std::abs(db) <= apart * (1 + 1e-6);
     }
