@@ -183,15 +183,6 @@ OPTIONS = (
         _refine,
     ),
     Option(
-        "before_refining",
-        None,
-        "callable, optional",
-        "Called with a :class:`RefinementEstimate` each time before elements are bisected first: what that comes to. "
-        "An exception that it raises ends the operation.",
-        Optional[Callable[[Any], None]],
-        check_before_refining,
-    ),
-    Option(
         "skin",
         None,
         "Shape, path or FreeCAD shape, optional",
@@ -211,6 +202,15 @@ OPTIONS = (
         "and an ``*EQUATION`` card keeps the edges straight where elements of first order are beside these.",
         bool,
         lambda value: _arguments.flag(value, "second_order"),
+    ),
+    Option(
+        "before_refining",
+        None,
+        "callable, optional",
+        "Called with a :class:`RefinementEstimate` each time before elements are bisected first: what that comes to. "
+        "An exception that it raises ends the operation.",
+        Optional[Callable[[Any], None]],
+        check_before_refining,
     ),
 )
 
