@@ -85,7 +85,9 @@ class Progress:
         dialog.setAutoReset(False)
         dialog.setMinimumDuration(0)
         dialog.setMinimumWidth(360)
+        # Escape is one or the other: the latter where the window system has not made it the active window.
         dialog.canceled.connect(self._cancel)
+        dialog.rejected.connect(self._cancel)
         self._dialog = dialog
         self.say(*self._said)
         dialog.show()
@@ -99,6 +101,7 @@ class Progress:
         dialog, self._dialog = self._dialog, None
         if dialog is not None:
             dialog.canceled.disconnect(self._cancel)
+            dialog.rejected.disconnect(self._cancel)
             dialog.close()
             dialog.deleteLater()
 
