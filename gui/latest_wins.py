@@ -47,6 +47,18 @@ class LatestWins(QtCore.QObject):
             self._wake.notify()
             return self._last
 
+    def cancel(self):
+        """Drops what waits and cancels what runs; newer work may follow."""
+        with self._wake:
+            self._waiting = None
+            if self._running:
+                self._running[0].cancel()
+
+    def wait_until_idle(self, seconds):
+        """Blocks until nothing runs, at most so long. Returns whether nothing does."""
+        with self._wake:
+            return self._wake.wait_for(lambda: self._running is None, seconds)
+
     def close(self):
         """Drops what waits and cancels what runs, which ends unheard. Does not block."""
         with self._wake:
@@ -82,6 +94,7 @@ class LatestWins(QtCore.QObject):
             finally:
                 with self._wake:
                     self._running = None
+                    self._wake.notify_all()
             self._done.append(outcome)
             del function, outcome
             try:

@@ -54,6 +54,16 @@ def set_group_colour(name, rgb):
     _group_colours().SetUnsigned(name, _packed(rgb))
 
 
+def most_elements():
+    """Elements of a mesh up to which refining first needs no asking."""
+    return max(1, _group().GetInt("MostElements", 500_000))
+
+
+def most_memory():
+    """Megabytes up to which refining first needs no asking; 0: half of what is free."""
+    return max(0, _group().GetInt("MostMemory", 0))
+
+
 def put_into_analysis():
     """Whether new objects take their source's place in its analysis."""
     return _group().GetBool("PutIntoAnalysis", True)

@@ -93,11 +93,12 @@ def from_femmesh(femmesh):
     return femscalpel.Mesh(points, cells, node_ids, cell_ids, _read_groups(femmesh, known))
 
 
-def to_femmesh(mesh, as_node_groups=(), points=None):
+def to_femmesh(mesh, as_node_groups=(), points=None, into=None, progress=None):
     """A Fem.FemMesh with the nodes, elements, numbers and groups of a femscalpel.Mesh.
 
     `as_node_groups` names element groups whose elements are not added; their nodes form a node group of that name.
-    `points`, (n, 3), are used in place of the mesh's own coordinates. See the module's text for what a FemMesh cannot
+    `points`, (n, 3), are used in place of the mesh's own coordinates. `into` is an empty FemMesh to fill in place of a
+    new one; progress(fraction) is called now and then, and may raise. See the module's text for what a FemMesh cannot
     hold. Raises femscalpel.WriteError.
     """
     cells, cell_ids = mesh.cells, mesh.cell_ids
@@ -105,10 +106,14 @@ def to_femmesh(mesh, as_node_groups=(), points=None):
     left_out = [mesh.groups[name, "element"].ids for name in as_node_groups]
     left_out = np.unique(np.concatenate(left_out)) if left_out else np.empty(0, np.int64)
 
-    femmesh = Fem.FemMesh()
+    femmesh = Fem.FemMesh() if into is None else into
+    tell = _Fractions(progress, mesh.node_count + mesh.cell_count)
     x, y, z = (mesh.points if points is None else points).T.tolist()
     numbers = mesh.node_ids.astype(object)  # one Python integer per node, however many elements name it
-    _for_each(femmesh.addNode, x, y, z, numbers)
+    for begin in range(0, len(x), _CHUNK):
+        part = slice(begin, begin + _CHUNK)
+        _for_each(femmesh.addNode, x[part], y[part], z[part], numbers[part])
+        tell(len(x[part]))
     add = {1: femmesh.addEdge, 2: femmesh.addFace, 3: femmesh.addVolume}
     dimension_of = _Dimensions()
     for name, connectivity in cells.items():
@@ -129,8 +134,10 @@ def to_femmesh(mesh, as_node_groups=(), points=None):
         for begin in range(0, len(ids), _CHUNK):
             part = slice(begin, begin + _CHUNK)
             _for_each(add[dimension], numbers[connectivity[part]].tolist(), ids[part].tolist())
+            tell(len(ids[part]))
 
     for group in mesh.groups.all():
+        tell(0)
         if group.kind == "facet":
             _warn(f"facet group '{group.name}' is left out: a FemMesh has no groups of element faces")
         elif group.kind == "node":
@@ -251,6 +258,18 @@ def _check_addable(mesh):
         raise femscalpel.WriteError(
             f"node number {mesh.node_ids.max()} is too large for a FemMesh, which ends at {_LARGEST_NUMBER}"
         )
+
+
+class _Fractions:
+    """Tells which part of a number is done."""
+
+    def __init__(self, tell, total):
+        self._tell, self._done, self._total = tell, 0, max(total, 1)
+
+    def __call__(self, more):
+        self._done += more
+        if self._tell is not None:
+            self._tell(min(1.0, self._done / self._total))
 
 
 def _for_each(function, *columns):

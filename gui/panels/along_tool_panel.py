@@ -40,18 +40,13 @@ class AlongToolPanel(ToolPanel):
 
     def update(self):
         if not self._closed and self.source is not None:
-            self._hide_part(not self.geometry.is_picking())
+            self._hide_parts(not self.geometry.is_picking())
         super().update()
 
-    def _picking(self, on):
-        super()._picking(on)
-        if not self._closed:
-            self._hide_part(not on)
-
-    def _hide_part(self, hidden):
-        """The part whose face is the tool is in the way of the preview, but can be picked."""
+    def in_the_way(self):
         part = self.geometry.part()
-        self._meshes.hide_beside([part] if hidden and part is not None else [])
+        others = [other for other in super().in_the_way() if other != part]
+        return others if part is None else [*others, part]
 
     def beside(self):
         face = self.geometry.face()

@@ -15,7 +15,7 @@ class AxisInput(GeometryInput):
     NODES = 2
 
     def __init__(self, source_object):
-        self._radius = None
+        self._radius = self._depth = None
         super().__init__(source_object)
         step = fields.round_step(self.size / 50)
         self._radius = fields.Number(self.form.radius, self._tell, fields.round_step(self.size / 10), step)
@@ -33,8 +33,17 @@ class AxisInput(GeometryInput):
         """What is wrong with the radius, "" when nothing is."""
         return "" if self.radius() > 0 else translate("FemScalpel", "The radius must be larger than 0.")
 
+    def show_depth(self, depth):
+        """Says how far beyond the point what is seen of the cylinder ends, None: it does not."""
+        self._depth = depth
+        if self.handles is not None:
+            self.handles.show_depth(depth)
+            self.handles.set_pose(self.origin(), self.rotation(), self.radius())
+
     def _make_handles(self, view):
-        return AxisHandles(view, self.size, self._dragged)
+        handles = AxisHandles(view, self.size, self._dragged)
+        handles.show_depth(self._depth)
+        return handles
 
     def _ask_geometry(self):
         return translate(

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Task panel: crack along a plane or a part of it."""
 
+import math
+
 import FreeCAD
 
 import femscalpel
@@ -80,8 +82,24 @@ class CrackPanel(PlanePanel):
     def _changed(self):
         """The part has other numbers: its handles follow, and the preview."""
         shown = self._patch()
-        self.geometry.show_part(shown != "Whole", self._radius if shown in ("Disk", "Ellipse") else None, self._turn)
+        radius = self._radius if shown in ("Disk", "Ellipse") else None
+        self.geometry.show_part(shown != "Whole", radius, self._turn, self._outline)
         self.update()
+
+    def _outline(self):
+        """Corners (x, y) of the part in the axes of placement(), of a half plane as far as it is drawn; None for the
+        whole plane."""
+        shown, half = self._patch(), 0.36 * self.geometry.size
+        if shown in ("Disk", "Ellipse"):
+            first = self._radius.value
+            second = first if shown == "Disk" else self._second.value
+            angles = (2 * math.pi * k / 72 for k in range(72))
+            return [(first * math.cos(angle), second * math.sin(angle)) for angle in angles]
+        if shown == "HalfPlane":
+            return [(0, -half), (half, -half), (half, half), (0, half)]
+        if shown == "Polygon" and self._corners:
+            return [(corner.x, corner.y) for corner in self._corners]
+        return None
 
     def _take_outline(self, picked):
         """Enters what a picked sketch encloses. A sketch without such says the plane only."""

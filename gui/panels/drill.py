@@ -17,11 +17,15 @@ class DrillPanel(CylinderPanel):
 
     def add_inputs(self):
         self.hole = self.insert_form("drill.ui")
-        self._depth = fields.Number(self.hole.holeDepth, self.update, self.geometry.size / 4)
+        self._depth = fields.Number(self.hole.holeDepth, self._deepen, self.geometry.size / 4)
         self.hole.through.toggled.connect(self._through)
 
     def _through(self, on):
         self.hole.holeDepth.setEnabled(not on)
+        self._deepen()
+
+    def _deepen(self):
+        self.geometry.show_depth(self._depth_or_none())
         self.update()
 
     def _depth_or_none(self):
@@ -38,6 +42,7 @@ class DrillPanel(CylinderPanel):
         super().read(obj)
         self._depth.set(obj.Depth.Value)
         self.hole.through.setChecked(obj.Through)
+        self.geometry.show_depth(self._depth_or_none())
 
     def arguments(self):
         return {**super().arguments(), "depth": repr(self._depth_or_none())}

@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """FreeCAD's unit-aware number fields, and messages beside fields."""
 
+from PySide import QtGui
+
+#: Colours of errors and warnings, and what is read better in dark themes.
+ERROR, WARNING = "#b3261e", "#8a5a00"
+_IN_THE_DARK = {ERROR: "#ff8f85", WARNING: "#f2b956"}
+
 
 class Number:
     """A Gui::QuantitySpinBox whose number is exact.
@@ -33,8 +39,17 @@ class Number:
         self._changed()
 
 
+def for_theme(text, widget):
+    """`text` with the colours of messages as they can be read where `widget` is."""
+    if widget.palette().color(QtGui.QPalette.WindowText).lightness() > 128:
+        for light, dark in _IN_THE_DARK.items():
+            text = text.replace(light, dark)
+    return text
+
+
 def show_error(label, text):
     """Shows `text` in a message label, or hides it when there is none."""
+    label.setStyleSheet(for_theme(f"color: {ERROR};", label.parentWidget() or label))
     label.setText(text or "")
     label.setVisible(bool(text))
 

@@ -18,7 +18,7 @@ class IncisionPanel(PlanePanel):
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
     ICON = "FemScalpel_Incision"
-    GROUP_NAME, OBJECT_NAME, MAKE = "CUT", "Cut", "makeCut"
+    GROUP_NAME, OBJECT_NAME, MAKE = "CUT", "Incision", "makeCut"
 
     def add_inputs(self):
         self.slot = self.insert_form("incision.ui")

@@ -43,7 +43,11 @@ class PanelInput(QtCore.QObject):
 
     def show_error(self, text):
         """Shows a message under the fields."""
-        fields.show_error(self.form.geometryError, text)
+        fields.show_error(self.error_label(), text)
+
+    def error_label(self):
+        """The label for messages about the geometry."""
+        return self.form.geometryError
 
     def add_handles(self, view):
         """Puts what can be seen of it into a 3-D view."""

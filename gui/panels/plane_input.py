@@ -16,7 +16,7 @@ class PlaneInput(GeometryInput):
 
     def __init__(self, source_object):
         self._offset = self._part_radius = None
-        self._part_movable, self._part_turn = False, None
+        self._part_movable, self._part_turn, self._outline = False, None, None
         super().__init__(source_object)
         self._offset = fields.Number(self.form.offset, self._tell, step=fields.round_step(self.size / 100))
         self.form.flip.clicked.connect(self._flip)
@@ -35,20 +35,28 @@ class PlaneInput(GeometryInput):
     def _flip(self):
         self.set_pose(self.origin(), self.direction().negative())
 
-    def show_part(self, movable, radius, turn):
+    def show_part(self, movable, radius, turn, outline=None):
         """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if
-        any. `turn` says by how many degrees it is turned about the normal."""
+        any. `turn` says by how many degrees it is turned about the normal; outline() are its corners (x, y) then, None
+        those of the whole plane."""
         self._part_movable, self._part_radius, self._part_turn = movable, radius, turn
+        self._outline = outline
         if self.handles is not None:
             self._turn_handles(self.handles)
             self.handles.set_pose(self.origin(), self.rotation(), self.radius())
 
     def _turn_handles(self, handles):
         handles.show_part(self._part_movable, self._part_turn.value if self._part_turn is not None else 0.0)
+        self._draw_outline(handles)
+
+    def _draw_outline(self, handles):
+        handles.show_outline(self._outline() if self._outline is not None else None)
 
     def _tell(self, from_handle=False):
         super()._tell(from_handle)
-        if self.handles is not None and not from_handle:
+        if self.handles is not None and from_handle:
+            self._draw_outline(self.handles)  # the radius may be another
+        elif self.handles is not None:
             self._turn_handles(self.handles)
 
     def radius(self):
@@ -76,4 +84,4 @@ class PlaneInput(GeometryInput):
 
     def close(self):
         super().close()
-        self._offset = self._part_radius = self._part_turn = None
+        self._offset = self._part_radius = self._part_turn = self._outline = None

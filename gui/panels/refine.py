@@ -40,12 +40,24 @@ class RefinePanel(AlongToolPanel):
         )
 
         def operate(scalpel):
-            result = femscalpel.refine(scalpel.mesh, tool, size, gradation=gradation, reach=reach, feature_angle=angle)
+            result = femscalpel.refine(
+                scalpel.mesh,
+                tool,
+                size,
+                gradation=gradation,
+                reach=reach,
+                feature_angle=angle,
+                before_refining=scalpel.before_refining,
+            )
             if not result.report.elements_added:
                 raise femscalpel.ToolError(vain)
             return result
 
         return operate
+
+    def _refine_to(self, size):
+        self._size.set(size)
+        self.update()
 
     def read(self, obj):
         super().read(obj)

@@ -8,6 +8,7 @@ from femscalpelobjects import pieces
 
 from .. import preferences
 from ..translate import QT_TRANSLATE_NOOP, translate
+from . import fields
 
 
 def sentence(text):
@@ -15,7 +16,7 @@ def sentence(text):
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
-WARNING = "color:#8a5a00"
+_WARNING = f"color:{fields.WARNING}"
 # What Report.converted counts.
 _KINDS = {
     "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
@@ -50,14 +51,14 @@ def summary(report):
         text += " " + translate("FemScalpel", "First became triangles or tetrahedra: %1.").replace("%1", kinds)
     if after.minimum < preferences.quality_threshold():
         text += (
-            " <b style='color:#b3261e'>"
+            f" <b style='color:{fields.ERROR}'>"
             + translate("FemScalpel", "Worse than your threshold of %1.").replace(
                 "%1", f"{preferences.quality_threshold():g}"
             )
             + "</b>"
         )
     for warning in report.warnings:
-        text += f"<br><span style='{WARNING}'>{sentence(warning)}</span>"
+        text += f"<br><span style='{_WARNING}'>{sentence(warning)}</span>"
     return text
 
 
@@ -75,5 +76,5 @@ class PiecesText:
             self._supports = (pieces.find_supports(self._source),)
         held = pieces.holders(parting, self._supports[0])
         text = html.escape(pieces.sentence_of(parting, held, translate))
-        style = f" style='{WARNING}'" if pieces.is_unsafe(held) else ""
+        style = f" style='{_WARNING}'" if pieces.is_unsafe(held) else ""
         return f"<br><span{style}>{text}</span>"

@@ -8,6 +8,7 @@ from PySide import QtCore, QtGui
 from pivy import coin
 
 import femmesh_bridge
+from femscalpelobjects import contents
 
 from ..latest_wins import LatestWins
 from ..translate import translate
@@ -48,11 +49,14 @@ class ViewPanel(QtCore.QObject):
         self._forms = list(self.form)
         self._forms[0].destroyed.connect(lambda *_: self._died())
         femmesh = self.source_object.FemMesh
+        self._changes = contents.changes_of(self.source_object)
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
 
     def read_mesh(self, femmesh):
         """The PreviewSource of a FemMesh; called on another thread."""
-        return PreviewSource(femmesh_bridge.from_femmesh(femmesh))
+        source = PreviewSource(femmesh_bridge.from_femmesh(femmesh))
+        source.digest = contents.digest_of_mesh(source.mesh)
+        return source
 
     def loaded(self):
         """The mesh was read: `source` is there."""

@@ -150,8 +150,8 @@ class WallInput(AxisInput):
             return ""
         return super().error()
 
-    def show_error(self, text):
-        fields.show_error(self.moving.geometryError, text)
+    def error_label(self):
+        return self.moving.geometryError
 
     def add_handles(self, view):
         super().add_handles(view)

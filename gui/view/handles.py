@@ -214,24 +214,34 @@ class Handles(Overlay):
 
 
 class PlaneHandles(Handles):
-    """Arrow along the normal, ball to tilt; the plane itself as a pane. For a part of the plane also four arrows to
-    move it in the plane, and where it has a radius, arrows on its border."""
+    """Arrow along the normal, ball to tilt; the plane itself, or its part, as a pane. For a part of the plane also four
+    arrows to move it in the plane, and where it has a radius, arrows on its border."""
 
     def _add_tool_shape(self, pane):
-        half = 0.36 * self._size
-        corners = [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)]
+        self._pane_turn, self._corners = coin.SoRotation(), coin.SoCoordinate3()
+        self._corners.setName("FemScalpelPane")
+        pane.addChild(self._pane_turn)
+        pane.addChild(self._corners)
         frame = coin.SoSeparator()
-        paint(frame, TOOL, style(1.5))
-        frame.addChild(_line(*corners, corners[0]))
+        paint(frame, TOOL, style(2.0))
+        self._frame = coin.SoLineSet()
+        frame.addChild(self._frame)
         pane.addChild(frame)
-        coordinates = coin.SoCoordinate3()
-        coordinates.point.setValues(0, 4, corners)
-        pane.addChild(coordinates)
-        pane.addChild(two_sided())
+        hints = two_sided()
+        hints.faceType = coin.SoShapeHints.UNKNOWN_FACE_TYPE  # a polygon may be concave
+        pane.addChild(hints)
         pane.addChild(material(TOOL, 0.85))
-        face = coin.SoFaceSet()
-        face.numVertices = 4
-        pane.addChild(face)
+        self._face = coin.SoFaceSet()
+        pane.addChild(self._face)
+        self.show_outline(None)
+
+    def show_outline(self, outline):
+        """Shows the part of the plane within `outline`, (x, y) in order around it in its own axes; None: all of it."""
+        half = 0.36 * self._size
+        corners = outline or [(-half, -half), (half, -half), (half, half), (-half, half)]
+        set_values(self._corners.point, [(x, y, 0) for x, y in (*corners, corners[0])])
+        self._frame.numVertices = len(corners) + 1
+        self._face.numVertices = len(corners)
 
     def _make_draggers(self):
         # The ball takes every click within it, so the arrow begins at it.
@@ -259,6 +269,7 @@ class PlaneHandles(Handles):
         normal."""
         self._switch("slide", movable)
         self._angle.rotation.setValue(_sb_rotation(FreeCAD.Rotation(_Z, turn)))
+        self._pane_turn.rotation.setValue(_sb_rotation(FreeCAD.Rotation(_Z, turn)))
         # Between the arrows on the border, which may be as far away.
         self._in_plane = FreeCAD.Rotation(_Z, turn + 45)
         self._between.rotation.setValue(_sb_rotation(self._in_plane))
@@ -311,10 +322,14 @@ class AxisHandles(Handles):
     def show_shape(self, shape, values, tilted):
         """Says what tool it is, by the name of its class, with its `values` beside the radius; whether it can be
         `tilted`. set_pose() is to follow."""
-        self._shape, self._values = shape, values
+        self._shape, self._values = shape, {**self._values, **values}
         self._switch("along", shape not in ENDLESS)
         self._switch("tilt", tilted)
         self._axis.whichChild = coin.SO_SWITCH_ALL if tilted else coin.SO_SWITCH_NONE
+
+    def show_depth(self, depth):
+        """Says how far beyond its position a hole ends, None for one that does not. set_pose() is to follow."""
+        self._values["depth"] = depth
 
     def set_pose(self, position, rotation, radius=0.0):
         super().set_pose(position, rotation, radius)

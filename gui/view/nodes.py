@@ -145,6 +145,7 @@ class _UnlitNode(Part):
 
     def __init__(self, name, rgb, style_node, shape):
         super().__init__(name)
+        self._style = style_node
         paint(self._inside, rgb, style_node)
         self._coordinates = coin.SoCoordinate3()
         self._inside.addChild(self._coordinates)
@@ -169,6 +170,10 @@ class LineNode(_UnlitNode):
 
     def __init__(self, name, rgb, width):
         super().__init__(name, rgb, style(width), coin.SoLineSet())
+
+    def dash(self):
+        """Draws dashed lines from now on."""
+        self._style.linePattern = 0x0F0F
 
     def _set_number(self, number):
         set_values(self._shape.numVertices, np.full(number, 2, np.int32))

@@ -8,6 +8,7 @@ from typing import Dict, List, Tuple
 import numpy as np
 
 import femscalpel
+from femscalpel.mesh import CELL_TYPES
 from femscalpelobjects.pieces import parting_of
 
 from . import faces as mesh_faces
@@ -85,6 +86,8 @@ class PreviewSource:
         low, high = (self.points.min(axis=0), self.points.max(axis=0)) if node_count else (np.zeros(3), np.ones(3))
         self.low, self.high = low, high
         self.size = float(np.linalg.norm(high - low)) or 1.0
+        #: Of the elements: 2 where any has nodes in the middle of edges.
+        self.order = 2 if any(nodes > corners for _, nodes, corners in map(CELL_TYPES.get, mesh.cells)) else 1
 
     def rows(self, node_ids):
         """Rows of nodes by number, -1 for numbers the mesh does not have."""
@@ -284,10 +287,40 @@ def _worst(report, mesh):
     return empty
 
 
-def preview_of(source, operate, surface, region, whole):
-    """The PreviewData of what operate() makes of the Scalpel."""
-    result = operate(source.scalpel) if whole else operate(source.scalpel, True)
-    if not whole and (result.report.refinement or result.report.converted):
-        # Elements away from the tool were divided, too; the band lacks them.
-        result, whole = operate(source.scalpel, False), True
+class _Telling:
+    """A femscalpel.Scalpel whose operators call `before_refining`."""
+
+    _SILENT = ("merge", "reshape")  # they never refine first
+
+    def __init__(self, scalpel, before_refining):
+        self._scalpel, self.before_refining = scalpel, before_refining
+
+    def __getattr__(self, name):
+        value = getattr(self._scalpel, name)
+        if name in self._SILENT or not callable(value):
+            return value
+        return functools.partial(value, before_refining=self.before_refining)
+
+
+class _RefinesFirst(Exception):
+    """The band alone will not do: elements away from the tool are divided, too."""
+
+
+def _stop(estimate):
+    raise _RefinesFirst
+
+
+def preview_of(source, operate, surface, region, whole, before_refining=None):
+    """The PreviewData of what operate() makes of the Scalpel; `before_refining` as of femscalpel's operators."""
+    telling = _Telling(source.scalpel, before_refining)
+    if whole:
+        result = operate(telling)
+    else:
+        try:
+            result = operate(_Telling(source.scalpel, _stop), True)
+            whole = bool(result.report.converted)
+        except _RefinesFirst:
+            whole = True
+        if whole:
+            result = operate(telling, False)
     return make_preview(source, result, surface(result) if callable(surface) else surface, region, whole)

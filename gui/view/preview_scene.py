@@ -37,7 +37,7 @@ class PreviewScene(Picture):
         self.beams = LineNode("FemScalpelBeams", colours.BEAM, 4.0)
         self.outline = LineNode("FemScalpelOutline", preferences.colour("Interface", colours.INTERFACE), 4.0)
         self.front = LineNode("FemScalpelFront", preferences.colour("Front", colours.FRONT), 5.0)
-        self.moved = PointNode("FemScalpelMoved", preferences.colour("Moved", colours.MOVED), 4.0)
+        self.moved = PointNode("FemScalpelMoved", preferences.colour("Moved", colours.MOVED), 3.0)
         self.worst = LineNode("FemScalpelWorst", (0, 0, 0), 3.0)
         self.worst_label = LabelNode("FemScalpelWorstLabel")
         highlight = preferences.colour("Highlight", colours.HIGHLIGHT)

@@ -7,6 +7,9 @@ import numpy as np
 
 
 def _cylinder(radius, values, size):
+    depth = values.get("depth")
+    if depth is not None:  # it ends flat
+        return (radius, min(depth, 0) - 0.6 * size), (radius, depth), (0, depth)
     return (radius, -0.6 * size), (radius, 0.6 * size)
 
 

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""View provider of the objects an operator makes: icon, and double-click to edit."""
+"""View provider of the objects an operator makes: icon, tree, context menu, double-click to edit, and the crack."""
 
 import importlib
 
 import FreeCADGui
 from PySide import QtGui
 
+from femscalpelobjects.ours import made_of
+
 from ..translate import icon, translate
+from . import context_menu
+from .deleting import before_deletion
+from .made_crack import MadeCrack
 
 #: Type of the object's proxy: (icon, module of panels, class).
 PANELS = {
@@ -29,7 +34,9 @@ _MOST_FACES_COMPARED = 10000
 
 
 class ViewProviderMeshOperation:
-    """Opens the task panel the object was made with."""
+    """Opens the task panel the object was made with, and draws the crack that it made."""
+
+    crack = None  # MadeCrack, once attached
 
     def __init__(self, vobj):
         vobj.Proxy = self
@@ -37,6 +44,15 @@ class ViewProviderMeshOperation:
 
     def attach(self, vobj):
         self.Object = vobj.Object
+        self.crack = MadeCrack(vobj)
+
+    def updateData(self, obj, prop):
+        if prop == "FemMesh" and self.crack is not None:
+            self.crack.mesh_changed()
+
+    def onChanged(self, vobj, prop):
+        if prop == "Visibility" and self.crack is not None:
+            self.crack.show()
 
     def _panel(self):
         return PANELS.get(getattr(getattr(self.Object, "Proxy", None), "Type", ""))
@@ -44,6 +60,10 @@ class ViewProviderMeshOperation:
     def getIcon(self):
         panel = self._panel()
         return icon(panel[0] if panel else "FemScalpel")
+
+    def claimChildren(self):
+        """The meshes that this one is made of stand under it in the tree."""
+        return made_of(self.Object)
 
     def setEdit(self, vobj, mode=0):
         panel = self._panel()
@@ -69,19 +89,16 @@ class ViewProviderMeshOperation:
 
     def doubleClicked(self, vobj):
         document = FreeCADGui.getDocument(vobj.Object.Document.Name)
-        if FreeCADGui.Control.activeDialog():
-            QtGui.QMessageBox.information(
-                FreeCADGui.getMainWindow(),
-                translate("FemScalpel", "Edit"),
-                translate("FemScalpel", "Another task panel is open. Close it first."),
-            )
-            return True
-        document.setEdit(vobj.Object.Name)
+        if context_menu.is_free(translate("FemScalpel", "Edit")):
+            document.setEdit(vobj.Object.Name)
         return True
 
     def setupContextMenu(self, vobj, menu):
-        action = menu.addAction(QtGui.QIcon(self.getIcon()), translate("FemScalpel", "Edit"))
-        action.triggered.connect(lambda: self.doubleClicked(vobj))
+        context_menu.fill(menu, self, vobj)
+
+    def onDelete(self, vobj, subelements):
+        before_deletion(vobj.Object)
+        return True
 
     def dumps(self):
         return None

@@ -251,6 +251,10 @@
       <translation>%1 ist schon das Ausgangsnetz einer anderen Operation. Stattdessen das neueste nehmen, %2?</translation>
     </message>
     <message>
+      <source>%1 million</source>
+      <translation>%1 Millionen</translation>
+    </message>
+    <message>
       <source>%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).</source>
       <translation>%1 Knoten verschoben, %2 hinzugefügt; %3 Elemente hinzugefügt, %4 entfernt. Mean ratio mindestens %5 (vorher: %6).</translation>
     </message>
@@ -335,6 +339,18 @@
       <translation>CAD-Fläche</translation>
     </message>
     <message>
+      <source>Cancel</source>
+      <translation>Abbrechen</translation>
+    </message>
+    <message>
+      <source>Cancelled. OK, or a change, computes again.</source>
+      <translation>Abgebrochen. OK oder eine Änderung rechnet neu.</translation>
+    </message>
+    <message>
+      <source>Cancelled: nothing was changed.</source>
+      <translation>Abgebrochen: nichts wurde geändert.</translation>
+    </message>
+    <message>
       <source>Centre</source>
       <translation>Mitte</translation>
     </message>
@@ -397,6 +413,14 @@
     <message>
       <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
       <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
+    </message>
+    <message>
+      <source>Compute it all the same</source>
+      <translation>Trotzdem berechnen</translation>
+    </message>
+    <message>
+      <source>Computing the new mesh…</source>
+      <translation>Neues Netz wird berechnet…</translation>
     </message>
     <message>
       <source>Computing…</source>
@@ -515,6 +539,10 @@
       <translation>Zuerst wurden zu Dreiecken oder Tetraedern: %1.</translation>
     </message>
     <message>
+      <source>FreeCAD takes the mesh over…</source>
+      <translation>FreeCAD übernimmt das Netz…</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Gruppe</translation>
     </message>
@@ -581,6 +609,10 @@
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
       <translation>Keine Gruppe des Netzes bedeckt Flächen in seinem Inneren (einer Schale: Kanten). Machen Sie erst eine davon oder von ihren Knoten.</translation>
+    </message>
+    <message>
+      <source>No preview yet: see the question above.</source>
+      <translation>Noch keine Vorschau: siehe die Frage oben.</translation>
     </message>
     <message>
       <source>No preview.</source>
@@ -651,6 +683,14 @@
       <translation>Drücken Sie Wählen und klicken Sie nahe an die Kante, oder wählen Sie eine Gruppe.</translation>
     </message>
     <message>
+      <source>Put into the analysis</source>
+      <translation>In die Analyse einsetzen</translation>
+    </message>
+    <message>
+      <source>Putting nodes onto the geometry…</source>
+      <translation>Knoten werden auf die Geometrie gesetzt…</translation>
+    </message>
+    <message>
       <source>Radius of the circle in the middle of the tube</source>
       <translation>Radius des Kreises in der Mitte des Rohrs</translation>
     </message>
@@ -675,8 +715,28 @@
       <translation>Verfeinern</translation>
     </message>
     <message>
+      <source>Refine to edges of %1 instead</source>
+      <translation>Stattdessen auf Kanten von %1 verfeinern</translation>
+    </message>
+    <message>
       <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
       <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder anderem Werkzeug und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Refining first to edges of %1 would make %2. That is above the limit set in the preferences.</source>
+      <translation>Vorher auf Kanten von %1 zu verfeinern ergäbe %2. Das ist mehr als die in den Einstellungen gesetzte Grenze.</translation>
+    </message>
+    <message>
+      <source>Refining first, to edges of %1: %2…</source>
+      <translation>Vorher wird verfeinert, auf Kanten von %1: %2…</translation>
+    </message>
+    <message>
+      <source>Report: %1</source>
+      <translation>Bericht: %1</translation>
+    </message>
+    <message>
+      <source>Report…</source>
+      <translation>Bericht…</translation>
     </message>
     <message>
       <source>Reshape</source>
@@ -697,6 +757,10 @@
     <message>
       <source>Several FEM meshes are selected. Select one.</source>
       <translation>Mehrere FEM-Netze sind gewählt. Wählen Sie eines.</translation>
+    </message>
+    <message>
+      <source>Show crack</source>
+      <translation>Riss zeigen</translation>
     </message>
     <message>
       <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
@@ -721,6 +785,10 @@
     <message>
       <source>Status</source>
       <translation>Zustand</translation>
+    </message>
+    <message>
+      <source>Take out of the analysis</source>
+      <translation>Aus der Analyse nehmen</translation>
     </message>
     <message>
       <source>That edge is curved. Pick a straight or a circular edge.</source>
@@ -847,6 +915,10 @@
       <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt. Der Dateidialog zählt die Formate auf.</translation>
     </message>
     <message>
+      <source>Writing the mesh for FreeCAD…</source>
+      <translation>Netz wird für FreeCAD geschrieben…</translation>
+    </message>
+    <message>
       <source>all kept</source>
       <translation>alle bleiben</translation>
     </message>
@@ -935,6 +1007,10 @@
       <translation>Mitte</translation>
     </message>
     <message>
+      <source>more than %1 elements</source>
+      <translation>mehr als %1 Elemente</translation>
+    </message>
+    <message>
       <source>never</source>
       <translation>nie</translation>
     </message>
@@ -1003,6 +1079,10 @@
       <translation>snap: bewegen und teilen</translation>
     </message>
     <message>
+      <source>some %1 elements</source>
+      <translation>etwa %1 Elemente</translation>
+    </message>
+    <message>
       <source>to an edge length</source>
       <translation>bis zu einer Kantenlänge</translation>
     </message>
@@ -1037,6 +1117,18 @@
   </context>
   <context>
     <name>FemScalpelPreferences</name>
+    <message>
+      <source> MB</source>
+      <translation> MB</translation>
+    </message>
+    <message>
+      <source>Ask before refining takes more memory than</source>
+      <translation>Fragen, bevor Verfeinern mehr Speicher braucht als</translation>
+    </message>
+    <message>
+      <source>Ask before refining to more elements than</source>
+      <translation>Fragen, bevor Verfeinern mehr Elemente ergibt als</translation>
+    </message>
     <message>
       <source>Borders of groups</source>
       <translation>Gruppenränder</translation>
@@ -1096,6 +1188,10 @@
     <message>
       <source>deform: only move nodes</source>
       <translation>deform: nur Knoten bewegen</translation>
+    </message>
+    <message>
+      <source>half of what is free</source>
+      <translation>die Hälfte des freien</translation>
     </message>
     <message>
       <source>snap: move and split</source>

@@ -251,6 +251,10 @@
       <translation>%1 est déjà la source d'une autre opération. Prendre plutôt %2, le maillage le plus récent ?</translation>
     </message>
     <message>
+      <source>%1 million</source>
+      <translation>%1 million(s)</translation>
+    </message>
+    <message>
       <source>%1 nodes moved, %2 added; %3 elements added, %4 removed. Mean ratio at least %5 (before: %6).</source>
       <translation>%1 nœuds déplacés, %2 ajoutés ; %3 éléments ajoutés, %4 supprimés. Mean ratio au moins %5 (avant : %6).</translation>
     </message>
@@ -335,6 +339,18 @@
       <translation>Face CAO</translation>
     </message>
     <message>
+      <source>Cancel</source>
+      <translation>Annuler</translation>
+    </message>
+    <message>
+      <source>Cancelled. OK, or a change, computes again.</source>
+      <translation>Annulé. OK ou une modification relance le calcul.</translation>
+    </message>
+    <message>
+      <source>Cancelled: nothing was changed.</source>
+      <translation>Annulé : rien n’a été modifié.</translation>
+    </message>
+    <message>
       <source>Centre</source>
       <translation>Centre</translation>
     </message>
@@ -397,6 +413,14 @@
     <message>
       <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
       <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
+    </message>
+    <message>
+      <source>Compute it all the same</source>
+      <translation>Calculer quand même</translation>
+    </message>
+    <message>
+      <source>Computing the new mesh…</source>
+      <translation>Calcul du nouveau maillage…</translation>
     </message>
     <message>
       <source>Computing…</source>
@@ -515,6 +539,10 @@
       <translation>D'abord devenus triangles ou tétraèdres : %1.</translation>
     </message>
     <message>
+      <source>FreeCAD takes the mesh over…</source>
+      <translation>FreeCAD reprend le maillage…</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Groupe</translation>
     </message>
@@ -581,6 +609,10 @@
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
       <translation>Aucun groupe du maillage ne couvre de faces intérieures (d'une coque : d'arêtes). Créez-en d'abord un, ou un groupe de leurs nœuds.</translation>
+    </message>
+    <message>
+      <source>No preview yet: see the question above.</source>
+      <translation>Pas encore d’aperçu : voir la question ci-dessus.</translation>
     </message>
     <message>
       <source>No preview.</source>
@@ -651,6 +683,14 @@
       <translation>Pressez Choisir et cliquez près de l'arête, ou choisissez un groupe.</translation>
     </message>
     <message>
+      <source>Put into the analysis</source>
+      <translation>Mettre dans l’analyse</translation>
+    </message>
+    <message>
+      <source>Putting nodes onto the geometry…</source>
+      <translation>Placement des nœuds sur la géométrie…</translation>
+    </message>
+    <message>
       <source>Radius of the circle in the middle of the tube</source>
       <translation>Rayon du cercle au milieu du tube</translation>
     </message>
@@ -675,8 +715,28 @@
       <translation>Raffiner</translation>
     </message>
     <message>
+      <source>Refine to edges of %1 instead</source>
+      <translation>Raffiner plutôt à des arêtes de %1</translation>
+    </message>
+    <message>
       <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
       <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un autre outil et garde ses groupes</translation>
+    </message>
+    <message>
+      <source>Refining first to edges of %1 would make %2. That is above the limit set in the preferences.</source>
+      <translation>Raffiner d’abord à des arêtes de %1 donnerait %2. C’est plus que la limite fixée dans les préférences.</translation>
+    </message>
+    <message>
+      <source>Refining first, to edges of %1: %2…</source>
+      <translation>Raffinement préalable, à des arêtes de %1 : %2…</translation>
+    </message>
+    <message>
+      <source>Report: %1</source>
+      <translation>Rapport : %1</translation>
+    </message>
+    <message>
+      <source>Report…</source>
+      <translation>Rapport…</translation>
     </message>
     <message>
       <source>Reshape</source>
@@ -697,6 +757,10 @@
     <message>
       <source>Several FEM meshes are selected. Select one.</source>
       <translation>Plusieurs maillages EF sont sélectionnés. N'en sélectionnez qu'un.</translation>
+    </message>
+    <message>
+      <source>Show crack</source>
+      <translation>Montrer la fissure</translation>
     </message>
     <message>
       <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
@@ -721,6 +785,10 @@
     <message>
       <source>Status</source>
       <translation>État</translation>
+    </message>
+    <message>
+      <source>Take out of the analysis</source>
+      <translation>Retirer de l’analyse</translation>
     </message>
     <message>
       <source>That edge is curved. Pick a straight or a circular edge.</source>
@@ -847,6 +915,10 @@
       <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format. Le dialogue de fichiers énumère les formats.</translation>
     </message>
     <message>
+      <source>Writing the mesh for FreeCAD…</source>
+      <translation>Écriture du maillage pour FreeCAD…</translation>
+    </message>
+    <message>
       <source>all kept</source>
       <translation>tous</translation>
     </message>
@@ -935,6 +1007,10 @@
       <translation>au milieu</translation>
     </message>
     <message>
+      <source>more than %1 elements</source>
+      <translation>plus de %1 éléments</translation>
+    </message>
+    <message>
       <source>never</source>
       <translation>jamais</translation>
     </message>
@@ -1003,6 +1079,10 @@
       <translation>snap : déplacer et diviser</translation>
     </message>
     <message>
+      <source>some %1 elements</source>
+      <translation>environ %1 éléments</translation>
+    </message>
+    <message>
       <source>to an edge length</source>
       <translation>jusqu'à une longueur d'arête</translation>
     </message>
@@ -1037,6 +1117,18 @@
   </context>
   <context>
     <name>FemScalpelPreferences</name>
+    <message>
+      <source> MB</source>
+      <translation> Mo</translation>
+    </message>
+    <message>
+      <source>Ask before refining takes more memory than</source>
+      <translation>Demander avant qu’un raffinement prenne plus de mémoire que</translation>
+    </message>
+    <message>
+      <source>Ask before refining to more elements than</source>
+      <translation>Demander avant de raffiner à plus d’éléments que</translation>
+    </message>
     <message>
       <source>Borders of groups</source>
       <translation>Bords des groupes</translation>
@@ -1096,6 +1188,10 @@
     <message>
       <source>deform: only move nodes</source>
       <translation>deform : seulement déplacer des nœuds</translation>
+    </message>
+    <message>
+      <source>half of what is free</source>
+      <translation>la moitié de ce qui est libre</translation>
     </message>
     <message>
       <source>snap: move and split</source>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <array>
@@ -136,6 +137,21 @@ py::tuple run(Operation operation) {
 
 using Tools = std::vector<const Tool*>;
 
+void bind_estimate(py::module_& module) {
+    py::class_<RefinementEstimate>(module, "RefinementEstimate",
+                                   "What refining a mesh will come to, told before it is done.")
+        .def_readonly("size", &RefinementEstimate::size, "Longest edge wanted.")
+        .def_readonly("elements_before", &RefinementEstimate::elements_before, "Elements of the mesh.")
+        .def_readonly("elements_after", &RefinementEstimate::elements_after,
+                      "Elements that it would have, some 25 % more or fewer.")
+        .def_readonly("is_more", &RefinementEstimate::is_more,
+                      "Whether counting ended at `elements_after`: there would be more.")
+        .def("size_for", &RefinementEstimate::size_for, py::arg("limit"), py::call_guard<py::gil_scoped_release>(),
+             "The smallest length, rounded up to two digits, to which the mesh can be refined there with at most "
+             "`limit` elements; infinity where it has more already. RuntimeError once the function that was given "
+             "the estimate has returned.");
+}
+
 /// Members are called as in options.py, whose functions check what they are set to.
 void bind_options(py::module_& module) {
     const auto refine = [](const OperatorOptions& o) -> std::optional<double> {
@@ -159,6 +175,7 @@ void bind_options(py::module_& module) {
         .def_readwrite("band_only", &OperatorOptions::band_only)
         .def_readwrite("second_order", &OperatorOptions::second_order)
         .def_property("refine", refine, set_refine, "Nothing: automatic; 0: never; or a length.")
+        .def_readwrite("before_refining", &OperatorOptions::before_refining)
         .def_property(
             "skin", [](const OperatorOptions& o) { return o.skin; },
             py::cpp_function([](OperatorOptions& o, const CadShape* skin) { o.skin = skin; }, py::keep_alive<1, 2>()));
@@ -261,7 +278,8 @@ void bind_refine(py::module_& module) {
     module.def(
         "refine",
         [](const Mesh& mesh, const Tools& tools, const RealArray& points, double size, double gradation, double reach,
-           bool relax, Index max_elements, double feature_angle, bool strict, const CadShape* skin) {
+           bool relax, Index max_elements, double feature_angle, bool strict, const CadShape* skin,
+           const BeforeRefining& before_refining) {
             RefineOptions o;
             o.size = size;
             o.gradation = gradation;
@@ -271,13 +289,15 @@ void bind_refine(py::module_& module) {
             o.feature_angle = feature_angle;
             o.strict = strict;
             o.skin = skin;
+            o.before = before_refining;
             std::vector<Vec3> at;
             for (py::ssize_t i = 0; i < points.size() / 3; ++i) at.emplace_back(points.data() + 3 * i);
             return run(
                 [&] { return refine(mesh, tools.empty() ? distance_to(std::move(at)) : distance_to(tools), o); });
         },
         py::arg("mesh"), py::arg("tools"), py::arg("points"), py::arg("size"), py::arg("gradation"), py::arg("reach"),
-        py::arg("relax"), py::arg("max_elements"), py::arg("feature_angle"), py::arg("strict"), py::arg("skin"));
+        py::arg("relax"), py::arg("max_elements"), py::arg("feature_angle"), py::arg("strict"), py::arg("skin"),
+        py::arg("before_refining"));
 }
 
 void bind_reshape(py::module_& module) {
@@ -316,6 +336,7 @@ void bind_session(py::module_& module) {
 }  // namespace
 
 void bind_operators(py::module_& module) {
+    bind_estimate(module);
     bind_options(module);
     bind_session(module);
     bind_functions(module);

@@ -20,7 +20,7 @@ HEADER = """\
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Made by src/bindings/make_stub.py. The package femscalpel says what everything is for.
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, overload
 
 import numpy as np
@@ -93,6 +93,9 @@ def python_type(text, given):
         if outer[1] == "Optional":
             return f"{inner} | None"
         return ("Sequence" if given and outer[1] == "List" else outer[1].lower()) + f"[{inner}]"
+    if function := re.fullmatch(r"Callable\[\[(.*)\], (.*)\]", text):
+        taken = ", ".join(python_type(part, False) for part in split(function[1]))
+        return f"Callable[[{taken}], {python_type(function[2], given)}] | None"
     if re.fullmatch(r"[A-Za-z_]\w*", text):
         return f"{text} | None" if given and text in MAY_BE_NONE else text
     raise ValueError(f"a type that this script does not know: {text!r}")

@@ -220,7 +220,9 @@ std::vector<std::string> check_refinement(const Mesh& in, const DistanceField& d
         static_cast<void>(mid);
         const Vec3 &a = out.points[e.first], &b = out.points[e.second];
         const double da = distance(a), db = distance(b), dm = distance((a + b) / 2);
-        const double d = da * db < 0 ? 0 : std::min({std::abs(da), std::abs(db), std::abs(dm)});
+        // Signs differ on two sides of a surface, and where another of several surfaces is the nearest.
+        const bool crosses = da * db < 0 && std::abs(da) + std::abs(db) <= (b - a).norm();
+        const double d = crosses ? 0 : std::min({std::abs(da), std::abs(db), std::abs(dm)});
         const double wanted = options.size + options.gradation * std::max(0.0, d - options.reach);
         if ((b - a).norm() > wanted * (1 + 1e-12))
             add("size: an edge of ", (b - a).norm(), " instead of ", wanted, " at distance ", d);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "operators/refine_estimate.h"
 #include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/patch.h"
@@ -131,6 +132,25 @@ TEST(RefineFirstTest, TriesInVainWhereElementsCannotBeBisected) {
     OperatorOptions asked;
     asked.refine = {When::to_size, 0.5};
     EXPECT_THROW(refine_first(mesh, zones, asked), UnsupportedElementError);
+}
+
+TEST(RefineEstimate, IsALowerBoundAndNearIt) {
+    const Mesh mesh = checks::grid(4, 4, 4);
+    const DistanceField distance = [](const Vec3& x) { return (x - Vec3(2, 2, 2)).norm() - 1; };
+    RefineOptions options;
+    options.size = 0.3;
+    std::vector<RefinementEstimate> told;
+    options.before = [&](const RefinementEstimate& e) { told.push_back(e); };
+    const Index made = refine(mesh, distance, options).mesh.cell_count();
+    const Index least = count_refined(mesh, SizeField(distance, options), most_counted);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told[0].elements_before, mesh.cell_count());
+    EXPECT_EQ(told[0].elements_after, with_followers(mesh.cell_count(), least));
+    EXPECT_LE(least, made);
+    EXPECT_NEAR(static_cast<double>(told[0].elements_after), static_cast<double>(made),
+                0.3 * static_cast<double>(made));
+    EXPECT_EQ(count_refined(mesh, SizeField(distance, options), 500), 501) << "counting ends at the limit";
+    EXPECT_THROW(told[0].size_for(1000), std::logic_error) << "the call is over";
 }
 
 }  // namespace FILE_NAMESPACE

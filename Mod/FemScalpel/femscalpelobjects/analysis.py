@@ -47,6 +47,11 @@ def take_out_of_analysis(obj):
     raise ValueError(f"'{obj.Label}' is in no analysis")
 
 
+def analysis_of(obj):
+    """The analysis that a mesh object is in, or None."""
+    return next((analysis for analysis in _analyses(obj.Document) if obj in analysis.Group), None)
+
+
 def lost_references(obj, source, analysis):
     """What FreeCAD's search by geometry would not, or wrongly, find on the mesh of `obj`; sentences, none if all is
     well. Faces that an operator has moved on purpose matter where a member of the analysis refers to them.

@@ -19,6 +19,9 @@ from .operator_options import KEEP_TO_SHAPE
 from .ours import made_of
 from .reason import Reason
 
+if FreeCAD.GuiUp:
+    from femscalpelgui.view.crack_lines import crack_shape
+
 # Attribute bits of addProperty.
 OUTPUT = 8  # setting it does not ask for a recompute
 
@@ -95,9 +98,11 @@ class MeshOperation:
 
     def _forget_state(self):
         self.report = None
+        self.crack_shape = None  # of the mesh shown, in the window; None where it is to be looked for
         self.shown = None  # memory.Shown: which mesh the object holds; None while nobody has asked
         self.is_giving = False  # whether this gives the object a mesh just now
         self._wanted = None  # the Made that execute() is to show
+        self._prepared = None  # the Made that begin() has led to, for execute() to take if it is still right
 
     # --- what a subclass says
 
@@ -197,28 +202,76 @@ class MeshOperation:
                 FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
         self._give(obj, made, aloud=True)
 
+    def begin(self, obj):
+        """What execute() would compute, as a function that another thread can call: with `progress` or None, called as
+        progress(step, fraction of it or None), which may raise femscalpel.Cancelled. What the function returns is for
+        adopt(). None where nothing is to be computed. Raises what execute() does, not as Reason.
+
+        The object and what it is made from must not change meanwhile.
+        """
+        self._link_geometry(obj)
+        self.mesh_of(obj, "Source")
+        inputs, surroundings = contents.inputs_of(obj), contents.surroundings_of(obj)
+        if self._remembered(obj, inputs, surroundings) is not None:
+            return None
+        femmesh = Fem.FemMesh()  # here, as FreeCAD counts them
+        return lambda progress=None: self._compute(obj, inputs, surroundings, femmesh, progress)
+
+    def adopt(self, made):
+        """Has the next execute() show this, if it is still what it would make."""
+        self._prepared = made
+
     def _made(self, obj, inputs):
         """(Made, whether it was made just now)."""
-        source = self.mesh_of(obj, "Source")
+        self.mesh_of(obj, "Source")
         surroundings = contents.surroundings_of(obj)
-        made = memory.of(obj.Document, inputs)
-        if made is not None and None not in (surroundings, made.surroundings) and surroundings == made.surroundings:
+        prepared, self._prepared = self._prepared, None
+        if prepared is not None and prepared.inputs == inputs and prepared.surroundings == surroundings:
+            self._check_names(obj, prepared.report)
+            return prepared, True
+        made = self._remembered(obj, inputs, surroundings)
+        if made is not None:
             self._check_names(obj, made.report)
             return made, False
+        return self._compute(obj, inputs, surroundings, Fem.FemMesh()), True
+
+    @staticmethod
+    def _remembered(obj, inputs, surroundings):
+        """The Made of the same inputs and surroundings, or None."""
+        made = memory.of(obj.Document, inputs)
+        if made is not None and None not in (surroundings, made.surroundings) and surroundings == made.surroundings:
+            return made
+        return None
+
+    def _compute(self, obj, inputs, surroundings, femmesh, progress=None):
+        """The Made; `femmesh`, an empty one, becomes its mesh."""
+        tell = progress or (lambda step, fraction=None: None)
+        tell("read")
         mesh = contents.read_mesh(obj.Source)
+        tell("operate")
         tools = self.tools(obj)
         result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
+        tell("shape")
         points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
         report = self._completed(result.report, on_shape)
         self._check_names(obj, report)
-        femmesh = femmesh_bridge.to_femmesh(result.mesh, self._node_groups(source, report), points)
+        groups = self._node_groups(obj.Source.FemMesh, report)
+        femmesh_bridge.to_femmesh(result.mesh, groups, points, femmesh, lambda part: tell("femmesh", part))
         token = inputs + (surroundings or contents.unique())
         parting = None
         if self.TELLS_PIECES:
             known = {(group.name, group.kind) for group in mesh.groups.all()}
             parting = pieces.parting_of(result.mesh, len(femscalpel.pieces(mesh)), known=known)
-        made = Made(inputs, surroundings, token, femmesh, _results(report, on_shape.lost), report, parting=parting)
-        return made, True
+        return Made(
+            inputs,
+            surroundings,
+            token,
+            femmesh,
+            _results(report, on_shape.lost),
+            report,
+            picture=crack_shape(result.mesh, report.name, points) if FreeCAD.GuiUp else None,
+            parting=parting,
+        )
 
     def _result(self, obj, mesh, tools, near):
         marked = mesh.copy()
@@ -302,6 +355,7 @@ class MeshOperation:
             return
         if not obj.Placement.isIdentity():
             obj.Placement = FreeCAD.Placement()
+        self.crack_shape = made.picture
         if self.shown is None or self.shown.token != made.token:
             self._set_mesh(obj, made.femmesh)
         self.shown = Shown(made.inputs, made.token)
@@ -345,7 +399,7 @@ class MeshOperation:
         for dependent in obj.InList:
             if isinstance(getattr(dependent, "Proxy", None), MeshOperation) and obj in made_of(dependent):
                 dependent.Proxy._clear(dependent)
-        self.report = None
+        self.report = self.crack_shape = None
         self._set_mesh(obj, Fem.FemMesh())
         self.shown = Shown(None, b"none")
         self._set_results(obj, _NO_RESULTS)

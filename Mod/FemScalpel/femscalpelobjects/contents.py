@@ -35,6 +35,7 @@ OF_CONTENTS = ("FemMesh", "Shape", "Placement")
 _known = {}  # digest by document and object
 _read = {}  # a mesh that was converted for its digest, until read_mesh() takes it
 _numbers = itertools.count()
+_changes = {}  # how often forget() was called, by document and object
 
 
 def inputs_of(obj):
@@ -85,8 +86,24 @@ def unique():
     return f"number {next(_numbers)}".encode()
 
 
+def changes_of(obj):
+    """A number that is another one once the contents of an object may have changed."""
+    return _changes.get(_key(obj), 0)
+
+
+def learn(obj, mesh, digest, changes):
+    """Takes the mesh of an object as read elsewhere, with its digest_of_mesh(), unless changes_of() is not what it was
+    then."""
+    if changes != changes_of(obj):
+        return
+    _known.setdefault(_key(obj), digest)
+    _read.clear()
+    _read[_key(obj)] = mesh
+
+
 def forget(obj):
     """The contents of an object may have changed."""
+    _changes[_key(obj)] = changes_of(obj) + 1
     _known.pop(_key(obj), None)
     _read.pop(_key(obj), None)
 
@@ -118,6 +135,11 @@ def _mesh(obj):
         return unique()
     _read.clear()  # one is enough: it is for the object that is computed now
     _read[_key(obj)] = mesh
+    return digest_of_mesh(mesh)
+
+
+def digest_of_mesh(mesh):
+    """Of a femscalpel.Mesh: nodes, elements, numbers and groups."""
     parts = [mesh.points, mesh.node_ids]
     for name, nodes in mesh.cells.items():
         parts += [name.encode(), nodes, mesh.cell_ids[name]]

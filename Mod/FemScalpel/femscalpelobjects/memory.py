@@ -29,6 +29,7 @@ class Made:
     results: Optional[Dict[str, Any]] = None  #: values of the properties of the group Result
     report: Any = None
     error: str = ""  #: of a failure
+    picture: Any = None  #: in the window, femscalpelgui.view.crack_lines.CrackShape
     parting: Any = None  #: pieces.Parting, where the mesh is in more pieces than the source
 
     @property

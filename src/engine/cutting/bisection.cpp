@@ -41,6 +41,13 @@ constexpr double spoilt = 0.02;
 
 }  // namespace
 
+ToolError too_many_elements(const BisectionOptions& options) {
+    std::ostringstream message;
+    message << "size " << options.size << " would make more than " << options.max_elements << " elements. "
+            << options.finer_advice << options.larger_advice;
+    return ToolError(message.str(), "size");
+}
+
 Bisector::Bisector(Deformable& d, const Mesh& mesh, const SizeField& field, const BisectionOptions& options,
                    std::vector<double> distance, bool may_grow)
     : d_(d),
@@ -165,10 +172,7 @@ bool Bisector::split(int a, int b) {
     distance_.push_back(field_.distance(at));
     if (mesh_.cell_count() + band_.tetras.size() + band_.triangles.size() <= options_.max_elements + count_at_start_)
         return true;
-    std::ostringstream message;
-    message << "size " << options_.size << " would make more than " << options_.max_elements << " elements. "
-            << options_.finer_advice << options_.larger_advice;
-    throw ToolError(message.str(), "size");
+    throw too_many_elements(options_);
 }
 
 void Bisector::put_on_shape() {

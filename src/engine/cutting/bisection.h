@@ -10,6 +10,7 @@
 
 #include "cutting/input_geometry.h"
 #include "deformation/deformable.h"
+#include "error.h"
 #include "tools/cad_shape.h"
 #include "tools/distance_field.h"
 
@@ -28,6 +29,9 @@ struct BisectionOptions {
     std::string larger_advice = ", or a larger max_elements";
 };
 
+/// What is thrown where bisection would make more than BisectionOptions::max_elements.
+ToolError too_many_elements(const BisectionOptions& options);
+
 /// How long edges may be: size + gradation * max(0, d - reach), d the smallest distance of their ends and middle.
 class SizeField {
 public:
@@ -42,14 +46,21 @@ public:
         if (length <= options_.size) return false;
         // Distances change by no more than the way between two points, so most edges are settled by their ends.
         const double ends = std::min(std::abs(da), std::abs(db));
-        const bool crosses = (da < 0) != (db < 0);
+        const bool crosses = may_cross(length, da, db);
         if (!crosses && length <= longest(std::max(0.0, ends - length / 2))) return false;
         if (crosses || length > longest(ends)) return true;
         const double middle = distance_((a + b) / 2);
-        return (middle < 0) != (da < 0) || length > longest(std::min(ends, std::abs(middle)));
+        return may_cross(length / 2, da, middle) || may_cross(length / 2, middle, db) ||
+               length > longest(std::min(ends, std::abs(middle)));
     }
 
 private:
+    /// Whether the surface may be between two points so far from each other. The distance changes its sign far from
+    /// it, too: behind a disk, at the border of the column beneath it; and where another of two surfaces is nearer.
+    static bool may_cross(double apart, double da, double db) {
+        return (da < 0) != (db < 0) && std::abs(da) + std::abs(db) <= apart * (1 + 1e-6);
+    }
+
     double longest(double distance) const {
         return options_.size + options_.gradation * std::max(0.0, distance - options_.reach);
     }

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "operators/refine_estimate.h"
+
 namespace femscalpel {
 
 class CadShape;
@@ -54,6 +56,8 @@ struct OperatorOptions {
     /// band and a pass over the mesh that finds it.
     bool band_only = false;
     RefineFirst refine;
+    /// Told what refining first will come to, each time before that is done; may throw.
+    BeforeRefining before_refining;
     /// What is made of first-order solids becomes second order, with a ring of elements around (raise_order.h).
     bool second_order = false;
 };

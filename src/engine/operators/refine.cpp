@@ -187,6 +187,28 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
     return report;
 }
 
+/// Tells the caller what the refinement comes to. Throws ToolError, at once, where that is more than is allowed.
+void announce(const Mesh& mesh, const DistanceField& distance, const RefineOptions& options) {
+    const auto counted = [&](double size, Index limit) {
+        BisectionOptions o = options;
+        o.size = size;
+        return count_refined(mesh, SizeField(distance, o), limit);
+    };
+    const Index limit = options.before ? std::max(most_counted, options.max_elements) : options.max_elements;
+    const Index least = counted(options.size, limit);
+    RefinementEstimate estimate;
+    estimate.size = options.size;
+    estimate.elements_before = mesh.cell_count();
+    estimate.elements_after = with_followers(mesh.cell_count(), least);
+    estimate.is_more = least > limit;
+    if (options.before) {
+        estimate.count = std::make_shared<std::function<Index(double, Index)>>(counted);
+        const std::shared_ptr<void> end(nullptr, [&](void*) { *estimate.count = nullptr; });
+        options.before(estimate);
+    }
+    if (least > options.max_elements) throw too_many_elements(options);
+}
+
 bool has_segments_alone(const Mesh& mesh) {
     return std::ranges::all_of(mesh.blocks(),
                                [](const CellBlock& b) { return traits(b.type).dimension < 2 || b.size() == 0; });
@@ -294,6 +316,8 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     const std::vector<std::int8_t> core = find_long_edges(input, field, distances, options.finer_advice);
     watch.lap("locate");
     if (std::ranges::find(core, 0) == core.end()) return {};
+    announce(input, distance, options);
+    watch.lap("locate");
     Edit edit(input, {});
     const Mesh& mesh = edit.mesh();
     if (input.companion) watch.lap("mark deck");

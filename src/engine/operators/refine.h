@@ -8,6 +8,7 @@
 #include "cutting/bisection.h"
 #include "deck/rules/remarks.h"
 #include "mesh/changes.h"
+#include "operators/refine_estimate.h"
 #include "operators/report.h"
 
 namespace femscalpel {
@@ -16,6 +17,7 @@ namespace femscalpel {
 struct RefineOptions : BisectionOptions {
     double feature_angle = 30;  ///< degrees; a skin edge sharper than this is a feature line
     bool strict = false;        ///< Error instead of warnings where the solver's input cannot follow (carry_over.h)
+    BeforeRefining before;      ///< told what it will come to, if anything is to be refined; may throw
 };
 
 /// Bisects edges until none is longer than size + gradation * max(0, d - reach), d the smallest distance of

@@ -73,6 +73,7 @@ RefineOptions options_for(std::span<const RefineZone> zones, const OperatorOptio
     o.size = std::ranges::min(zones, {}, &RefineZone::size).size;
     o.feature_angle = options.feature_angle;
     o.skin = options.skin;
+    o.before = options.before_refining;
     o.finer_advice = "Give `refine` a larger length, or False";
     o.larger_advice.clear();
     if (!is_asked_for(options)) {

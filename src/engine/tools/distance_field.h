@@ -9,7 +9,7 @@
 namespace femscalpel {
 
 /// Distance from a point to what a mesh is refined around, in the mesh's unit. May be signed: an edge whose ends
-/// have different signs is at distance 0.
+/// have different signs is at distance 0, unless both are so far off that the surface cannot be between them.
 using DistanceField = std::function<double(const Eigen::Vector3d&)>;
 
 /// Distance to the nearest of some tools, which must outlive the field. Throws ToolError when there is none.

@@ -21,6 +21,7 @@ from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_b
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Instance, Mesh
 from .meshfile import Format, formats, meshes_in, read, write
+from ._engine import RefinementEstimate
 from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine, reshape
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import (
@@ -69,6 +70,7 @@ __all__ = [
     "Refinement",
     "ReadError",
     "Report",
+    "RefinementEstimate",
     "Result",
     "Scalpel",
     "Shape",

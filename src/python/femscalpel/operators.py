@@ -2,13 +2,14 @@
 """The operators: they take a mesh and a tool, and give a new mesh and a report."""
 
 from dataclasses import dataclass
-from typing import Iterable, Optional, Sequence, Tuple, Union
+from typing import Callable, Iterable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _arguments, _engine
+from ._engine import RefinementEstimate
 from .mesh import Mesh, check_mesh
-from .options import ShapeOption, check_feature_angle, check_preserve, on_session, takes_options
+from .options import ShapeOption, check_before_refining, check_feature_angle, check_preserve, on_session, takes_options
 from .report import Report
 from .skin import check_skin
 from .tools import Faces, Plane, Tool, check_tool
@@ -442,6 +443,7 @@ def refine(
     feature_angle: float = 30.0,
     strict: bool = False,
     skin: ShapeOption = None,
+    before_refining: Optional[Callable[[RefinementEstimate], None]] = None,
 ) -> Result:
     """Bisects elements near a tool until their edges are short enough.
 
@@ -469,7 +471,7 @@ def refine(
         ToolError rather than a mesh of more elements: a size much too small is easily given.
     feature_angle : float
         Degrees; a skin edge sharper than this is a feature line.
-    strict, skin
+    strict, skin, before_refining
         As for :func:`crack`.
 
     Returns
@@ -501,6 +503,7 @@ def refine(
             _arguments.real(feature_angle, "feature_angle"),
             _arguments.flag(strict, "strict"),
             check_skin(skin),
+            check_before_refining(before_refining),
         )
     )
 

@@ -66,6 +66,15 @@ def check_preserve(value):
     return [_arguments.text(name, "preserve") for name in names]
 
 
+def check_before_refining(value):
+    """A callable or None, or TypeError."""
+    if value is not None and not callable(value):
+        raise _arguments.about(
+            "before_refining", TypeError(f"before_refining must be callable, not {_arguments.describe(value)}")
+        )
+    return value
+
+
 def _refine(value):
     """Nothing: automatic; 0: never; or a length."""
     if value is None:
@@ -193,6 +202,15 @@ OPTIONS = (
         "and an ``*EQUATION`` card keeps the edges straight where elements of first order are beside these.",
         bool,
         lambda value: _arguments.flag(value, "second_order"),
+    ),
+    Option(
+        "before_refining",
+        None,
+        "callable, optional",
+        "Called with a :class:`RefinementEstimate` each time before elements are bisected first: what that comes to. "
+        "An exception that it raises ends the operation.",
+        Optional[Callable[[Any], None]],
+        check_before_refining,
     ),
 )
 

@@ -124,7 +124,7 @@ class Macro(GuiTest):
             self.run_command("Std_MacroStopRecord")
 
             here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
-            self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack", "Drill", "Cut", "Refine"})
+            self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack", "Drill", "Incision", "Refine"})
             text = self.replayed(folder, macro, path, here)
             for line in (
                 "import ObjectsFemScalpel",

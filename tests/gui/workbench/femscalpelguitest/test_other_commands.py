@@ -392,21 +392,21 @@ class Incision(CylinderTest):
         choose("look", "whole")
         screenshot("incision_whole")
         press_ok()
-        cut = self.doc.Cut
+        cut = self.doc.Incision
         self.assertEqual(cut.FemMesh.NodeCount, expected.mesh.node_count)
         screenshot("incision_2_made")
         made = content_of(cut)
         self.doc.undo()
         self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
         self.doc.redo()
-        self.assertEqual(content_of(self.doc.Cut), made)
-        self.doc.Cut.ViewObject.doubleClicked()
+        self.assertEqual(content_of(self.doc.Incision), made)
+        self.doc.Incision.ViewObject.doubleClicked()
         self.wait_for_preview()
         self.assertAlmostEqual(value("slotWidth"), 1.7)
         type_into("slotWidth", "1.1 mm")
         self.wait_for_preview()
         press_ok()
-        self.assertEqual(self.doc.Cut.FemMesh.NodeCount, fs.cut(source, plane, width=1.1).mesh.node_count)
+        self.assertEqual(self.doc.Incision.FemMesh.NodeCount, fs.cut(source, plane, width=1.1).mesh.node_count)
 
     def test_down_to_the_point(self):
         source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
@@ -426,7 +426,7 @@ class Incision(CylinderTest):
         self.wait_for_preview()
         self.assertIn(f" {expected.report.elements_removed} removed", widget("status").text())
         press_ok()
-        cut = self.doc.Cut
+        cut = self.doc.Incision
         self.assertFalse(cut.Through)
         np.testing.assert_allclose(
             cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)), (0, 0, -1), atol=1e-12

@@ -106,7 +106,7 @@ class Preserve(GuiTest):
         for command, made, enter in (
             ("CylindricalCrack", "CylindricalCrack", (("originX", "5.1"), ("normalX", "0"), ("normalZ", "1"))),
             ("Drill", "Drill", (("originX", "5.1"), ("normalX", "0"), ("normalZ", "1"))),
-            ("Incision", "Cut", (("originX", "5.1"),)),
+            ("Incision", "Incision", (("originX", "5.1"),)),
             ("Fillet", "Fillet", ()),
         ):
             with self.subTest(command=command):

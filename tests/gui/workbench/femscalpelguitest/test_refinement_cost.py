@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What refining first costs is said before it is done, and asked above a limit."""
+
+import math
+import time
+from unittest import mock
+
+import FreeCAD
+
+import femscalpel as fs
+from femscalpelgui import preferences, refinement_guard
+from femscalpelgui.panels.tool_panel import ToolPanel
+from .gui_testing import *  # noqa: F403
+from .test_crack_panel import CrackTest
+
+
+def ok_button():
+    return next(
+        b.button(QtGui.QDialogButtonBox.Ok)
+        for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
+        if b.isVisible() and b.button(QtGui.QDialogButtonBox.Ok)
+    )
+
+
+class RefinementCost(CrackTest):
+    def setUp(self):
+        super().setUp()
+        self.group = FreeCAD.ParamGet(preferences.GROUP)
+        self.addCleanup(self.group.RemInt, "MostElements")
+        self.addCleanup(self.group.RemInt, "MostMemory")
+
+    def open_half_plane(self):
+        self.run_command("FemScalpel_Crack")
+        self.wait_for_preview()
+
+    def test_a_small_disk_takes_few_elements(self):
+        """The elements behind a disk stay as they are, however small it is."""
+        self.open_half_plane()
+        choose("patch", "Disk")
+        begin = time.monotonic()
+        with mock.patch.object(ToolPanel, "finished", autospec=True, side_effect=ToolPanel.finished) as finished:
+            type_into("patchRadius", "0.02 mm")
+            wait_until(lambda: any(abs(self.radius_of(c) - 0.01) < 1e-9 for c in finished.call_args_list), "the disk")
+        self.assertLess(time.monotonic() - begin, 10)
+        refinement = finished.call_args_list[-1].args[2].result.report.refinement
+        self.assertLess(refinement.elements_after, refinement.elements_before + 12000)
+
+    @staticmethod
+    def radius_of(call):
+        refinement = call.args[2].result.report.refinement
+        return refinement.size if refinement else math.inf
+
+    def test_said_before_it_is_done(self):
+        self.open_half_plane()
+        with mock.patch.object(ToolPanel, "_say_refining", autospec=True, side_effect=ToolPanel._say_refining) as said:
+            choose("refine", "Size")
+            type_into("refineSize", "0.2 mm")
+            wait_until(lambda: said.call_args_list and said.call_args_list[-1].args[1].size == 0.2, "what it costs")
+            text = widget("status").text()
+            cost = said.call_args_list[-1].args[1]
+            self.wait_for_preview()
+            wait_until(lambda: not text or widget("status").text()[:1].isdigit(), "the preview")
+        panel = said.call_args_list[-1].args[0]
+        wait_until(lambda: panel.shown and panel.shown.result.report.refinement.size == 0.2, "the result")
+        made = panel.shown.result.report.refinement.elements_after
+        self.assertLess(abs(cost.elements - made), 0.3 * made)
+        press_cancel()
+
+    def test_asked_above_the_limit(self):
+        self.group.SetInt("MostElements", 6000)
+        self.open_half_plane()
+        with mock.patch.object(fs.Mesh, "_wrap", side_effect=fs.Mesh._wrap) as made:
+            choose("refine", "Size")
+            type_into("refineSize", "0.03 mm")
+            wait_until(lambda: is_shown("refinementQuestion"), "the question")
+            text = widget("refinementCost").text()
+            count = made.call_count
+        self.assertRegex(text, r"30.00.*elements \(\d+ [MG]B\)")
+        self.assertFalse(ok_button().isEnabled())
+        box = widget("refinementQuestion")
+        self.assertFalse(box.visibleRegion().isEmpty())  # it is not scrolled out of sight
+        self.assertEqual(box.visibleRegion().boundingRect().height(), box.height())
+        self.assertIn("question", widget("status").text())
+        self.assertFalse(is_shown("resultError"))
+        screenshot("refinement_question")
+        spin(0.3)
+        self.assertEqual(made.call_count, count)  # nothing is computed before it is agreed to
+        self.assertRegex(widget("refineFitting").text(), r"0\.\d+ mm")
+        click("refineFitting")
+        self.wait_for_preview()
+        self.assertFalse(is_shown("refinementQuestion"))
+        self.assertGreater(value("refineSize"), 0.03)
+        press_ok()
+        crack = self.doc.Crack
+        count = crack.FemMesh.VolumeCount
+        self.assertGreater(count, 2000)
+        self.assertLess(count, 8000)
+
+    def test_computed_all_the_same(self):
+        self.group.SetInt("MostElements", 3000)
+        self.open_half_plane()
+        choose("refine", "Size")
+        type_into("refineSize", "0.15 mm")
+        wait_until(lambda: is_shown("refinementQuestion"), "the question")
+        click("refineAnyway")
+        self.wait_for_preview()
+        self.assertFalse(is_shown("refinementQuestion"))
+        press_ok()
+        self.assertGreater(self.doc.Crack.FemMesh.VolumeCount, 3000)
+
+    def test_asked_for_memory(self):
+        self.group.SetInt("MostMemory", 1)
+        self.open_half_plane()
+        choose("refine", "Size")
+        type_into("refineSize", "0.15 mm")
+        wait_until(lambda: is_shown("refinementQuestion"), "the question")
+        self.assertGreater(refinement_guard.free_memory(), 10_000_000)
+        choose("refine", "Never")
+        self.wait_for_preview()
+        self.assertFalse(is_shown("refinementQuestion"))
+
+    def test_the_panel_refine_asks_too(self):
+        self.group.SetInt("MostElements", 6000)
+        self.run_command("FemScalpel_Refine")
+        type_into("edgeSize", "0.02 mm")
+        wait_until(lambda: is_shown("refinementQuestion"), "the question")
+        self.assertFalse(ok_button().isEnabled())
+        click("refineFitting")
+        self.wait_for_preview()
+        self.assertGreater(value("edgeSize"), 0.02)
+        self.assertTrue(ok_button().isEnabled())
