@@ -4,7 +4,7 @@
 # to CTest.
 set -eu
 cd "$(dirname "$0")/.."
-sh resources/setup.sh
+sh resources/setup.sh build demo test
 cmake --preset release
 cmake --build --preset release
 # One more than cores: the window tests wait much.

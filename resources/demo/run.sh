@@ -14,7 +14,7 @@ for argument; do
 done
 output=$(realpath -m "$output")
 cd "$(dirname "$0")/../.."
-sh resources/setup.sh
+sh resources/setup.sh build demo
 echo "building FemScalpel in build/release"
 cmake --preset release >/dev/null
 cmake --build --preset release --target workbench
