@@ -36,7 +36,6 @@ class Histogram(QtGui.QWidget):
 
     def paintEvent(self, event):
         painter = QtGui.QPainter(self)
-        painter.fillRect(self.rect(), self.palette().base())
         if self.after is None:
             return
         text = self.fontMetrics().height()
@@ -52,7 +51,7 @@ class Histogram(QtGui.QWidget):
                 QtCore.QRectF(area.left() + k * width + 0.5, area.bottom() - height, width - 1, height),
                 QtGui.QColor.fromRgbF(*[float(c) for c in rgb]),
             )
-        pen = QtGui.QPen(self.palette().color(QtGui.QPalette.Text))
+        pen = QtGui.QPen(self.palette().color(QtGui.QPalette.WindowText))
         painter.setPen(pen)
         if self.before is not None:
             line = QtGui.QPolygonF()

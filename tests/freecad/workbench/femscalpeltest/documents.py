@@ -31,6 +31,21 @@ def content(mesh):
     return nodes, elements, groups
 
 
+def geometry_link(mesh):
+    """Name of the property of FreeCAD's mesh objects that is their geometry: Part up to 0.21, Shape from 1.0."""
+    return "Shape" if "Shape" in mesh.PropertiesList else "Part"
+
+
+def solver_of(doc):
+    """CalculiX's solver object in FreeCAD's examples; from 1.0 on its name is spelt with another C."""
+    return doc.getObject("CalculiXCcxTools") or doc.getObject("CalculiXccxTools")
+
+
+def set_value(obj, prop, value, unit):
+    """Sets a load; up to 0.21 it is a plain number in the solver's units, from 1.0 on a quantity."""
+    setattr(obj, prop, f"{value} {unit}" if hasattr(getattr(obj, prop), "UserString") else value)
+
+
 class DocumentTest(unittest.TestCase):
     def setUp(self):
         self.doc = FreeCAD.newDocument("FemScalpelTest")

@@ -15,7 +15,7 @@ import ObjectsFemScalpel
 from femscalpelobjects.analysis import _is_doubled
 
 from .ccx_deck import Deck
-from .documents import DocumentTest
+from .documents import DocumentTest, geometry_link, set_value, solver_of
 
 
 class Analysis(DocumentTest):
@@ -33,7 +33,7 @@ class Analysis(DocumentTest):
         self.doc.ConstraintFixed.References = [(self.box, ("Face1", "Face2"))]
         force = ObjectsFem.makeConstraintForce(self.doc, "Load")
         force.References = [(self.box, "Face6")]
-        force.Force = self.LOAD
+        set_value(force, "Force", self.LOAD, "N")
         force.Direction = (self.box, ["Edge1"])
         self.analysis.addObject(force)
         self.doc.recompute()
@@ -43,7 +43,7 @@ class Analysis(DocumentTest):
     def tools(self):
         from femtools import ccxtools
 
-        tools = ccxtools.FemToolsCcx(self.analysis, self.doc.CalculiXccxTools)
+        tools = ccxtools.FemToolsCcx(self.analysis, solver_of(self.doc))
         tools.update_objects()
         tools.setup_working_dir(self.folder.name)
         tools.setup_ccx()
@@ -100,7 +100,7 @@ class Analysis(DocumentTest):
         self.assertEqual(ObjectsFemScalpel.putIntoAnalysis(self.crack), self.analysis)
         self.assertEqual(get_mesh_to_solve(self.analysis)[0], self.crack)
         self.assertNotIn(self.source, self.analysis.Group)
-        self.assertEqual(self.crack.Part, self.box)
+        self.assertEqual(getattr(self.crack, geometry_link(self.source)), self.box)
         with self.assertRaises(ValueError):
             ObjectsFemScalpel.putIntoAnalysis(self.crack)
         self.assertEqual(ObjectsFemScalpel.takeOutOfAnalysis(self.crack), self.analysis)
@@ -142,7 +142,7 @@ class Analysis(DocumentTest):
         femmesh.addGroupElements(femmesh.addGroup("FemMaterial_Volumes", "Volume"), list(femmesh.Volumes))
         pressure = ObjectsFem.makeConstraintPressure(self.doc, "Pressure")
         pressure.References = [(self.box, "Face6")]  # the group says otherwise, and comes first
-        pressure.Pressure = 1000
+        set_value(pressure, "Pressure", 1000, "MPa")
         self.analysis.addObject(pressure)
         self.source.FemMesh = femmesh
         self.crack.PlanePlacement = FreeCAD.Placement(FreeCAD.Vector(4000, 500, 400), FreeCAD.Rotation(3, 4, 0))
@@ -242,7 +242,7 @@ class Analysis(DocumentTest):
         # FreeCAD writes no force at all for a vertex with two nodes.
         force = ObjectsFem.makeConstraintForce(self.doc, "AtCorner")
         force.References = [(self.box, ("Vertex5", "Vertex8"))]
-        force.Force = 1000
+        set_value(force, "Force", 1000, "N")
         force.Direction = (self.box, ["Edge1"])
         self.analysis.addObject(force)
         points = [self.box.Shape.getElement(name).Point for name in ("Vertex5", "Vertex8")]

@@ -12,7 +12,7 @@ import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
 
-from .documents import DocumentTest
+from .documents import DocumentTest, geometry_link
 
 
 def rounded_box():
@@ -39,7 +39,7 @@ class OnShape(DocumentTest):
         part = self.doc.addObject("Part::Feature", "Geometry")
         part.Shape = SHAPES[name]()
         mesh = ObjectsFem.makeMeshGmsh(self.doc, "Mesh")
-        mesh.Part = part
+        setattr(mesh, geometry_link(mesh), part)
         mesh.ElementOrder = order
         mesh.CharacteristicLengthMax = size
         from femmesh.gmshtools import GmshTools
@@ -219,7 +219,7 @@ class OnShape(DocumentTest):
 
     def test_without_geometry_those_the_analysis_refers_to(self):
         shape, source = self.mesh_of("cylinder", "1st", 4)
-        source.Part = None
+        setattr(source, geometry_link(source), None)
         analysis = ObjectsFem.makeAnalysis(self.doc, "Analysis")
         fixed = ObjectsFem.makeConstraintFixed(self.doc, "Fixed")
         fixed.References = [(self.doc.Geometry, "Face1")]
