@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Sets up, builds, runs the demo and all tests on another release of Debian, in a folder of its own:
-#   tests/releases/run.sh bookworm|trixie|forky [folder, default /var/tmp/femscalpel-RELEASE] [make|demo|test]...
+#   tests/releases/run.sh bookworm|trixie|forky [folder, default /var/tmp/femscalpel-RELEASE] [setup|make|demo|test]...
 # Prints a line of each step, and of what the release has; what the steps print goes to FOLDER/var/log/femscalpel.
-# Without steps, all; 'make' takes a folder that is there as it is. Needs root and debootstrap, some 6 GB and half an
+# Without steps, all; 'setup' alone brings packages and sources. Needs root and debootstrap, some 6 GB and half an
 # hour. MIRROR in the environment takes the place of the mirror in /etc/apt. Nothing stays mounted afterwards.
 set -eu
 usage() {
@@ -19,14 +19,14 @@ forky) script=sid ;; # which debootstrap of Debian 12 does not know by name
 esac
 shift
 case ${1:-} in
-'' | make | demo | test) folder=/var/tmp/femscalpel-$release ;;
+'' | setup | make | demo | test) folder=/var/tmp/femscalpel-$release ;;
 *)
     folder=$(realpath -m "$1")
     shift
     ;;
 esac
 for step; do
-    case $step in make | demo | test) ;; *) usage ;; esac
+    case $step in setup | make | demo | test) ;; *) usage ;; esac
 done
 steps=${*:-make demo test}
 cd "$(dirname "$0")/../.."
