@@ -11,12 +11,7 @@ usage() {
     exit 2
 }
 release=${1:-}
-script=$release
-case $release in
-bookworm | trixie) ;;
-forky) script=sid ;; # which debootstrap of Debian 12 does not know by name
-*) usage ;;
-esac
+case $release in bookworm | trixie | forky) ;; *) usage ;; esac
 shift
 case ${1:-} in
 '' | setup | make | demo | test) folder=/var/tmp/femscalpel-$release ;;
@@ -30,21 +25,7 @@ for step; do
 done
 steps=${*:-make demo test}
 cd "$(dirname "$0")/../.."
-[ "$(id -u)" = 0 ] || { echo "run.sh: debootstrap and chroot need root" >&2 && exit 1; }
-
-logs=$folder/var/log/femscalpel
-say() { printf '%s: %s\n' "$release" "$*"; }
-
-# Runs a command in the folder. /proc and /dev are mounted for it alone, and gone when it ends, however it ends.
-inside() {
-    # shellcheck disable=SC2016
-    unshare --mount --pid --fork --kill-child sh -euc '
-        mount -t proc proc "$0/proc"
-        mount --rbind /dev "$0/dev"
-        exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 TERM=dumb \
-            DEBIAN_FRONTEND=noninteractive QTWEBENGINE_DISABLE_SANDBOX=1 LIBGL_ALWAYS_SOFTWARE=1 \
-            PYTHONDONTWRITEBYTECODE=1 sh -euc "cd /root; $1"' "$folder" "$1"
-}
+. tests/releases/folder.sh
 
 # Runs a step; where it fails, says so with the end of its log, and ends.
 step() {
@@ -58,38 +39,22 @@ step() {
     took="$(($(date +%s) - start)) s"
 }
 
-mirror() {
-    [ -n "${MIRROR:-}" ] && echo "$MIRROR" && return
-    cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null |
-        sed -n -E 's/^(URIs:|deb( \[[^]]*\])?) +([^ ]+).*/\3/p' | grep -E '/debian/?$' | head -1 | grep . ||
-        echo http://deb.debian.org/debian
-}
+make_folder
 
-if [ ! -e "$folder/etc/debian_version" ]; then
-    mkdir -p "$folder"
-    debootstrap --variant=minbase "$release" "$folder" "$(mirror)" "$script" >"$folder/debootstrap.log" 2>&1 || {
-        say "debootstrap FAILED, see $folder/debootstrap.log:"
-        tail -5 "$folder/debootstrap.log"
-        exit 1
-    }
-fi
-mkdir -p "$logs"
-echo "deb $(mirror) $release main" >"$folder/etc/apt/sources.list"
-# A mirror frozen at a day has lists that are out of date, which matters in what is not released.
-echo 'Acquire::Check-Valid-Until "false";' >"$folder/etc/apt/apt.conf.d/99femscalpel"
-echo force-unsafe-io >"$folder/etc/dpkg/dpkg.cfg.d/femscalpel" # nobody keeps what a crash would break
-apt-config dump | grep -E '^Acquire::[a-z]+::Proxy ' >>"$folder/etc/apt/apt.conf.d/99femscalpel" || true
-[ ! -e /etc/resolv.conf ] || cp -L /etc/resolv.conf "$folder/etc/resolv.conf"
-
-# The sources as they are here, committed or not, over those of the last time, so that only what changed is built.
-mkdir -p "$folder/root/femscalpel"
-rm -rf "$folder/root/new"
-mkdir "$folder/root/new"
+# The sources as they are here, committed or not, over those of the last time: what is the same keeps its time, so that
+# only what changed is built.
+new=$folder/root/new
+old=$folder/root/femscalpel
+rm -rf "$new"
+mkdir -p "$new" "$old"
 (git ls-files -z --cached --others --exclude-standard | xargs -0 ls -d 2>/dev/null | tar -cf - -T -) |
-    tar -xf - -C "$folder/root/new"
-(cd "$folder/root/femscalpel" && find . -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +)
-cp -a "$folder/root/new/." "$folder/root/femscalpel"
-rm -rf "$folder/root/new"
+    tar -xmf - -C "$new"
+(cd "$new" && find . -type f) | while read -r file; do
+    if cmp -s "$new/$file" "$old/$file"; then cp --preserve=timestamps "$old/$file" "$new/$file"; fi
+done
+[ ! -e "$old/build" ] || mv "$old/build" "$new/build"
+rm -rf "$old"
+mv "$new" "$old"
 
 took=
 failed=
