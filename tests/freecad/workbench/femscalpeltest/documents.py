@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the tests of document objects share."""
 
+import shutil
 import tempfile
 import unittest
 
@@ -44,6 +45,12 @@ def solver_of(doc):
 def set_value(obj, prop, value, unit):
     """Sets a load; up to 0.21 it is a plain number in the solver's units, from 1.0 on a quantity."""
     setattr(obj, prop, f"{value} {unit}" if hasattr(getattr(obj, prop), "UserString") else value)
+
+
+def need(program, name):
+    """Skips the test that runs where a program is not installed."""
+    if not shutil.which(program):
+        raise unittest.SkipTest(f"{name} ({program}) is not installed")
 
 
 class DocumentTest(unittest.TestCase):

@@ -15,7 +15,7 @@ import ObjectsFemScalpel
 from femscalpelobjects.analysis import _is_doubled
 
 from .ccx_deck import Deck
-from .documents import DocumentTest, geometry_link, set_value, solver_of
+from .documents import DocumentTest, geometry_link, need, set_value, solver_of
 
 
 class Analysis(DocumentTest):
@@ -46,8 +46,6 @@ class Analysis(DocumentTest):
         tools = ccxtools.FemToolsCcx(self.analysis, solver_of(self.doc))
         tools.update_objects()
         tools.setup_working_dir(self.folder.name)
-        tools.setup_ccx()
-        self.assertEqual(tools.check_prerequisites(), "")
         return tools
 
     def write(self):
@@ -59,7 +57,10 @@ class Analysis(DocumentTest):
 
     def solve(self):
         """Runs CalculiX as FreeCAD does; returns the deck and the printed results as text."""
+        need("ccx", "CalculiX")
         tools = self.tools()
+        tools.setup_ccx()
+        self.assertEqual(tools.check_prerequisites(), "")
         tools.purge_results()
         tools.write_inp_file()
         self.assertEqual(tools.ccx_run(), 0)

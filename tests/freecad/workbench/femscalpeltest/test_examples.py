@@ -22,7 +22,7 @@ import numpy as np
 import ObjectsFemScalpel
 
 from .ccx_deck import Deck
-from .documents import solver_of
+from .documents import need, solver_of
 
 # Loads, reactions and supported areas do not change by more than this, of their sum of magnitudes.
 EXACT = 1e-6
@@ -118,6 +118,7 @@ class Solved:
     """The deck FreeCAD writes for an analysis, and what CalculiX made of it."""
 
     def __init__(self, doc, pairs=(), solve=True):
+        need("ccx", "CalculiX")
         from femtools import ccxtools
 
         with tempfile.TemporaryDirectory() as folder:
@@ -218,6 +219,7 @@ class ExamplesTest(unittest.TestCase):
         self.doc.recompute()
         source = self.doc.Mesh
         if source.FemMesh.NodeCount == 0:
+            need("gmsh", "Gmsh")
             from femmesh.gmshtools import GmshTools
 
             self.assertFalse(GmshTools(source).create_mesh())

@@ -12,7 +12,7 @@ import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
 
-from .documents import DocumentTest, geometry_link
+from .documents import DocumentTest, geometry_link, need
 
 
 def rounded_box():
@@ -42,6 +42,7 @@ class OnShape(DocumentTest):
         setattr(mesh, geometry_link(mesh), part)
         mesh.ElementOrder = order
         mesh.CharacteristicLengthMax = size
+        need("gmsh", "Gmsh")
         from femmesh.gmshtools import GmshTools
 
         GmshTools(mesh).create_mesh()  # may return mere warnings
