@@ -77,21 +77,22 @@ def test_the_packages_are_all_in_a_section():
 
 def block(name, output, status):
     rule = "-" * 58
-    return (
-        f"{rule}\n1/9 Testing: {name}\n1/9 Test: {name}\nOutput:\n{rule}\n{output}\n<end of output>\n{rule}\n{status}\n"
-    )
+    head = f"{rule}\n\n1/9 Testing: {name}\n1/9 Test: {name}\nOutput:\n"
+    return head + f"{rule}\n{output}\n<end of output>\n{rule}\nTest time =   0.10 sec\n{rule}\n{status}\n"
 
 
 def test_counts_of_a_run_of_ctest():
     log = (
         block("Med.Reads", "[ OK ]", "Test Passed.")
-        + block("Inp.Decks", "skipped", "Test Skipped.")
+        + block(
+            "Inp.Decks", "skipped", "Test Pass Reason:\nSkip regular expression found in output.\nRegex=[[  SKIPPED ]]"
+        )
         + block("Crack.Bad", "no", "Test Failed.")
         + block("python.test_a", "1 failed, 7 passed, 2 skipped in 3.10s", "Test Failed.")
         + block("python.test_b", "5 passed in 0.1s", "Test Passed.")
         + block("freecad.App", "Ran 73 tests in 9.1s\n\nOK (skipped=3)", "Test Passed.")
         + block("gui.All", "Ran 59 tests in 99.1s\n\nFAILED (failures=1, errors=2)", "Test Failed.")
-        + block("gui.stuck", "", "Test Timeout.")
+        + block("gui.stuck", "", "Test Failed.")
     )
     found = [counts.count(*test) for test in counts.read_log(log)]
     assert [(kind, dict(c)) for kind, c in found] == [
@@ -102,5 +103,5 @@ def test_counts_of_a_run_of_ctest():
         ("Python", {"passed": 5}),
         ("FreeCADCmd", {"skipped": 3, "failed": 0, "passed": 70}),
         ("window", {"skipped": 0, "failed": 3, "passed": 56}),
-        ("window", {"timeout": 1, "failed": 1}),
+        ("window", {"failed": 1}),
     ]

@@ -30,18 +30,19 @@ def count(name, status, output):
         counts["failed"] = sum(bad.values())
         counts["passed"] = int(ran[1]) - sum(counts.values())
     else:
-        counts["skipped" if "Skipped" in status else status.lower().rstrip(".")] += 1
-    if "Passed" not in status and "Skipped" not in status:
+        counts[status.lower()] += 1
+    if status == "Failed":
         counts["failed"] = counts["failed"] or 1
     return kind, counts
 
 
 def read_log(text):
     """Yields name, status and output of each test in CTest's LastTest.log."""
-    for block in re.split(r"^-{58}\n\d+/\d+ Testing: ", text, flags=re.MULTILINE)[1:]:
+    for block in re.split(r"^\d+/\d+ Testing: ", text, flags=re.MULTILINE)[1:]:
         name = block.partition("\n")[0]
-        status = re.search(r"^Test (Passed|Failed|Skipped|Timeout|Exception)?[^\n]*$", block, re.MULTILINE)
-        yield name, (status[1] or "failed") if status else "failed", block
+        skipped = re.search(r"^Test Pass Reason:\n.*[Ss]kip", block, re.MULTILINE)
+        status = re.search(r"^Test (Passed|Failed)\.$", block, re.MULTILINE)
+        yield name, "Skipped" if skipped else status[1] if status else "Failed", block
 
 
 def main():
