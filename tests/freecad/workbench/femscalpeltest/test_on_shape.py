@@ -69,6 +69,7 @@ class OnShape(DocumentTest):
         return int((~np.any([mask[cells].all(axis=1) for mask in on], axis=0)).sum())
 
     def test_every_face_is_found_after_random_cracks(self):
+        need("gmsh", "Gmsh")
         random = np.random.default_rng(7)
         cracks = off = refused = 0
         for name in SHAPES:
