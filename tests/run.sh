@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Installs what is missing (Debian 12), builds the release preset, runs all tests but those labelled long. Arguments go
+# Installs what is missing (Debian), builds the release preset, runs all tests but those labelled long. Arguments go
 # to CTest.
 set -eu
 cd "$(dirname "$0")/.."

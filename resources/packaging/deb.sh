@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 {
-    sh resources/setup.sh build
+    sh resources/setup.sh build package
     cmake --preset release
     cmake --build --preset release --target workbench
     rm -rf build/release/packages
