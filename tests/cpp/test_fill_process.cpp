@@ -2,6 +2,7 @@
 #include "cutting/fill_process.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -27,7 +28,8 @@ TEST(FillProcess, SaysWhyNetgenGivesUp) {
 
 TEST(FillProcess, NetgenWorksInOneThreadWhateverTheEnvironmentSays) {
     // A program that takes the request and answers with what it was told, as a failure's text of one character.
-    const std::filesystem::path script = std::filesystem::path(testing::TempDir()) / "femscalpel_echo_threads";
+    const std::filesystem::path script =
+        std::filesystem::path(testing::TempDir()) / ("femscalpel_echo_threads_" + std::to_string(::getpid()));
     std::ofstream(script) << "#!/bin/sh\nhead -c 32 <&3 >/dev/null\n"
                           << "printf '\\001\\000\\000\\000\\000\\000\\000\\000\\000\\000\\000\\000' >&3\n"
                           << "printf %s \"$NGS_NUM_THREADS\" >&3\n";
