@@ -14,9 +14,6 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "cancel.h"
 
@@ -44,25 +41,6 @@ private:
     int number_;
 };
 
-/// The environment of the program: ours, but Netgen works in one thread. Several get in each other's way, many times so
-/// where other processes want the processor, too, and give another mesh each time.
-class Environment {
-public:
-    Environment() {
-        for (char** entry = environ; entry && *entry; ++entry)
-            if (!std::string_view(*entry).starts_with("NGS_NUM_THREADS=")) entries_.push_back(*entry);
-        entries_.push_back(threads_.data());
-        entries_.push_back(nullptr);
-    }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
-    char* const* entries() const { return entries_.data(); }
-
-private:
-    std::string threads_ = "NGS_NUM_THREADS=1";
-    std::vector<char*> entries_;
-};
-
 /// The program running; ended, if it still runs, and waited for at the end.
 class Process {
 public:
@@ -82,9 +60,7 @@ public:
         posix_spawnattr_setsigmask(&attributes, &none);
         std::string name = program;
         char* arguments[] = {name.data(), nullptr};
-        const Environment environment;
-        const int error =
-            posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments, environment.entries());
+        const int error = posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments, environ);
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         if (error != 0) throw Error("cannot start " + program + ": " + std::strerror(error));
