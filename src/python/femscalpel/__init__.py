@@ -13,9 +13,9 @@ or raises an error of class :class:`Error`; `parameter` of these, and of TypeErr
 the name of the parameter at fault. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
 """
 
-from ._loading import load
+from . import _loading
 
-load()
+_loading.load()
 
 from . import tools  # noqa: E402
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
