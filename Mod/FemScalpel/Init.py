@@ -1,8 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """FreeCAD runs this file when it starts. It has put this folder on sys.path by then, so that scripts, macros and saved
-documents can import ObjectsFemScalpel, femmesh_bridge and femscalpel; nothing else needs to be set up but FreeCAD's
-list of tests."""
+documents can import ObjectsFemScalpel, femmesh_bridge and femscalpel; what else needs to be set up is where a clone has
+its parts, and FreeCAD's list of tests. What is missing is said here, or, where there will be a window, by InitGui.py in
+its report view."""
 
 import FreeCAD
 
-FreeCAD.__unit_test__ += ["TestFemScalpelApp"]
+import femscalpel_parts
+
+if femscalpel_parts.missing():
+    if FreeCAD.ConfigGet("RunMode") != "Gui":
+        FreeCAD.Console.PrintWarning(femscalpel_parts.missing().text() + "\n")
+else:
+    FreeCAD.__unit_test__ += ["TestFemScalpelApp"]

@@ -16,22 +16,44 @@ class FemScalpelWorkbench(FreeCADGui.Workbench):
         self.__class__.Icon = icon("FemScalpel")
 
     def Initialize(self):
-        from femscalpelgui import commands
+        import femscalpel_parts
+
+        if femscalpel_parts.missing():
+            from femscalpelgui import missing_part as commands
+        else:
+            from femscalpelgui import commands
 
         toolbar, menu = commands.register()
         self.appendToolbar("FemScalpel", toolbar)
         self.appendMenu("&FemScalpel", menu)
+
+    def Activated(self):
+        import femscalpel_parts
+
+        if femscalpel_parts.missing():
+            from femscalpelgui import missing_part
+
+            missing_part.show_once()
 
     def GetClassName(self):
         return "Gui::PythonWorkbench"
 
 
 # exec() gives functions no sight of this file's names, so everything is done at its top level.
+import femscalpel_parts
+
+femscalpel_parts.find_parts()
 from femscalpelgui.translate import ICONS, PREFERENCES, TRANSLATIONS
 
 FreeCADGui.addLanguagePath(TRANSLATIONS)
 FreeCADGui.updateLocale()
 FreeCADGui.addIconPath(ICONS)
-FreeCADGui.addPreferencePage(PREFERENCES, "FemScalpel")
-FreeCAD.__unit_test__ += ["TestFemScalpelGui"]
+if femscalpel_parts.missing():
+    from femscalpelgui import missing_part
+
+    FreeCAD.Console.PrintWarning(femscalpel_parts.missing().text() + "\n")
+    missing_part.watch_documents()
+else:
+    FreeCADGui.addPreferencePage(PREFERENCES, "FemScalpel")
+    FreeCAD.__unit_test__ += ["TestFemScalpelGui"]
 FreeCADGui.addWorkbench(FemScalpelWorkbench())

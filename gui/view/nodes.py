@@ -92,6 +92,14 @@ class FaceNode(Part):
             inside.addChild(wires)
         else:
             self._lines = None
+        if transparency:
+            # With nothing opaque in the view Coin would not blend: the first corner as a point of one pixel.
+            speck = coin.SoSeparator()
+            paint(speck, rgb, style())
+            point = coin.SoIndexedPointSet()
+            point.coordIndex.setValue(0)
+            speck.addChild(point)
+            inside.addChild(speck)
         offset = coin.SoPolygonOffset()
         offset.factor = 0.5 if in_front else 1.0
         offset.units = 0.5 if in_front else 1.0

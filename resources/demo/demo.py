@@ -9,6 +9,7 @@ and gives the pictures a (virtual) display.
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -89,6 +90,17 @@ def count_elements(mesh: fs.Mesh) -> str:
     return " and ".join(f"{counts[k]} {word}" for k, word in names.items() if counts.get(k))
 
 
+def solve(decks: tuple[Path, Path], mesh: fs.Mesh, cracked: fs.Mesh, kind: str) -> list[calculix.Solution]:
+    """Solves both decks and prints what they have in common; without CalculiX says so and returns nothing."""
+    if not shutil.which("ccx"):
+        say(f"{kind}: CalculiX (ccx) is not installed: nothing is solved, and not drawn how the crack opens")
+        return []
+    say(f"{kind}: ccx solves {' and '.join(path.name for path in decks)}")
+    solutions = calculix.run(list(decks))
+    print("\n" + "\n".join(compare(*solutions, mesh, cracked, STRESS_NAMES[kind])) + "\n", flush=True)
+    return solutions
+
+
 def run_variant(solid: bool, size: float, out: Path, quadrangles: bool = False) -> None:
     kind = "solid" if solid else "shell"
     say(f"{kind}: meshing the caisson with Gmsh")
@@ -123,20 +135,20 @@ def run_variant(solid: bool, size: float, out: Path, quadrangles: bool = False) 
         raise RuntimeError(
             f"the crack added {report.nodes_added} nodes to the MED mesh, {cracked_deck.report.nodes_added} to the deck"
         )
-    say(f"{kind}: ccx solves {' and '.join(path.name for path in files['.inp'])}")
-    solutions = calculix.run(list(files[".inp"]))
-    print("\n" + "\n".join(compare(*solutions, deck, cracked_deck.mesh, STRESS_NAMES[kind])) + "\n", flush=True)
+    solutions = solve(files[".inp"], deck, cracked_deck.mesh, kind)
 
     say(f"{kind}: pictures")
     title = f"Caisson, {kind} model: {count_elements(result.mesh)}, {len(mesh.groups)} groups"
     drawn = [pictures.prepare(m) for m in (mesh, result.mesh)]
     pictures.mesh_picture(out / f"caisson_{kind}_groups.png", title, *drawn)
-    states = [
-        (m, pictures.by_node(m, s.displacement), pictures.by_node(m, s.von_mises())) for m, s in zip(drawn, solutions)
-    ]
-    pictures.opened_picture(
-        out / f"caisson_{kind}_opened.png", f"Caisson, {kind} model", states, MAGNIFICATION, STRESS_NAMES[kind]
-    )
+    if solutions:
+        states = [
+            (m, pictures.by_node(m, s.displacement), pictures.by_node(m, s.von_mises()))
+            for m, s in zip(drawn, solutions)
+        ]
+        pictures.opened_picture(
+            out / f"caisson_{kind}_opened.png", f"Caisson, {kind} model", states, MAGNIFICATION, STRESS_NAMES[kind]
+        )
     pictures.quality_picture(
         out / f"caisson_{kind}_quality.png", f"Caisson, {kind} model: quality near the crack", report.quality
     )

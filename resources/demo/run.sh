@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# The demo: installs what is missing (Debian 12), builds the package, cracks the caisson, solves it, draws it.
+# The demo: installs what is missing (Debian), builds the package, cracks the caisson, solves it, draws it.
 #   resources/demo/run.sh [output folder, default ./femscalpel-demo] [--quadrangles]
 # With --quadrangles, the shell model is of quadrangles instead of triangles.
 set -eu
@@ -14,7 +14,7 @@ for argument; do
 done
 output=$(realpath -m "$output")
 cd "$(dirname "$0")/../.."
-sh resources/setup.sh
+sh resources/setup.sh build demo
 echo "building FemScalpel in build/release"
 cmake --preset release >/dev/null
 cmake --build --preset release --target workbench

@@ -431,6 +431,10 @@
       <translation>Kegel</translation>
     </message>
     <message>
+      <source>Copy the command</source>
+      <translation>Befehl kopieren</translation>
+    </message>
+    <message>
       <source>Crack</source>
       <translation>Riss</translation>
     </message>
@@ -487,6 +491,10 @@
       <translation>Teilt die Elemente nahe einem Zylinder, einer Kugel, einer Ebene, einer CAD-Fläche oder einem anderen Werkzeug, bis ihre Kanten so kurz sind wie verlangt; zum übrigen Netz hin wachsen sie mit der Abstufung. Dort nützlich, wo ein Riss oder eine Bohrung ein feineres Netz um sich braucht. Alle Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
+      <source>Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is missing, nor after the document was saved without it. Close it without saving.</source>
+      <translation>Dokument %1 hat Objekte von FemScalpel (%2), die nicht neu berechnet werden, solange ein Teil von FemScalpel fehlt, und auch nicht mehr, wenn das Dokument ohne ihn gespeichert wurde. Schließen Sie es, ohne zu speichern.</translation>
+    </message>
+    <message>
       <source>Double-click to change the colour</source>
       <translation>Doppelklick ändert die Farbe</translation>
     </message>
@@ -529,6 +537,10 @@
     <message>
       <source>Export mesh…</source>
       <translation>Netz exportieren…</translation>
+    </message>
+    <message>
+      <source>FemScalpel cannot run: %1</source>
+      <translation>FemScalpel kann nicht arbeiten: %1</translation>
     </message>
     <message>
       <source>Fillet</source>
@@ -867,6 +879,14 @@
       <translation>Die ganze Ebene</translation>
     </message>
     <message>
+      <source>This command brings it; start FreeCAD anew then:
+
+%1</source>
+      <translation>Dieser Befehl bringt es; starten Sie FreeCAD danach neu:
+
+%1</translation>
+    </message>
+    <message>
       <source>This workbench was built without its example: Gmsh was not there.</source>
       <translation>Diese Arbeitsumgebung wurde ohne ihr Beispiel gebaut: Gmsh war nicht da.</translation>
     </message>
@@ -1196,6 +1216,17 @@
     <message>
       <source>snap: move and split</source>
       <translation>snap: bewegen und teilen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_WhatIsMissing</name>
+    <message>
+      <source>Says which part of FemScalpel is missing and which command brings it</source>
+      <translation>Sagt, welcher Teil von FemScalpel fehlt und welcher Befehl ihn bringt</translation>
+    </message>
+    <message>
+      <source>What is missing...</source>
+      <translation>Was fehlt...</translation>
     </message>
   </context>
   <context>

@@ -431,6 +431,10 @@
       <translation>Cône</translation>
     </message>
     <message>
+      <source>Copy the command</source>
+      <translation>Copier la commande</translation>
+    </message>
+    <message>
       <source>Crack</source>
       <translation>Fissure</translation>
     </message>
@@ -487,6 +491,10 @@
       <translation>Divise les éléments près d'un cylindre, d'une sphère, d'un plan, d'une face CAO ou d'un autre outil jusqu'à ce que leurs arêtes soient aussi courtes que demandé, en grandissant vers le reste du maillage selon la gradation. Utile là où une fissure ou un trou demande un maillage plus fin autour de lui. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
+      <source>Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is missing, nor after the document was saved without it. Close it without saving.</source>
+      <translation>Le document %1 a des objets de FemScalpel (%2), qui ne sont pas recalculés tant qu'une partie de FemScalpel manque, ni après que le document a été enregistré sans elle. Fermez-le sans enregistrer.</translation>
+    </message>
+    <message>
       <source>Double-click to change the colour</source>
       <translation>Double-cliquez pour changer la couleur</translation>
     </message>
@@ -529,6 +537,10 @@
     <message>
       <source>Export mesh…</source>
       <translation>Exporter le maillage…</translation>
+    </message>
+    <message>
+      <source>FemScalpel cannot run: %1</source>
+      <translation>FemScalpel ne peut pas fonctionner : %1</translation>
     </message>
     <message>
       <source>Fillet</source>
@@ -867,6 +879,14 @@
       <translation>Tout le plan</translation>
     </message>
     <message>
+      <source>This command brings it; start FreeCAD anew then:
+
+%1</source>
+      <translation>Cette commande l'apporte ; redémarrez ensuite FreeCAD :
+
+%1</translation>
+    </message>
+    <message>
       <source>This workbench was built without its example: Gmsh was not there.</source>
       <translation>Cet atelier a été construit sans son exemple : Gmsh n'était pas là.</translation>
     </message>
@@ -1196,6 +1216,17 @@
     <message>
       <source>snap: move and split</source>
       <translation>snap : déplacer et diviser</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_WhatIsMissing</name>
+    <message>
+      <source>Says which part of FemScalpel is missing and which command brings it</source>
+      <translation>Dit quelle partie de FemScalpel manque et quelle commande l'apporte</translation>
+    </message>
+    <message>
+      <source>What is missing...</source>
+      <translation>Ce qui manque...</translation>
     </message>
   </context>
   <context>

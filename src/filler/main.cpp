@@ -3,6 +3,7 @@
 // Fills the cavity that comes through a socket by Netgen's library, and sends the tetrahedra back; see
 // cutting/fill_protocol.h. Netgen (J. Schoeberl, "NETGEN: An advancing front 2D/3D-mesh generator based on abstract
 // rules", Comput. Visual. Sci. 1, 1997) is under the LGPL.
+#include <dlfcn.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -174,11 +175,33 @@ Filling best_filling(const Cavity& cavity) {
     return best;
 }
 
+/// A function of Netgen's, by its name in the library, or null where this Netgen has none.
+template <class F>
+F* netgen_function(const char* name) {
+    return reinterpret_cast<F*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// Newer Netgens fill in four threads that wait for each other in loops, which takes many times as long where other
+/// processes want the processor, too; they start none where a pool of threads is there. So there is one, of one thread.
+/// The functions are looked for by name, as Netgen 6.2.19 has neither them nor their header.
+void work_in_one_thread() {
+    if (auto* start = netgen_function<int(int)>("_ZN6ngcore16EnterTaskManagerEi")) {
+        start(1);
+        return;
+    }
+    auto* set_threads = netgen_function<void(int)>("_ZN6ngcore11TaskManager13SetNumThreadsEi");
+    auto* start = netgen_function<int()>("_ZN6ngcore16EnterTaskManagerEv");
+    if (!set_threads || !start) return;
+    set_threads(1);
+    start();
+}
+
 }  // namespace
 
 int main() {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const Cavity cavity = receive_cavity();
+    work_in_one_thread();
     nglib::Ng_Init();
     const Filling filling = best_filling(cavity);
     Answer answer{};

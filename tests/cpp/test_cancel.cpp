@@ -2,6 +2,7 @@
 #include "cancel.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -133,7 +134,8 @@ TEST(CancelTest, ASessionGoesOnAsIfNothingHadBeen) {
 }
 
 TEST(CancelTest, ADeckIsCarriedOverOrNot) {
-    const fs::path path = fs::path(testing::TempDir()) / "femscalpel_cancel_deck.inp";
+    const fs::path path =
+        fs::path(testing::TempDir()) / ("femscalpel_cancel_deck_" + std::to_string(::getpid()) + ".inp");
     {
         write(box_with_groups(), path);
         std::ofstream out(path, std::ios::app);
@@ -148,7 +150,7 @@ TEST(CancelTest, ADeckIsCarriedOverOrNot) {
 }
 
 TEST(CancelTest, ReadingEndsAndWritingLeavesTheOldFile) {
-    const fs::path folder = fs::path(testing::TempDir()) / "femscalpel_cancel_files";
+    const fs::path folder = fs::path(testing::TempDir()) / ("femscalpel_cancel_files_" + std::to_string(::getpid()));
     fs::remove_all(folder);
     fs::create_directories(folder);
     const Mesh mesh = box_with_groups();

@@ -30,10 +30,10 @@ using namespace checks;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const GroupRecord& record(const Result& result, const std::string& name, GroupKind kind) {
+const GroupRecord& record(const Result& result, std::string_view name, GroupKind kind) {
     for (const GroupRecord& r : result.report.groups)
         if (r.name == name && r.kind == kind) return r;
-    throw Error("no record of " + name);
+    throw Error("no record of " + std::string(name));
 }
 
 /// Largest distance of a group's nodes, or of its elements' nodes, from a plane.

@@ -853,7 +853,10 @@ std::vector<fs::path> real_decks() {
 
 /// Decks that cannot be read, and why.
 const std::map<std::string, std::string> unreadable = {
-    {"beamread.inp", "there are no nodes in this file"},  // takes its mesh from a restart file
+    // They take their mesh from a restart file; all but the first come with CalculiX 2.22.
+    {"beamread.inp", "there are no nodes in this file"},  {"beamread2.inp", "there are no nodes in this file"},
+    {"beamread3.inp", "there are no nodes in this file"}, {"beamread4.inp", "there are no nodes in this file"},
+    {"beamhtfc2.inp", "there are no nodes in this file"},
 };
 
 /// Makes every set be listed anew: pretends that its cards named one more number when they were read.
@@ -868,10 +871,11 @@ Mesh with_sets_listed_anew(const Mesh& mesh) {
 TEST_F(Inp, CalculixDecksRoundTrip) {
     const auto decks = real_decks();
     if (decks.empty()) GTEST_SKIP() << "Debian package calculix-ccx-test is not installed";
-    Index read_decks = 0;
+    Index read_decks = 0, refused = 0;
     for (const fs::path& path : decks) {
         SCOPED_TRACE(path.string());
         if (const auto reason = unreadable.find(path.filename().string()); reason != unreadable.end()) {
+            ++refused;
             try {
                 read_inp(path);
                 ADD_FAILURE() << "could be read";
@@ -900,7 +904,7 @@ TEST_F(Inp, CalculixDecksRoundTrip) {
         again.validate();
         if (describe(again) != describe(other)) ADD_FAILURE() << "the deck changed";
     }
-    EXPECT_EQ(read_decks + static_cast<Index>(unreadable.size()), static_cast<Index>(decks.size()));
+    EXPECT_EQ(read_decks + refused, static_cast<Index>(decks.size()));
 }
 
 TEST_F(Inp, DamagedDecksGiveAMeshOrAReadError) {

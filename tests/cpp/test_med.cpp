@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <med.h>
+#include <unistd.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -39,7 +40,8 @@ class MedTest : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        directory_ = fs::path(testing::TempDir()) / (std::string("femscalpel_med_") + info->name());
+        directory_ = fs::path(testing::TempDir()) /
+                     ("femscalpel_med_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
         fs::remove_all(directory_);
         fs::create_directories(directory_);
         path_ = directory_ / "m.med";

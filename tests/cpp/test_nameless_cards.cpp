@@ -28,7 +28,18 @@ TEST(CardContents, EveryCardOfCalculixsDecksIsKnown) {
         for (const Card& card : solver_input(mesh)->cards())
             if (!rules.find(card)) unknown.insert(card.keyword + " in " + name);
     }
-    EXPECT_THAT(unknown, ElementsAre("MEMBRANE in c3d6.inp"));  // CalculiX does not know it either
+    // CalculiX does not know the first either; the others come with version 2.22.
+    const std::set<std::string> expected = {"MEMBRANE in c3d6.inp",
+                                            "ENDASSEMBLY in lin_stat_initial_temp_condition.inp",
+                                            "ENDASSEMBLY in lin_stat_th_gradient.inp",
+                                            "MATRIXASSEMBLE in beamfsuper.inp",
+                                            "MATRIXASSEMBLE in beampsuper.inp",
+                                            "MATRIXASSEMBLE in beampsuper2.inp",
+                                            "MATRIXASSEMBLE in segmentsuper.inp",
+                                            "PART in lin_stat_twisted_beam.inp",
+                                            "RATEDEPENDENT in beam8pjc.inp"};
+    EXPECT_THAT(unknown, testing::IsSubsetOf(expected));
+    EXPECT_THAT(unknown, testing::Contains("MEMBRANE in c3d6.inp"));
 }
 
 TEST_F(NamelessCardsRule, AreKnownByTheirFirstLetters) {

@@ -29,14 +29,16 @@ def verdict(output):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--freecadcmd", required=True)
-    parser.add_argument("--workbench", required=True, help="folder Mod/FemScalpel to test")
+    parser.add_argument("--workbench", help="folder Mod/FemScalpel to test; without, the one that is installed")
     parser.add_argument("--path", action="append", default=[], help="further folder with Python modules")
     parser.add_argument("module")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as home:
         # A user folder of its own, so that neither add-ons nor settings of this user play a part.
         environment = {**os.environ, "FREECAD_USER_HOME": home, "PYTHONDONTWRITEBYTECODE": "1"}
-        command = [arguments.freecadcmd, "-t", arguments.module, "-M", arguments.workbench]
+        command = [arguments.freecadcmd, "-t", arguments.module]
+        if arguments.workbench:
+            command += ["-M", arguments.workbench]
         for path in arguments.path:
             command += ["-P", path]
         done = subprocess.run(

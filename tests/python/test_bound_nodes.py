@@ -2,6 +2,7 @@
 """Pyramids beside nodes that a deck's cards make dependent (CalculiX takes their tip for four nodes), loads that cards
 give twice, and sets whose order counts."""
 
+import os
 import re
 import subprocess
 
@@ -13,6 +14,14 @@ from calculix_runs import solve
 from mixed_meshes import grid, second_order
 
 TESTS = "/usr/share/doc/calculix-ccx-test/examples/test"
+
+
+def calculix_deck(name):
+    """Path of one of CalculiX's own decks, which Debian packs in some releases; skips the test where there is none."""
+    for path in (f"{TESTS}/{name}.inp", f"{TESTS}/{name}.inp.gz"):
+        if os.path.exists(path):
+            return path
+    return pytest.skip("Debian package calculix-ccx-test is not installed")
 
 
 def cards(points, cells, label, first=0, start=0):
@@ -89,7 +98,7 @@ def test_second_order_beside_a_tie(tmp_path, axis, at):
 
 def test_pyramids_beside_cyclic_symmetry(tmp_path):
     """The four rigid-body modes of a disk's segment stay near zero."""
-    mesh = fs.read(f"{TESTS}/segment.inp.gz")
+    mesh = fs.read(calculix_deck("segment"))
     centre = (mesh.points.min(axis=0) + mesh.points.max(axis=0)) / 2 + (0, 0.2, 0)
     found = []
     for m in (mesh, fs.refine(mesh, near=centre, size=0.08).mesh):
@@ -142,7 +151,7 @@ def test_a_load_given_twice_stays_twice(tmp_path, load):
 
 def test_order_of_a_set_that_an_mpc_names(tmp_path):
     """*MPC PLANE takes its plane from the set's first three nodes."""
-    mesh = fs.read(f"{TESTS}/beamplane.inp.gz")
+    mesh = fs.read(calculix_deck("beamplane"))
     part = fs.HalfPlane((0.35, 0.5, 4.32), (-1, 0, 0))
     result = fs.crack(mesh, fs.Plane((0.5, 0.5, 4.32), (0, 0.1, 1)), within=part, strict=True)
 

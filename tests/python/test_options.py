@@ -23,7 +23,8 @@ def test_every_operator_has_it(option):
         assert parameter.annotation == option.annotation
         assert option.name == "name" or parameter.default == option.default
     if option.text:
-        assert f"    {option.name} : {option.kind}\n        {option.text.split()[0]}" in fs.crack.__doc__
+        assert f"\n{option.name} : {option.kind}\n    {option.text.split()[0]}" in fs.crack.__doc__
+    assert not [o for o in OPERATORS if "{options}" in o.__doc__]
 
 
 def test_the_order_of_parameters_stays():

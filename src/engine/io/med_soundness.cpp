@@ -59,6 +59,12 @@ herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void*)
     return good ? 0 : -1;
 }
 
+#if H5_VERSION_GE(1, 12, 0)  // H5O_info_t is H5O_info2_t from then on
+constexpr auto visit_objects = H5Ovisit3;
+#else
+constexpr auto visit_objects = H5Ovisit2;
+#endif
+
 }  // namespace
 
 bool is_sound_med(const std::string& path) {
@@ -71,8 +77,8 @@ bool is_sound_med(const std::string& path) {
         if (there == 0) continue;
         const hid_t group = H5Gopen2(file, part, H5P_DEFAULT);
         if (group < 0) return false;
-        const herr_t walked =
-            H5Ovisit2(group, H5_INDEX_NAME, H5_ITER_NATIVE, check_object, nullptr, H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS);
+        const herr_t walked = visit_objects(group, H5_INDEX_NAME, H5_ITER_NATIVE, check_object, nullptr,
+                                            H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS);
         H5Gclose(group);
         if (walked < 0) return false;
     }

@@ -21,9 +21,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-const Plane& plane_for(const Tool& tool, const std::string& shape) {
+const Plane& plane_for(const Tool& tool, const char* shape) {
     const auto* plane = dynamic_cast<const Plane*>(&tool);
-    if (!plane) throw ToolError("within: a " + shape + " lies in a plane, but the tool is a " + tool.kind(), "within");
+    if (!plane)
+        throw ToolError(std::string("within: a ") + shape + " lies in a plane, but the tool is a " + tool.kind(),
+                        "within");
     return *plane;
 }
 

@@ -13,7 +13,11 @@ or raises an error of class :class:`Error`; `parameter` of these, and of TypeErr
 the name of the parameter at fault. Ctrl-C (KeyboardInterrupt) and :class:`CancelToken` end what takes long.
 """
 
-from . import tools
+from . import _loading
+
+_loading.load()
+
+from . import tools  # noqa: E402
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
 from .cancel import CancelToken
 from .connected import Piece, pieces

@@ -51,8 +51,10 @@ def takes(after=None, **tables):
 
         taking.__signature__ = signature
         del taking.__wrapped__
+        # Python from 3.13 on takes the indentation away itself.
+        taking.__doc__ = inspect.cleandoc(function.__doc__)
         for key, table in tables.items():
-            taking.__doc__ = taking.__doc__.replace(f"    {{{key}}}\n", "".join(map(_described, table)))
+            taking.__doc__ = taking.__doc__.replace(f"{{{key}}}\n", "".join(map(_described, table)))
         return taking
 
     return decorate
@@ -82,4 +84,4 @@ def _described(argument):
     if not argument.text:
         return ""
     lines = textwrap.wrap(argument.text, 112)
-    return "".join([f"    {argument.name} : {argument.kind}\n", *(f"        {line}\n" for line in lines)])
+    return "".join([f"{argument.name} : {argument.kind}\n", *(f"    {line}\n" for line in lines)])

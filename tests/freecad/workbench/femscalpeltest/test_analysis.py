@@ -15,7 +15,7 @@ import ObjectsFemScalpel
 from femscalpelobjects.analysis import _is_doubled
 
 from .ccx_deck import Deck
-from .documents import DocumentTest
+from .documents import DocumentTest, geometry_link, need, set_value, solver_of
 
 
 class Analysis(DocumentTest):
@@ -33,7 +33,7 @@ class Analysis(DocumentTest):
         self.doc.ConstraintFixed.References = [(self.box, ("Face1", "Face2"))]
         force = ObjectsFem.makeConstraintForce(self.doc, "Load")
         force.References = [(self.box, "Face6")]
-        force.Force = self.LOAD
+        set_value(force, "Force", self.LOAD, "N")
         force.Direction = (self.box, ["Edge1"])
         self.analysis.addObject(force)
         self.doc.recompute()
@@ -43,11 +43,9 @@ class Analysis(DocumentTest):
     def tools(self):
         from femtools import ccxtools
 
-        tools = ccxtools.FemToolsCcx(self.analysis, self.doc.CalculiXccxTools)
+        tools = ccxtools.FemToolsCcx(self.analysis, solver_of(self.doc))
         tools.update_objects()
         tools.setup_working_dir(self.folder.name)
-        tools.setup_ccx()
-        self.assertEqual(tools.check_prerequisites(), "")
         return tools
 
     def write(self):
@@ -59,7 +57,10 @@ class Analysis(DocumentTest):
 
     def solve(self):
         """Runs CalculiX as FreeCAD does; returns the deck and the printed results as text."""
+        need("ccx", "CalculiX")
         tools = self.tools()
+        tools.setup_ccx()
+        self.assertEqual(tools.check_prerequisites(), "")
         tools.purge_results()
         tools.write_inp_file()
         self.assertEqual(tools.ccx_run(), 0)
@@ -100,7 +101,7 @@ class Analysis(DocumentTest):
         self.assertEqual(ObjectsFemScalpel.putIntoAnalysis(self.crack), self.analysis)
         self.assertEqual(get_mesh_to_solve(self.analysis)[0], self.crack)
         self.assertNotIn(self.source, self.analysis.Group)
-        self.assertEqual(self.crack.Part, self.box)
+        self.assertEqual(getattr(self.crack, geometry_link(self.source)), self.box)
         with self.assertRaises(ValueError):
             ObjectsFemScalpel.putIntoAnalysis(self.crack)
         self.assertEqual(ObjectsFemScalpel.takeOutOfAnalysis(self.crack), self.analysis)
@@ -142,7 +143,7 @@ class Analysis(DocumentTest):
         femmesh.addGroupElements(femmesh.addGroup("FemMaterial_Volumes", "Volume"), list(femmesh.Volumes))
         pressure = ObjectsFem.makeConstraintPressure(self.doc, "Pressure")
         pressure.References = [(self.box, "Face6")]  # the group says otherwise, and comes first
-        pressure.Pressure = 1000
+        set_value(pressure, "Pressure", 1000, "MPa")
         self.analysis.addObject(pressure)
         self.source.FemMesh = femmesh
         self.crack.PlanePlacement = FreeCAD.Placement(FreeCAD.Vector(4000, 500, 400), FreeCAD.Rotation(3, 4, 0))
@@ -242,7 +243,7 @@ class Analysis(DocumentTest):
         # FreeCAD writes no force at all for a vertex with two nodes.
         force = ObjectsFem.makeConstraintForce(self.doc, "AtCorner")
         force.References = [(self.box, ("Vertex5", "Vertex8"))]
-        force.Force = 1000
+        set_value(force, "Force", 1000, "N")
         force.Direction = (self.box, ["Edge1"])
         self.analysis.addObject(force)
         points = [self.box.Shape.getElement(name).Point for name in ("Vertex5", "Vertex8")]

@@ -10,7 +10,7 @@ The planes leave every part with a support of its own. Where there is none (an i
 the lips are tied in the deck.
 """
 
-import importlib
+import importlib.util
 import os
 import re
 import tempfile
@@ -22,6 +22,7 @@ import numpy as np
 import ObjectsFemScalpel
 
 from .ccx_deck import Deck
+from .documents import need, solver_of
 
 # Loads, reactions and supported areas do not change by more than this, of their sum of magnitudes.
 EXACT = 1e-6
@@ -30,6 +31,8 @@ EXACT = 1e-6
 CURVED = 5e-3
 # CalculiX stops iterating a coupled or nonlinear step at about this much out of balance, with and without a crack.
 ITERATED = 1e-5
+# Names that FreeCAD's examples have from 1.0 on.
+RENAMED = {"thermomech_bimetall": "thermomech_bimetal"}
 
 
 class Example:
@@ -66,7 +69,8 @@ SOLIDS = (
     Example("ccx_cantilever_faceload", (4000, 500, 520), (0, 0.1, 1)),
     Example("ccx_cantilever_nodeload", (4000, 500, 520), (0, 0.1, 1)),
     Example("ccx_cantilever_prescribeddisplacement", (4000, 500, 520), (0, 0.1, 1)),
-    Example("constraint_centrif", (30, 0, 0), (1, 0.3, 0), measure=CURVED, load=CURVED),
+    # In FreeCAD 1.0 the outer parts that the crack cuts off are not held.
+    Example("constraint_centrif", (30, 0, 0), (1, 0.3, 0), tie=True, measure=CURVED, load=CURVED),
     Example("constraint_contact_solid_solid", (236, 0, 0), (1, 0.05, 0), measure=CURVED),
     Example("constraint_section_print", (0, 0, 1), (0, 0, 1), measure=CURVED),
     Example("constraint_selfweight_cantilever", (0, 500, 520), (0, 0.1, 1)),
@@ -114,10 +118,11 @@ class Solved:
     """The deck FreeCAD writes for an analysis, and what CalculiX made of it."""
 
     def __init__(self, doc, pairs=(), solve=True):
+        need("ccx", "CalculiX")
         from femtools import ccxtools
 
         with tempfile.TemporaryDirectory() as folder:
-            tools = ccxtools.FemToolsCcx(doc.Analysis, doc.CalculiXccxTools)
+            tools = ccxtools.FemToolsCcx(doc.Analysis, solver_of(doc))
             tools.update_objects()
             tools.setup_working_dir(folder)
             tools.setup_ccx()
@@ -205,11 +210,16 @@ class ExamplesTest(unittest.TestCase):
             cls.table.clear()
 
     def check(self, example, prepare=None):
-        module = importlib.import_module("femexamples." + example.module)
+        names = [example.module, RENAMED.get(example.module, example.module)]
+        name = next((n for n in names if importlib.util.find_spec("femexamples." + n)), None)
+        if name is None:
+            self.skipTest(f"this FreeCAD has no example {example.module}")
+        module = importlib.import_module("femexamples." + name)
         module.setup(self.doc, solvertype="ccxtools")
         self.doc.recompute()
         source = self.doc.Mesh
         if source.FemMesh.NodeCount == 0:
+            need("gmsh", "Gmsh")
             from femmesh.gmshtools import GmshTools
 
             self.assertFalse(GmshTools(source).create_mesh())

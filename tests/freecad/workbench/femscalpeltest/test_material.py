@@ -12,7 +12,7 @@ import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
 
-from .documents import DocumentTest, content
+from .documents import DocumentTest, content, geometry_link, need
 from .meshes import box_with_groups, grid_box, tetra_volumes
 
 
@@ -222,8 +222,9 @@ class Merge(MaterialTest):
         part.Length, part.Width, part.Height = 2, 1.5, 1
         part.Placement = place(1.53, 1.54, 4)
         self.doc.recompute()
+        need("gmsh", "Gmsh")
         meshed = ObjectsFem.makeMeshGmsh(self.doc, "BossMesh")
-        meshed.Part = part
+        setattr(meshed, geometry_link(meshed), part)
         meshed.CharacteristicLengthMax = 0.8
         from femmesh.gmshtools import GmshTools
 

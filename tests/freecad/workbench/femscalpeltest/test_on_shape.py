@@ -12,7 +12,7 @@ import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
 
-from .documents import DocumentTest
+from .documents import DocumentTest, geometry_link, need
 
 
 def rounded_box():
@@ -39,9 +39,10 @@ class OnShape(DocumentTest):
         part = self.doc.addObject("Part::Feature", "Geometry")
         part.Shape = SHAPES[name]()
         mesh = ObjectsFem.makeMeshGmsh(self.doc, "Mesh")
-        mesh.Part = part
+        setattr(mesh, geometry_link(mesh), part)
         mesh.ElementOrder = order
         mesh.CharacteristicLengthMax = size
+        need("gmsh", "Gmsh")
         from femmesh.gmshtools import GmshTools
 
         GmshTools(mesh).create_mesh()  # may return mere warnings
@@ -68,6 +69,7 @@ class OnShape(DocumentTest):
         return int((~np.any([mask[cells].all(axis=1) for mask in on], axis=0)).sum())
 
     def test_every_face_is_found_after_random_cracks(self):
+        need("gmsh", "Gmsh")
         random = np.random.default_rng(7)
         cracks = off = refused = 0
         for name in SHAPES:
@@ -219,7 +221,7 @@ class OnShape(DocumentTest):
 
     def test_without_geometry_those_the_analysis_refers_to(self):
         shape, source = self.mesh_of("cylinder", "1st", 4)
-        source.Part = None
+        setattr(source, geometry_link(source), None)
         analysis = ObjectsFem.makeAnalysis(self.doc, "Analysis")
         fixed = ObjectsFem.makeConstraintFixed(self.doc, "Fixed")
         fixed.References = [(self.doc.Geometry, "Face1")]

@@ -281,8 +281,8 @@ class Operators(DocumentTest):
                 expected = ["doc", "source", *text.format(group).split()]
                 self.assertEqual(found[: len(expected)], expected)
                 self.assertTrue(all(p.kind == p.POSITIONAL_OR_KEYWORD for p in parameters))
-                section = function.__doc__.split("    ----------\n")[1].split("\n\n")[0]
-                named = re.findall(r"^    (\w+(?:, \w+)*)(?: :|$)", section, re.M)
+                section = function.__doc__.split("\n----------\n")[1].split("\n\n")[0]
+                named = re.findall(r"^(\w+(?:, \w+)*)(?: :|$)", section, re.M)
                 self.assertEqual(set(", ".join(named).split(", ")), {p.name for p in parameters})
         with self.assertRaisesRegex(TypeError, r"makeDrill\(\) got an unexpected keyword argument 'size'"):
             ObjectsFemScalpel.makeDrill(self.doc, self.source, size=1)

@@ -417,7 +417,7 @@ class CrackMessages(CrackTest):
         self.assertIn("character", self.wait_for_message("nameError"))
         screenshot("crack_bad_name")
         type_into("groupName", "A" * 30)
-        wait_until(lambda: "too long" in widget("nameError").text(), "the message")
+        wait_until(lambda: is_shown("nameError") and "too long" in widget("nameError").text(), "the message")
         type_into("groupName", "CRACK")
         wait_until(lambda: not is_shown("nameError"), "the message to go")
         type_into("originX", "50")

@@ -11,6 +11,7 @@ from femmesh.gmshtools import GmshTools
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest
 from .test_crack_panel import enter_plane, long_box
+from femscalpeltest.documents import geometry_link
 
 
 class Tour(GuiTest):
@@ -76,7 +77,8 @@ class Tour(GuiTest):
         rib.Placement.Base = FreeCAD.Vector(0.63, 2.17, 4)
         self.doc.recompute()
         mesh = ObjectsFem.makeMeshGmsh(self.doc, "RibMesh")
-        mesh.Part, mesh.CharacteristicLengthMax, mesh.ElementOrder = rib, 0.6, "1st"
+        setattr(mesh, geometry_link(mesh), rib)
+        mesh.CharacteristicLengthMax, mesh.ElementOrder = 0.6, "1st"
         GmshTools(mesh).create_mesh()
         rib.ViewObject.Visibility = False
         self.doc.recompute()
