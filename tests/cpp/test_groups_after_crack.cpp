@@ -633,7 +633,7 @@ TEST_P(RandomGroupsCracked, MembersAreTheImage) {
         }
     }
     EXPECT_GT(cracked, 1);
-    EXPECT_GT(compared, 20);
+    EXPECT_GT(compared, 10);  // not where nodes are held beside the plane, of which there are many here
     std::cout << "[   GROUPS ] " << cracked << " of 4 meshes cracked, " << group_count
               << " groups each: " << checked_nodes << " of " << born
               << " (new node, node group) pairs checked by place, " << joined << " of them members, " << unclear

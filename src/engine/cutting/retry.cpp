@@ -120,6 +120,38 @@ void for_parts(const BandMesh& band, const Slots& slots, auto visit) {
     look(band.triangles, slots.triangles);
 }
 
+/// How many face and line elements with a node held beside the tool lie on it between two sides of the material: lips
+/// would have each twice, and with it what it carries.
+int elements_laid_flat(const Workpiece& f) {
+    const BandMesh& band = f.d.band;
+    const auto touches = [&](int v) { return f.d.contact[v].has(f.tool); };
+    const auto is_parted = [&](const auto& nodes) {
+        bool positive = false, negative = false;
+        const auto look = [&](const auto& list, int s) {
+            const auto& own = list[s];
+            if (!std::ranges::all_of(nodes, [&](int v) { return std::ranges::find(own, v) != own.end(); })) return;
+            for (const int v : own) {
+                positive = positive || (!touches(v) && f.distance[v] > 0);
+                negative = negative || (!touches(v) && f.distance[v] < 0);
+            }
+        };
+        for (const int s : band.tetras.around(nodes[0])) look(band.tetras, s);
+        for (const int s : band.triangles.around(nodes[0]))
+            if (f.d.constraints.is_shell(band.triangles.origin(s))) look(band.triangles, s);
+        return positive && negative;
+    };
+    int count = 0;
+    const auto look = [&](const auto& list, auto counts) {
+        for (int s = 0; s < list.size(); ++s)
+            if (list.alive(s) && counts(s) && std::ranges::all_of(list[s], touches) &&
+                std::ranges::any_of(list[s], [&](int v) { return f.d.held_off[v] > 0; }))
+                count += is_parted(list[s]);
+    };
+    look(band.lines, [](int) { return true; });
+    look(band.triangles, [&](int s) { return !f.d.constraints.is_shell(band.triangles.origin(s)); });
+    return count;
+}
+
 int element_count(const BandMesh& band) { return band.tetras.size() + band.triangles.size(); }
 
 /// Bisects the edges of some elements, longest first; of those already divided, the parts at the places only. Halves
@@ -252,12 +284,13 @@ private:
     Verdict judge(Slots& poor) {
         const double enough = f_.d.mids.any() ? second_order_quality : poor_quality;
         const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
-        const bool too_little = best_ && held_far_ && !has_two_sides();
-        if (quality >= enough && !too_little) return Verdict::good;
+        const bool too_far =
+            best_ && held_far_ && (!has_two_sides() || elements_laid_flat(f_) > elements_laid_flat(*best_));
+        if (quality >= enough && !too_far) return Verdict::good;
         const double lips = lips_of_node_ * static_cast<double>(f_.nodes.size());
         const double more = element_count(f_.d.band) + lips - elements_;
         const bool too_many = more > (largest_growth - 1) * mesh_elements_;
-        is_best_ = quality > best_quality_ && !too_little && !(too_many && best_ && best_quality_ >= hold_quality);
+        is_best_ = quality > best_quality_ && !too_far && !(too_many && best_ && best_quality_ >= hold_quality);
         if (is_best_) {
             best_quality_ = quality;
             best_ = std::move(f_);
