@@ -107,9 +107,10 @@ private:
                     if (!after_.families.contains(b.families[c], *g)) continue;
                     const auto n = b.nodes(c).first(static_cast<std::size_t>(traits(b.type).corners));
                     for (const Index v : n) {
-                        if (std::abs(surface_.distance(at(v))) > tolerance())
+                        // What is held beside the tool is reported.
+                        if (std::abs(surface_.distance(at(v))) > tolerance() + report_.held.largest)
                             say("off the tool", "node ", after_.node_ids[v], " by ", surface_.distance(at(v)));
-                        if (surface_.border && surface_.border(at(v)) > 1e3 * tolerance())
+                        if (surface_.border && surface_.border(at(v)) > 1e3 * tolerance() + report_.held.largest)
                             say("beyond the front", "node ", after_.node_ids[v], " by ", surface_.border(at(v)));
                     }
                     std::vector<Index> key(n.begin(), n.end());

@@ -79,7 +79,9 @@ private:
     }
 
     void improve(const CellRef& poor) {
-        const CellRef cell = own_.at({poor.type, poor.cell});
+        const auto own = own_.find({poor.type, poor.cell});
+        if (own == own_.end()) return;  // all of its quadrangles stay
+        const CellRef cell = own->second;
         double best = quality(cell, out_);
         if (best >= good_parts) return;
         std::vector<const Face*> faces;
