@@ -23,11 +23,13 @@ struct LineFields {
     void cut(std::size_t count);
 };
 
-/// Makes another card of one, line for line, so that messages name the lines of the user's file. A line of data goes to
-/// `change` together with its number among the card's data lines, from 0, and a function that says where it stands
-/// ("deck.inp:12: "). Comments stay. The text of lines that do not change does not.
+/// Says where a line stands ("deck.inp:12: ").
 using Where = std::function<std::string()>;
+/// Changes a line of data, of that number among the card's data lines, from 0.
 using ChangeLine = std::function<void(LineFields& line, std::size_t number, const Where& where)>;
+
+/// Makes another card of one, line for line, so that messages name the lines of the user's file: each line of data by
+/// `change`. Comments stay. The text of lines that do not change does not.
 void change_lines(Card& card, const ChangeLine& change);
 
 /// Puts other parameters on the keyword line of a card: those without a value there are left out of the ones they have.
