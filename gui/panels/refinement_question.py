@@ -64,7 +64,12 @@ class RefinementQuestion:
             self._fitting.setText(
                 translate("FemScalpel", "Refine to edges of %1 instead").replace("%1", length_text(error.fitting))
             )
+        self._box.setEnabled(True)
         self._box.show()
+
+    def wait(self):
+        """Takes no answer until it is asked again or hidden: something else was entered since."""
+        self._box.setEnabled(False)
 
     def hide(self):
         """Asks nothing."""

@@ -175,6 +175,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             self._place_error(error)
             return
         surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
+        self._question.wait()
         guard = Guard(source.order, self._refining.emit, self._agreed)
         self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole, guard))
         self._set_ok(True)

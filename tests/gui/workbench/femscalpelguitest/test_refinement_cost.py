@@ -22,6 +22,14 @@ def ok_button():
     )
 
 
+def wait_for_question(size):
+    """Until it is asked about that edge length, not about what was entered before."""
+    wait_until(
+        lambda: widget("refinementQuestion").isEnabled() and f" {size} " in widget("refinementCost").text(),
+        "the question",
+    )
+
+
 class RefinementCost(CrackTest):
     def setUp(self):
         super().setUp()
@@ -72,7 +80,7 @@ class RefinementCost(CrackTest):
         with mock.patch.object(fs.Mesh, "_wrap", side_effect=fs.Mesh._wrap) as made:
             choose("refine", "Size")
             type_into("refineSize", "0.03 mm")
-            wait_until(lambda: is_shown("refinementQuestion"), "the question")
+            wait_for_question("30.00")
             text = widget("refinementCost").text()
             count = made.call_count
         self.assertRegex(text, r"30.00.*elements \(\d+ [MG]B\)")
@@ -101,7 +109,7 @@ class RefinementCost(CrackTest):
         self.open_half_plane()
         choose("refine", "Size")
         type_into("refineSize", "0.15 mm")
-        wait_until(lambda: is_shown("refinementQuestion"), "the question")
+        wait_for_question("0.15 mm")
         click("refineAnyway")
         self.wait_for_preview()
         self.assertFalse(is_shown("refinementQuestion"))
@@ -113,7 +121,7 @@ class RefinementCost(CrackTest):
         self.open_half_plane()
         choose("refine", "Size")
         type_into("refineSize", "0.15 mm")
-        wait_until(lambda: is_shown("refinementQuestion"), "the question")
+        wait_for_question("0.15 mm")
         self.assertGreater(refinement_guard.free_memory(), 10_000_000)
         choose("refine", "Never")
         self.wait_for_preview()
@@ -123,7 +131,7 @@ class RefinementCost(CrackTest):
         self.group.SetInt("MostElements", 6000)
         self.run_command("FemScalpel_Refine")
         type_into("edgeSize", "0.02 mm")
-        wait_until(lambda: is_shown("refinementQuestion"), "the question")
+        wait_for_question("20.00")
         self.assertFalse(ok_button().isEnabled())
         click("refineFitting")
         self.wait_for_preview()
