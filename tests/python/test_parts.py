@@ -298,6 +298,9 @@ def test_directions_turn_with_their_instance(tmp_path, cards, flat):
         ("*WHATEVER\n1., 2., 3.\n", r"in.inp:11: \*WHATEVER is not a card of CalculiX; its numbers may be a direction"),
         ("*WHATEVER\n1, 2\n", r"in.inp:11: \*WHATEVER .* those of instance 'J' change by 10. Take the card out"),
         ("*ORIENTATION, NAME=O, SYSTEM=USER\n", "in.inp:10: SYSTEM=USER of"),
+        ("*ELEMENT, TYPE=SPRING1, ELSET=SP\n7, 4\n*SPRING, ELSET=SP\n1\n100.\n", r"in.inp:12: \*SPRING stands in a"),
+        ("*ELEMENT, TYPE=DASHPOT2, ELSET=SP\n7, 1, 4\n*DASHPOT, ELSET=SP\n1, 1\n9.\n", r"in.inp:12: \*DASHPOT stands"),
+        ("*COUPLING, CONSTRAINT NAME=C, REF NODE=4, SURFACE=F\n*KINEMATIC\n1\n", r"in.inp:11: \*KINEMATIC stands in"),
     ],
 )
 def test_what_cannot_be_turned_or_renumbered_is_refused(tmp_path, cards, words):
@@ -333,11 +336,18 @@ def test_what_cannot_be_turned_or_renumbered_is_refused(tmp_path, cards, words):
         (two(assembly="*NSET, NSET=A\nJ.99\n"), "in.inp:18: instance 'J' has no node 99: its nodes are 1 to 4"),
         (two(assembly="*NSET, NSET=A\nJ.X\n"), "in.inp:18: instance 'J' has no set, surface or orientation 'X'"),
         (two(after="*STEP\n*DLOAD\nE, P, 1.\n"), "in.inp:20: 'E' is a name in instance 'I' and in instance 'J'; say"),
-        (two(after="*NODE PRINT, NSET=K.X\nU\n*ELPRINT, ELSET=E\nS\n"), "in.inp:20: ELSET=E: 'E' is a name in"),
+        (two(after="*NODE PRINT, NSET=X\nU\n*ELPRINT, ELSET=E\nS\n"), "in.inp:20: ELSET=E: 'E' is a name in"),
+        (two(after="*NODE PRINT, NSET=K.X\nU\n"), "in.inp:18: NSET=K.X: there is no instance 'K', and no set of the n"),
+        (two(after="*BOUNDARY\nI.1, 1\nK.3, 1\n"), "in.inp:20: there is no instance 'K', and no set of the name 'K.3'"),
+        (two('*NSET, NSET="a,b"\n1\n'), r"in.inp:10: a name in quotes of \*NSET has a comma, which no name of"),
+        (
+            two('*NSET, NSET="S 1"\n1\n*NSET, NSET=S1\n2\n'),
+            "in.inp:12: the names 'S1' and 'S 1' of instance 'I' differ in blanks alone, which CalculiX does not see",
+        ),
         (two("*NODE, SYSTEM=S\n9, 1., 1., 1.\n"), "in.inp:10: SYSTEM=S of"),
         (two("*NODE\n2147483000, 0., 0., 0.\n"), "in.inp:16: instance 'J' has numbers up to 2147483000, .* more than"),
     ],
-    ids=range(22),
+    ids=range(26),
 )
 def test_errors_name_the_line_of_the_users_file(tmp_path, text, words):
     with pytest.raises(fs.ReadError, match=words):
@@ -416,6 +426,51 @@ def test_reference_points_of_couplings_are_numbers(tmp_path):
     assert "*SURFACE, TYPE=NODE, NAME=EDGE_CNS_\nEDGE\n" in text
     with pytest.raises(fs.ReadError, match="in.inp:24: CalculiX has no areas of nodes in a surface"):
         read_text(tmp_path, two(assembly=cards.replace("EDGE, 1.", "EDGE, 2.5")))
+
+
+def test_springs_along_their_nodes_turn_with_these(tmp_path):
+    cards = "*ELEMENT, TYPE=SPRINGA, ELSET=SP\n7, 1, 4\n*SPRING, ELSET=SP\n\n100.\n"
+    text = written(tmp_path, read_text(tmp_path, two(cards, second=QUARTER)))
+    assert "*SPRING, ELSET=J_SP\n\n100.\n" in text
+
+
+def test_keyword_lines_go_on_behind_comments_and_are_one_line_in_the_end(tmp_path):
+    """CalculiX ignores what stands on a further line: NLGEOM, without a word."""
+    deck = two("*SHELL SECTION, ELSET=E,\n** which\n MATERIAL=M\n1.\n", after="*STEP, NAME=S,\n NLGEOM=YES\n*STATIC\n")
+    deck = deck.replace("TYPE=S3, ELSET=E", "TYPE=S3,\n** c\n ELSET=E").replace("NAME=J,", "NAME=J,\n ** c\n")
+    mesh = read_text(tmp_path, deck)
+    assert members(mesh) == {("I_E", "element"): [1, 2], ("J_E", "element"): [11, 12]}
+    text = written(tmp_path, mesh)
+    assert "*STEP, NAME=S, NLGEOM=YES\n" in text and text.count("\n** which\n") == 2
+    assert "*SHELL SECTION, ELSET=J_E, MATERIAL=M\n" in text
+    assert not [line for line in text.splitlines() if line.startswith("*") and line.endswith(",")]
+
+
+def test_sets_with_an_instance_may_name_its_sets(tmp_path):
+    mesh = read_text(tmp_path, two(assembly="*NSET, NSET=S, ELSET=E, INSTANCE=J\n"))
+    assert "ELSET=J_E" in written(tmp_path, mesh)
+
+
+def test_terms_of_equations_may_be_sets_of_one_node(tmp_path):
+    """As Abaqus/CAE writes them."""
+    sets = "*NSET, NSET=A, INSTANCE=I\n3\n*NSET, NSET=B, INSTANCE=J\n4\n*NSET, NSET=C, INSTANCE=J\n3, 4\n"
+    mesh = read_text(tmp_path, two(assembly=sets + "*EQUATION\n2\nA, 3, 1.\nb, 3, -1.\n"))
+    assert "*EQUATION\n2\n3, 3, 1.\n14, 3, -1.\n" in written(tmp_path, mesh)
+    mesh = read_text(tmp_path, two(assembly=sets + "*EQUATION\n2\nA, 3, 1.\nC, 3, -1.\n"))
+    assert "in.inp:26: 'C' of *EQUATION is a set of several nodes; CalculiX wants the" in " ".join(mesh.input_warnings)
+
+
+@needs_ccx
+def test_supports_by_name_hold_what_they_say(tmp_path):
+    by_name, by_number = (
+        solve(tmp_path, written(tmp_path, read_text(tmp_path, PARTS.replace("FIX, 1, 3\n", f"FIX, {support}\n"))))[0]
+        for support in ("Encastre", "1, 6")
+    )
+    assert by_name and all((by_name[node] == u).all() for node, u in by_number.items())
+    text = written(
+        tmp_path, read_text(tmp_path, two(after="*BOUNDARY\nI.1, XSYMM\nI.2, 1, 2\nJ.2, zasymm\nJ.3, PINNED\n"))
+    )
+    assert "*BOUNDARY\n1, 1, 1\n2, 1, 2\n12, 1, 2\n13, 1, 3\n1, 5, 6\n12, 6, 6\n" in text
 
 
 def test_two_instances_turned_about_each_other(tmp_path):

@@ -118,7 +118,10 @@ public:
         for (const auto& [where, nodes] : unreadable)
             out.push_back(where + "*TRANSFORM gives no directions that can be told: the equations that keep edges at " +
                           some(nodes) + " straight are left out");
-        if (deck_) tell_removed(out);
+        if (deck_) {
+            tell_removed(out);
+            tell_held_alone(out);
+        }
         return out;
     }
 
@@ -245,6 +248,26 @@ private:
         while (sets.find(DeckSetType::nset, name())) ++k;
         text += "*NSET, NSET=" + name() + "\n" + std::string(set_mark) + "\n" + rows + ",\n";
         return name();
+    }
+
+    /// Mid-side nodes that are held in some steps, while an end of their edge is not, in its own directions: in the
+    /// other steps nothing keeps the edge straight, as no equation can do that in some steps only.
+    void tell_held_alone(std::vector<std::string>& out) const {
+        const std::vector<int> freedoms = computed_freedoms(mesh_);
+        std::set<Index> alone;
+        for (const auto* edges : {&of_pyramids_, &between_orders_})
+            for (const TiedEdge& e : *edges)
+                if (!leaves_supports(e, freedoms) && std::ranges::any_of(freedoms, [&](int f) {
+                        return held_->is_held(e.middle, f) && !held_->is_always_held(e.middle, f);
+                    }))
+                    alone.insert(e.middle);
+        if (!alone.empty())
+            out.push_back(
+                "*BOUNDARY holds " + some(alone) +
+                ", in the middle of edges that equations keep straight, in some steps, and not the ends of "
+                "these edges in the same degrees of freedom: there is no equation in that direction, so in the "
+                "other steps elements come apart a little there. Hold the ends with it, or it in all steps, "
+                "or move the tool");
     }
 
     /// Ends of edges that no element is left of.

@@ -56,6 +56,8 @@ constexpr CardForm forms[] = {
     {"FIELD", Entries::first, Numbered::node},
     {"FILM", Entries::first, Numbered::element},
     {"INITIALCONDITIONS", Entries::first, Numbered::either, false},
+    {"DASHPOT", Entries::nowhere, Numbered::either, false},
+    {"KINEMATIC", Entries::nowhere, Numbered::either, false},
     {"KINEMATICCOUPLING", Entries::first, Numbered::node, false},
     {"MASSFLOW", Entries::first, Numbered::element},
     {"MODELCHANGE", Entries::all, Numbered::element},
@@ -66,6 +68,7 @@ constexpr CardForm forms[] = {
     {"RADIATE", Entries::first, Numbered::element},
     {"RETAINEDNODALDOFS", Entries::first, Numbered::node, false},
     {"SFILM", Entries::first},
+    {"SPRING", Entries::nowhere, Numbered::either, false},
     {"SRADIATE", Entries::first},
     {"SUBMODEL", Entries::all},
     {"TEMPERATURE", Entries::first, Numbered::node},
@@ -100,6 +103,14 @@ bool is_true_for(const Card& card, std::string_view parameter, std::initializer_
     return std::ranges::find(values, std::string_view(key)) != values.end();
 }
 
+/// Whether a spring or dashpot has the direction from node to node: its line of degrees of freedom is empty.
+bool acts_along_its_nodes(const Card& card) {
+    if (card.keyword != "SPRING" && card.keyword != "DASHPOT") return false;
+    CardReader line(card);
+    Index freedom = 0;
+    return !line.next_data_line() || !line.integer(freedom);
+}
+
 }  // namespace
 
 void FlatCards::enter(const FlatScope& scope) {
@@ -131,7 +142,7 @@ std::optional<Card> FlatCards::flat(const Card& original) {
         card.keyword == "NSET" || card.keyword == "ELSET" ? card.parameter("INSTANCE") : nullptr;
     const FlatScope* const scope = of_instance ? names_.find_instance(*of_instance) : scope_;
     if (!scope) throw ReadError(card.where() + ": there is no instance '" + unquoted(*of_instance) + "'");
-    change_head(card);
+    change_head(card, *scope);
     const auto form = form_of(card);
     if (!form) {
         change_unknown(card);
@@ -174,7 +185,7 @@ std::optional<Card> FlatCards::flat(const Card& original) {
     return card;
 }
 
-void FlatCards::change_head(Card& card) const {
+void FlatCards::change_head(Card& card, const FlatScope& of) const {
     constexpr std::string_view numbers[] = {"REFNODE", "ROTNODE", "NODE", "ELEMENT"};
     constexpr std::string_view names[] = {"NSET",    "ELSET",       "SURFACE",           "MASTER", "SLAVE", "TIENSET",
                                           "PINNSET", "ORIENTATION", "ANALYTICALSURFACE", "TIE"};
@@ -199,8 +210,8 @@ void FlatCards::change_head(Card& card) const {
         else if (&p != defined && !p.value.empty() && (is_name || is_number))
             text = !is_number && whole_number(p.value)
                        ? std::nullopt
-                       : names_.number_or_name(*scope_, p.value,
-                                               p.name == "ELEMENT" ? Numbered::element : Numbered::node, fail);
+                       : names_.number_or_name(of, p.value, p.name == "ELEMENT" ? Numbered::element : Numbered::node,
+                                               fail);
         if (text) {
             flat.value = *text;
             changed = true;
@@ -370,7 +381,7 @@ void FlatCards::turn(Card& card) const {
     constexpr std::string_view with_points[] = {"ORIENTATION", "TRANSFORM", "DLOAD"};
     if (!scope_->placement.turns && std::ranges::find(with_points, card.keyword) == std::end(with_points)) return;
     if (card.keyword == "INITIALCONDITIONS" && is_true_for(card, "TYPE", {"TEMPERATURE", "FIELD"}, "")) return;
-    if (form && !form->turns)
+    if (form && !form->turns && !acts_along_its_nodes(card))
         refuse_turned(card.where() + ": ", "*" + card.keyword + " stands in a part and has directions");
     if (card.keyword == "ORIENTATION") {
         if (!is_true_for(card, "DEFINITION", {"COORDINATES"}, "COORDINATES"))

@@ -25,7 +25,7 @@ public:
     std::optional<Card> flat(const Card& card);
 
 private:
-    void change_head(Card& card) const;
+    void change_head(Card& card, const FlatScope& of) const;
     void change_nodes(Card& card) const;
     void change_elements(Card& card) const;
     void change_set(Card& card, const FlatScope& scope) const;

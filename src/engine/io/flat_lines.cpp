@@ -142,7 +142,13 @@ void change_parameters(Card& card, std::vector<CardParameter> parameters) {
     while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos) text.pop_back();
     for (const CardParameter& p : parameters) text += ", " + readable(p.name) + (p.value.empty() ? "" : "=" + p.value);
     text += eol;
-    for (auto lines = std::ranges::count(head.text, '\n'); lines > 1; --lines) text += "**" + eol;
+    for (std::size_t at = head.text.find('\n'); at != head.text.npos && at + 1 < head.text.size();) {
+        const std::size_t next = std::min(head.text.find('\n', at + 1), head.text.size() - 1);
+        const std::string_view line = head.text.substr(at + 1, next - at);
+        const std::size_t first = line.find_first_not_of(" \t");
+        text += first != line.npos && line[first] == '*' ? std::string(line) : "**" + eol;
+        at = next;
+    }
     const auto file = std::make_shared<const DeckFile>(DeckFile{head.file->path, std::move(text), head.file->carried});
     head = {file, file->text, head.line};
     card.head = file->text.size();

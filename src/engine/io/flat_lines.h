@@ -33,7 +33,7 @@ using ChangeLine = std::function<void(LineFields& line, std::size_t number, cons
 void change_lines(Card& card, const ChangeLine& change);
 
 /// Puts other parameters on the keyword line of a card: those without a value there are left out of the ones they have.
-/// Lines that the keyword line loses become comments.
+/// The keyword line is one line then, as CalculiX reads it; lines that it loses become comments.
 void change_parameters(Card& card, std::vector<CardParameter> parameters);
 
 /// The comments of a card behind its keyword line, without its data.

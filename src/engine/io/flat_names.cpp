@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "cancel.h"
 #include "deck/solver_element.h"
@@ -185,15 +186,26 @@ void FlatNames::number_scope(FlatScope& scope, std::vector<const FlatScope*>& do
 
 void FlatNames::find_names(const PartDeck& deck) {
     std::unordered_map<std::string, int> count;
+    std::set<std::pair<const FlatScope*, std::string>> quoted;
+    const auto add = [&](FlatScope& scope, const Card& card, const CardParameter& p) {
+        const auto [at, is_new] = scope.names.emplace(name_key(p.value), unquoted(p.value));
+        // Quotes keep blanks, which CalculiX does not see.
+        const auto blanks = [](const std::string& name) { return std::ranges::count(name, ' '); };
+        if (p.value.find('"') != p.value.npos) quoted.emplace(&scope, at->first);
+        if (!is_new && quoted.contains({&scope, at->first}) && blanks(at->second) != blanks(unquoted(p.value)))
+            throw ReadError(card.where() + ": the names '" + unquoted(p.value) + "' and '" + at->second + "' of " +
+                            scope.label + " differ in blanks alone, which CalculiX does not see; rename one");
+        return is_new;
+    };
     for (const DeckItem& item : deck.items)
         if (item.card && !item.is_bracket)
             if (const CardParameter* p = defined_name(*item.card))
-                if (assembly_.names.emplace(name_key(p->value), unquoted(p->value)).second) ++count[name_key(p->value)];
+                if (add(assembly_, *item.card, *p)) ++count[name_key(p->value)];
     for (std::size_t i = 0; i < instances_.size(); ++i)
         for (const Card* card : deck.instances[i].cards)
             if (const CardParameter* p = defined_name(*card)) {
                 const std::string key = name_key(p->value);
-                if (!instances_[i].names.emplace(key, unquoted(p->value)).second) continue;
+                if (!add(instances_[i], *card, *p)) continue;
                 ++count[key];
                 with_name_[key].push_back(i);
             }
@@ -271,6 +283,8 @@ std::optional<std::string> FlatNames::name_in_assembly(std::string_view field, c
             fail("'" + text + "' is a name in " + instances_[it->second[0]].label + " and in " +
                  instances_[it->second[1]].label + "; say which is meant, as INSTANCE." + text);
         flat = instances_[it->second[0]].names.at(key);
+    } else if (const std::size_t dot = text.rfind('.'); dot != text.npos && !deck_number(text)) {
+        fail("there is no instance '" + text.substr(0, dot) + "', and no set of the name '" + text + "'");
     }
     return name_key(flat) == key && field.find('"') == field.npos ? std::nullopt : std::optional(flat);
 }

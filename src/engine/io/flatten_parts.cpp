@@ -10,6 +10,7 @@
 #include "error.h"
 #include "io/flat_cards.h"
 #include "io/flat_lines.h"
+#include "io/flat_to_calculix.h"
 
 namespace femscalpel {
 namespace {
@@ -44,6 +45,7 @@ public:
         : input_(input), deck_(take_parts_apart(input.cards())), names_(deck_), cards_(names_, warnings_) {}
 
     void run() {
+        for (const Card& card : input_.cards()) refuse_commas(card);
         for (std::size_t i = 0; i < deck_.instances.size(); ++i)
             record(deck_.instances[i].name, deck_.instances[i].part, names_.instance(i));
         record("", "", names_.assembly());
@@ -58,12 +60,19 @@ public:
             else
                 add_instance(item.instance);
         }
-        for (Card& card : out_) resolve_reference_nodes(card);
+        fit_to_calculix(out_, warnings_);
         tell();
         input_.cards() = std::move(out_);
     }
 
 private:
+    static void refuse_commas(const Card& card) {
+        for (const CardParameter& p : card.parameters)
+            if (std::ranges::count(p.name + p.value, '"') % 2 != 0)
+                throw ReadError(card.where() + ": a name in quotes of *" + card.keyword +
+                                " has a comma, which no name of CalculiX can have; rename it");
+    }
+
     void record(const std::string& name, const std::string& part, const FlatScope& scope) {
         const auto shifted = [&](const NumberRange& range) {
             const NumberRange out = range.shifted(scope.offset);
@@ -121,47 +130,6 @@ private:
             if (!in_material || instance.first) add(*card);
         }
         cards_.enter(names_.assembly());
-    }
-
-    /// CalculiX wants the number of a reference node where Abaqus/CAE gives a set of one node.
-    void resolve_reference_nodes(Card& card) {
-        std::vector<CardParameter> parameters = card.parameters;
-        bool changed = false;
-        for (CardParameter& p : parameters) {
-            if ((p.name != "REFNODE" && p.name != "ROTNODE" && p.name != "NODE") || p.value.empty() ||
-                whole_number(p.value))
-                continue;
-            const std::vector<Index> nodes = nodes_of_set(name_key(p.value));
-            if (nodes.size() == 1) {
-                p.value = std::to_string(nodes.front());
-                changed = true;
-            } else {
-                warnings_.push_back(card.where() + ": " + p.name + "=" + p.value + " is " +
-                                    (nodes.empty() ? "no set of a node" : "a set of several nodes") +
-                                    "; CalculiX wants the number of one node");
-            }
-        }
-        if (changed) change_parameters(card, std::move(parameters));
-    }
-
-    /// Its nodes by number; of what else is in it, which are never single nodes, no more than twice 0.
-    std::vector<Index> nodes_of_set(const std::string& key) const {
-        std::vector<Index> out;
-        for (const Card& card : out_) {
-            const CardParameter* name = defined_name(card);
-            if (!name || name_key(name->value) != key || (card.keyword != "NSET" && card.keyword != "NODE")) continue;
-            CardReader line(card);
-            const int most = card.keyword == "NODE" ? 1 : card.parameter("GENERATE") ? 2 : 16;
-            while (out.size() < 3 && line.next_data_line())
-                for (int k = 0; k < most && !line.at_end(); ++k)
-                    if (Index id = 0; line.integer(id))
-                        out.push_back(id);
-                    else if (!line.field().empty())
-                        out.insert(out.end(), 2, 0);
-        }
-        std::ranges::sort(out);
-        if (!std::ranges::count(out, 0)) out.erase(std::unique(out.begin(), out.end()), out.end());
-        return out;
     }
 
     void tell() {

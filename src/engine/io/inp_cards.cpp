@@ -59,11 +59,14 @@ private:
             std::string head(p, next);
             Index head_lines = 1;
             const char* head_end = next;
-            while (head_end < end && ends_with_comma(head) && continues(head_end, next_line(head_end))) {
-                const char* more = next_line(head_end);
-                head.append(head_end, more);
-                head_end = more;
-                ++head_lines;
+            while (head_end < end && ends_with_comma(head)) {
+                const char* more = head_end;  // comments may stand before it
+                Index lines = 1;
+                for (; more < end && is_comment(more, next_line(more)); ++lines) more = next_line(more);
+                if (more == end || !continues(more, next_line(more))) break;
+                head.append(more, next_line(more));
+                head_end = next_line(more);
+                head_lines += lines;
             }
             std::string keyword;
             std::vector<CardParameter> parameters;
@@ -85,6 +88,12 @@ private:
         }
         finish_piece(end);
         open_.pop_back();
+    }
+
+    static bool is_comment(const char* from, const char* to) {
+        const std::string_view line(from, static_cast<std::size_t>(to - from));
+        const std::size_t first = line.find_first_not_of(" \t");
+        return first != line.npos && line.substr(first).starts_with("**");
     }
 
     static bool ends_with_comma(std::string_view s) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The guided tour of resources/docs/tour.md, step by step; its pictures are these screenshots, scaled down."""
+"""The guided tour of resources/docs/tour.md, step by step; its pictures are these screenshots."""
 
 import femmesh_bridge
 import femscalpel as fs
