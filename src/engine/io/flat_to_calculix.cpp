@@ -20,9 +20,8 @@ struct NamedSupport {
 };
 
 constexpr NamedSupport named_supports[] = {
-    {"ENCASTRE", {{{1, 6}}}},       {"PINNED", {{{1, 3}}}},         {"XSYMM", {{{1, 1}, {5, 6}}}},
-    {"YSYMM", {{{2, 2}, {4, 4}}}},  {"ZSYMM", {{{3, 5}}}},          {"XASYMM", {{{2, 4}}}},
-    {"YASYMM", {{{1, 1}, {3, 3}}}}, {"ZASYMM", {{{1, 2}, {6, 6}}}},
+    {"ENCASTRE", {{{1, 6}}}}, {"PINNED", {{{1, 3}}}}, {"XSYMM", {{{1, 1}, {5, 6}}}},  {"YSYMM", {{{2, 2}, {4, 4}}}},
+    {"ZSYMM", {{{3, 5}}}},    {"XASYMM", {{{2, 4}}}}, {"YASYMM", {{{1, 1}, {3, 3}}}}, {"ZASYMM", {{{1, 2}, {6, 6}}}},
 };
 
 /// See fit_to_calculix().
@@ -123,6 +122,8 @@ private:
 
 }  // namespace
 
-void fit_to_calculix(std::vector<Card>& cards, std::vector<std::string>& warnings) { CalculixFit(cards, warnings).run(); }
+void fit_to_calculix(std::vector<Card>& cards, std::vector<std::string>& warnings) {
+    CalculixFit(cards, warnings).run();
+}
 
 }  // namespace femscalpel
