@@ -3,8 +3,10 @@
 """Checks that the sources are fit for a release, and makes its files.
 
     resources/packaging/release.py --check          says what is not fit
-    resources/packaging/release.py FOLDER           checks; then makes in FOLDER the source archive, the Debian package
-                                                    for the release of Debian this runs on, and SHA256SUMS
+    resources/packaging/release.py FOLDER [PYTHON...]
+                                                    checks; then makes in FOLDER the source archive, the Debian package
+                                                    for the release of Debian this runs on, a wheel for each Python
+                                                    (default /usr/bin/python3), and SHA256SUMS
 
 Fit means: all is committed; CMakeLists.txt, package.xml and the Python package have the same version; CHANGELOG.md has
 an entry of it, with the date of package.xml, and none that is not released; the addresses of package.xml exist; and
@@ -15,6 +17,7 @@ import argparse
 import datetime
 import hashlib
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -95,22 +98,23 @@ def source_archive(root, version, folder):
     return path
 
 
-def debian_package(root, folder):
-    """Makes the Debian package; returns the file."""
+def made_by(root, script, arguments, folder):
+    """Copies what a script of this folder makes, by the paths it prints; returns the files."""
     done = subprocess.run(
-        ["sh", str(root / "resources" / "packaging" / "deb.sh")], stdout=subprocess.PIPE, text=True, check=False
+        ["sh", str(root / "resources" / "packaging" / script), *arguments],
+        stdout=subprocess.PIPE,
+        text=True,
+        check=False,
     )
     if done.returncode:
-        raise SystemExit("release.py: the Debian package could not be made, see above")
-    made = Path(done.stdout.split()[-1])
-    path = folder / made.name
-    path.write_bytes(made.read_bytes())
-    return path
+        raise SystemExit(f"release.py: {script} failed, see above")
+    return [Path(shutil.copy(path, folder)) for path in done.stdout.splitlines()]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", type=Path, help="where the files go; made if it is not there")
+    parser.add_argument("python", nargs="*", help="Pythons to make wheels for (/usr/bin/python3)")
     parser.add_argument("--check", action="store_true", help="only say what is not fit")
     arguments = parser.parse_args()
     if arguments.check == bool(arguments.folder):
@@ -126,7 +130,8 @@ def main():
         return 0
     folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    files = [source_archive(ROOT, version, folder), debian_package(ROOT, folder)]
+    files = [source_archive(ROOT, version, folder)]
+    files += made_by(ROOT, "deb.sh", [], folder) + made_by(ROOT, "wheel.sh", arguments.python, folder)
     sums = "".join(f"{hashlib.sha256(f.read_bytes()).hexdigest()}  {f.name}\n" for f in files)
     (folder / "SHA256SUMS").write_text(sums)
     for path in [*files, folder / "SHA256SUMS"]:

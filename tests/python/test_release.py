@@ -92,3 +92,31 @@ def test_the_archive_has_what_is_committed(sources, tmp_path_factory):
     path = release.source_archive(sources, "1.2.3", tmp_path_factory.mktemp("out"))
     names = subprocess.run(["tar", "-tzf", str(path)], capture_output=True, text=True, check=True).stdout.split()
     assert "femscalpel-1.2.3/package.xml" in names and not any("/build/" in name for name in names)
+
+
+def test_files_that_scripts_make_are_copied(sources, tmp_path):
+    """Each prints the paths of what it made."""
+    folder = sources / "resources" / "packaging"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "make.sh").write_text('for name; do echo made >"$0.$name"; echo "$0.$name"; done\n')
+    (tmp_path / "out").mkdir()
+    made = release.made_by(sources, "make.sh", ["a b", "c"], tmp_path / "out")
+    assert [path.name for path in made] == ["make.sh.a b", "make.sh.c"] and all(path.exists() for path in made)
+    assert {path.parent for path in made} == {tmp_path / "out"}
+    (folder / "make.sh").write_text("exit 3\n")
+    with pytest.raises(SystemExit, match="make.sh failed, see above"):
+        release.made_by(sources, "make.sh", [], tmp_path / "out")
+
+
+def test_wheels_have_the_version_of_the_sources():
+    tomllib = pytest.importorskip("tomllib")
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    version = settings["tool"]["scikit-build"]["metadata"]["version"]
+    found = release.re.search(version["regex"], (ROOT / version["input"]).read_text())
+    assert found["value"] == release.versions(ROOT)["package.xml"]
+    pins = dict(
+        line.split("==") for line in (ROOT / "resources" / "pypi-packages.txt").read_text().split("\n")[1:] if line
+    )
+    for needed in settings["build-system"]["requires"]:
+        name, least = needed.split(">=")
+        assert [int(n) for n in pins[name].split(".")] >= [int(n) for n in least.split(".")]

@@ -46,5 +46,5 @@ class Cut(MeshOperation):
             plane_of(obj.PlanePlacement),
             width=obj.Width.Value,
             bottom=bottom,
-            **operator_options.keywords(obj, mesh)
+            **operator_options.keywords(obj, mesh),
         )
