@@ -66,5 +66,5 @@ grep -q '^first crack: ' "$logs/crack.log" || {
     say "FAILED: the demo's mesh was not cracked"
     exit 1
 }
-say "FreeCAD $(inside 'dpkg-query -W -f "\${Version}" freecad'): $(sed -n 's/^first crack: //p' "$logs/crack.log"), with" \
-    "the engine of $(inside 'ls .local/lib/*/site-packages | grep -m1 femscalpel-')"
+say "FreeCAD $(inside 'dpkg-query -W -f "\${Version}" freecad'):" \
+    "$(sed -n 's/^first crack: //p' "$logs/crack.log"), with the engine of $(inside 'ls .local/lib/*/site-packages | grep -m1 femscalpel-')"

@@ -52,9 +52,9 @@ def main(caisson, face):
             fs.write(result.mesh, Path(folder) / name)
             again = fs.read(Path(folder) / name)
             assert (again.points == result.mesh.points).all() and set(result.mesh.groups) <= set(again.groups), name
-    joined = fs.merge(block((0, 0, 0), (4, 4, 2), (8, 8, 4), "BASE"), block((1, 1, 2), (1.5, 1.5, 1), (4, 4, 2), "BOSS"))
-    assert joined.mesh.node_count > 9 * 9 * 5
-    assert fs.crack(block((0, 0, 0), (4, 4, 2), (8, 8, 4), "BASE"), fs.Face(face)).report.nodes_doubled > 0
+    base = block((0, 0, 0), (4, 4, 2), (8, 8, 4), "BASE")
+    assert fs.merge(base, block((1, 1, 2), (1.5, 1.5, 1), (4, 4, 2), "BOSS")).mesh.node_count > base.node_count
+    assert fs.crack(base, fs.Face(face)).report.nodes_doubled > 0
     print(
         f"wheel: femscalpel {fs.__version__}, NumPy {np.__version__}, Python {sys.version.split()[0]}: "
         f"{mesh.node_count} nodes before, {result.mesh.node_count} after, in {took:.1f} s; MED, .inp, filler, STEP work"
