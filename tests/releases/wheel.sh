@@ -3,10 +3,11 @@
 # Installs a wheel in a fresh virtual environment of a bare release of Debian, with nothing beside it but NumPy, and
 # tries it there; then, where 'freecad' is given, with FreeCAD and a clone of the repository as the add-on:
 #   tests/releases/wheel.sh bookworm|trixie|forky WHEEL [freecad] [folder, default /var/tmp/femscalpel-wheel-RELEASE]
-# A line each. Needs root, debootstrap, what wheel.sh left of making the wheel, and a build (the demo's mesh). Nothing stays mounted afterwards.
+# A line each. Needs root, debootstrap, what wheel.sh left of making the wheel, and a build (the demo's mesh).
+# Nothing stays mounted afterwards.
 set -eu
 usage() {
-    sed -n '3,7s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,8s/^# \{0,1\}//p' "$0" >&2
     exit 2
 }
 release=${1:-}
@@ -66,5 +67,6 @@ grep -q '^first crack: ' "$logs/crack.log" || {
     say "FAILED: the demo's mesh was not cracked"
     exit 1
 }
-say "FreeCAD $(inside 'dpkg-query -W -f "\${Version}" freecad'):" \
-    "$(sed -n 's/^first crack: //p' "$logs/crack.log"), with the engine of $(inside 'ls .local/lib/*/site-packages | grep -m1 femscalpel-')"
+version=$(inside 'dpkg-query -W -f "\${Version}" freecad')
+engine=$(inside 'ls .local/lib/*/site-packages | grep -m1 femscalpel-')
+say "FreeCAD $version: $(sed -n 's/^first crack: //p' "$logs/crack.log"), with the engine of $engine"
