@@ -75,7 +75,8 @@ if [ ! -e "$folder/lib/libTKSTEP.a" ]; then
     source_of opencascade
     # One copy of its types and their tables for each library, also where another is in the process.
     make_of opencascade install -DBUILD_LIBRARY_TYPE=Static -DINSTALL_DIR="$folder" -DINSTALL_DIR_LIB=lib \
-        -DINSTALL_DIR_INCLUDE=include/opencascade -DCMAKE_CXX_FLAGS="-fno-gnu-unique -ffunction-sections -fdata-sections -w" \
+        -DINSTALL_DIR_INCLUDE=include/opencascade \
+        -DCMAKE_CXX_FLAGS="-fno-gnu-unique -ffunction-sections -fdata-sections -w" \
         -DBUILD_MODULE_FoundationClasses=OFF -DBUILD_MODULE_ModelingData=OFF -DBUILD_MODULE_ModelingAlgorithms=OFF \
         -DBUILD_MODULE_Visualization=OFF -DBUILD_MODULE_ApplicationFramework=OFF -DBUILD_MODULE_DataExchange=OFF \
         -DBUILD_MODULE_Draw=OFF -DBUILD_DOC_Overview=OFF "-DBUILD_ADDITIONAL_TOOLKITS=TKSTEP;TKMesh" -DUSE_TBB=OFF \
