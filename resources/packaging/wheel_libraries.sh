@@ -37,9 +37,11 @@ make_of() { # package, target, CMake's arguments...
     target=$2
     shift 2
     echo "building $package" >&2
-    cmake -S "$package" -B "build-$package" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release \
+    mkdir -p "build-$package"
+    # Some look for what their checks write where CMake was started.
+    (cd "build-$package" && cmake "../$package" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release \
         -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_PREFIX_PATH="$folder" \
-        "$@" >"$package.log" 2>&1 &&
+        "$@") >"$package.log" 2>&1 &&
         cmake --build "build-$package" --target "$target" >>"$package.log" 2>&1 || {
         tail -20 "$package.log" >&2
         echo "wheel_libraries.sh: $package cannot be built; see $PWD/$package.log" >&2

@@ -404,6 +404,14 @@ def test_a_sleeve_lies_on_a_shaft_whose_facets_are_others(seed, second_order):
     assert not outcome and quality > 0.15
 
 
+def test_edges_are_finer_where_two_polygons_of_one_circle_part_at_an_angle_of_less_than_a_degree():
+    """The rim of a shaft and the facets of a sleeve over its end, at 0.64 degrees: 0.091 with edges as long."""
+    mesh, part = merge_cases.KINDS["on_shaft"](np.random.default_rng(73))
+    result = fs.merge(mesh, part)
+    assert worst(result.mesh) > 0.12
+    assert result.report.refinement and not [w for w in result.report.warnings if "at best" in w]
+
+
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("keep", ["mesh", "addition"])
 def test_what_overlaps_may_be_flush_with_the_mesh(seed, keep):

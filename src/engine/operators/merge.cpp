@@ -44,9 +44,9 @@ constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
 /// Elements filled in with a smaller mean ratio than this are worth another attempt, and a word.
 constexpr double poor = 0.12;
-/// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing.
-constexpr double coarser = 2.5;
-constexpr double coarser_again = 1.1;
+/// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing or
+/// to poor elements. The last is for lines that lie on each other as polygons of one circle do: finer edges part them.
+constexpr double coarser[] = {2.5, 1.1, 0.3};
 /// And no longer than this part of a closed line.
 constexpr double of_length = 0.12;
 
@@ -344,26 +344,19 @@ Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double
 /// Where elements of different sizes meet badly, tries again with smaller ones.
 Joined join(const Mesh& mesh, const Mesh& addition, const Meeting& meeting, const MergeOptions& options,
             const Prepared& known) {
-    const auto again = [&] { return join_once(mesh, addition, meeting, coarser_again, options, known); };
-    Joined out;
-    try {
-        out = join_once(mesh, addition, meeting, coarser, options, known);
-    } catch (const QualityError&) {
-        const std::exception_ptr first = std::current_exception();
+    std::optional<Joined> best;
+    std::exception_ptr first;
+    for (const double longer : coarser) {
         try {
-            return again();
+            Joined next = join_once(mesh, addition, meeting, longer, options, known);
+            if (!best || next.worst() > best->worst()) best = std::move(next);
         } catch (const QualityError&) {
-            std::rethrow_exception(first);
+            if (!first) first = std::current_exception();
         }
+        if (best && best->worst() >= poor) break;
     }
-    if (out.worst() >= poor) return out;
-    try {
-        Joined other = again();
-        if (other.worst() > out.worst()) return other;
-    } catch (const QualityError&) {
-        return out;
-    }
-    return out;
+    if (!best) std::rethrow_exception(first);
+    return std::move(*best);
 }
 
 /// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
