@@ -4,6 +4,7 @@
 import html
 from collections import Counter
 
+import FreeCAD
 from femscalpelobjects import pieces
 
 from .. import preferences
@@ -27,6 +28,28 @@ _KINDS = {
 }
 
 
+def made_text(report):
+    """How large what was made is, as a sentence; "" where there is nothing to say."""
+    named = {
+        ("crack", 2): translate("FemScalpel", "crack of %1"),
+        ("crack", 1): translate("FemScalpel", "crack of %1"),
+        ("front", 1): translate("FemScalpel", "front of %1"),
+        ("wall", 2): translate("FemScalpel", "wall of %1"),
+    }
+    texts = [
+        named[extent.what, extent.dimension].replace("%1", measure_text(extent.measure, extent.dimension))
+        for extent in report.extents
+        if (extent.what, extent.dimension) in named
+    ]
+    return sentence(", ".join(texts)) if texts else ""
+
+
+def measure_text(measure, dimension):
+    """A length, area or volume in the user's unit."""
+    quantity = FreeCAD.Units.Quantity(f"{float(measure)!r} {('', 'mm', 'mm^2', 'mm^3')[dimension]}")
+    return quantity.UserString.replace("^2", "²").replace("^3", "³")
+
+
 def summary(report):
     """What was done, how good it is, and the warnings; as rich text."""
     after = report.quality.after
@@ -43,6 +66,8 @@ def summary(report):
     )
     for k, number in enumerate(numbers, 1):
         text = text.replace(f"%{k}", str(number))
+    made = made_text(report)
+    text += f" {made}" if made else ""
     if report.converted:
         counts = Counter()
         for kind, count in report.converted.items():

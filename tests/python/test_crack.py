@@ -119,7 +119,9 @@ def test_report_as_json(cracked, tmp_path):
     assert data["node_sets"]["ICN"] == report.node_sets["ICN"].tolist() and data["node_sets"]["ICN"]
     assert [g["measure_after"] for g in data["groups"]] == [g.measure_after for g in report.groups]
     assert data["quality"]["after"]["worst"][0]["id"] == report.quality.after.worst[0].id
-    assert data["extents"] == [{"what": "crack", "group": "CRACK_P", "dimension": 2, "measure": pytest.approx(20 * 0.94**0.5 / 0.9)}]
+    assert data["extents"] == [
+        {"what": "crack", "group": "CRACK_P", "dimension": 2, "measure": pytest.approx(20 * 0.94**0.5 / 0.9)}
+    ]
     assert f"made         crack of area {data['extents'][0]['measure']:.6g}\n" in report.to_text()
     report.to_json(tmp_path / "report.json", node_ids=False)
     short = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
@@ -134,7 +136,9 @@ def test_extents_of_a_front():
     mesh = result.mesh
     rows = np.isin(mesh.cell_ids["line"], mesh.groups["CRACK_FRONT", "element"].ids)
     ends = mesh.points[mesh.cells["line"][rows]]
-    assert front.measure == pytest.approx(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()) and front.dimension == 1
+    assert (
+        front.measure == pytest.approx(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()) and front.dimension == 1
+    )
 
 
 def test_quadratic():
