@@ -17,7 +17,6 @@ def sentence(text):
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
-_WARNING = f"color:{fields.WARNING}"
 # What Report.converted counts.
 _KINDS = {
     "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
@@ -76,14 +75,14 @@ def summary(report):
         text += " " + translate("FemScalpel", "First became triangles or tetrahedra: %1.").replace("%1", kinds)
     if after.minimum < preferences.quality_threshold():
         text += (
-            f" <b style='color:{fields.ERROR}'>"
+            f" <b style='{fields.ERROR}'>"
             + translate("FemScalpel", "Worse than your threshold of %1.").replace(
                 "%1", f"{preferences.quality_threshold():g}"
             )
             + "</b>"
         )
     for warning in report.warnings:
-        text += f"<br><span style='{_WARNING}'>{sentence(warning)}</span>"
+        text += f"<br><span style='{fields.WARNING}'>{sentence(warning)}</span>"
     return text
 
 
@@ -101,5 +100,5 @@ class PiecesText:
             self._supports = (pieces.find_supports(self._source),)
         held = pieces.holders(parting, self._supports[0])
         text = html.escape(pieces.sentence_of(parting, held, translate))
-        style = f" style='{_WARNING}'" if pieces.is_unsafe(held) else ""
+        style = f" style='{fields.WARNING}'" if pieces.is_unsafe(held) else ""
         return f"<br><span{style}>{text}</span>"

@@ -296,7 +296,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         return next(form for form in self.form if form.isAncestorOf(label))
 
     def _status(self, text):
-        self.result.status.setText(fields.for_theme(text, self.result))
+        self.result.status.setText(text)
         # The panel's own may be scrolled out of sight.
         bar = FreeCADGui.getMainWindow().statusBar()
         bar.showMessage(text) if text.endswith("…") else bar.clearMessage()

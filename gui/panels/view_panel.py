@@ -10,6 +10,7 @@ from pivy import coin
 import femmesh_bridge
 from femscalpelobjects import contents
 
+from .. import help
 from ..latest_wins import LatestWins
 from ..translate import translate
 from ..view.mesh_visibility import HiddenMeshes
@@ -41,6 +42,8 @@ class ViewPanel(QtCore.QObject):
         name.setTextFormat(QtCore.Qt.PlainText)
         name.setWordWrap(True)
         self.form[0].layout().insertWidget(0, name)
+        for form in self.form:
+            form.setWhatsThis(help.tag(self.page()))
         self._fields = FieldFilter(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
@@ -51,6 +54,15 @@ class ViewPanel(QtCore.QObject):
         femmesh = self.source_object.FemMesh
         self._changes = contents.changes_of(self.source_object)
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
+
+    @classmethod
+    def page(cls):
+        """The name of its page of help."""
+        return cls.__module__.rsplit(".", 1)[-1]
+
+    def helpRequested(self):
+        """The Help button."""
+        help.show(self.page())
 
     def read_mesh(self, femmesh):
         """The PreviewSource of a FemMesh; called on another thread."""

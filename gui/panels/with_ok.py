@@ -33,7 +33,7 @@ class WithOk:
     _given_up = False  # whether the user has cancelled the preview of what is entered
 
     def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel | QtGui.QDialogButtonBox.Help)
 
     def _set_ok(self, enabled):
         if enabled != self._ok:

@@ -42,7 +42,7 @@ def fill(menu, provider, vobj):
         _add(
             menu,
             icon(command.NAME),
-            translate("FemScalpel", command.MENU),
+            command.title(),
             lambda command=command: _run(command, obj),
             has_mesh,
         )
@@ -61,7 +61,7 @@ def _add(menu, picture, text, run, enabled=True):
 
 
 def _run(command, obj):
-    if is_free(translate("FemScalpel", command.MENU).replace("&", "")):
+    if is_free(command.title()):
         command.guarded(lambda: command.run(obj))
 
 

@@ -31,7 +31,9 @@ def column(number, name="groups"):
 def click_header(number, name="groups"):
     """Clicks a header of a table."""
     header = widget(name).horizontalHeader()
-    place = QtCore.QPoint(header.sectionViewportPosition(number) + header.sectionSize(number) // 2, header.height() // 2)
+    place = QtCore.QPoint(
+        header.sectionViewportPosition(number) + header.sectionSize(number) // 2, header.height() // 2
+    )
     QTest.mouseClick(header.viewport(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place)
     spin(0)
 
