@@ -73,8 +73,8 @@ def _make(main):
 
 
 class _WhatsThis(QtCore.QObject):
-    """Event filter of FreeCAD's main window, which is told what was clicked at in What's This mode. FreeCAD itself looks
-    for a page of the text's name in its wiki, by an add-on that is most often not there."""
+    """Event filter of FreeCAD's main window, which is told what was clicked at in What's This mode. FreeCAD itself
+    looks for a page of the text's name in its wiki, by an add-on that is most often not there."""
 
     def eventFilter(self, receiver, event):
         if event.type() != QtCore.QEvent.WhatsThisClicked:

@@ -13,7 +13,8 @@ class CurvedCrack(Operation):
     NAME = "FemScalpel_CurvedCrack"
     MENU = QT_TRANSLATE_NOOP("FemScalpel_CurvedCrack", "Curved crack")
     TOOLTIP = QT_TRANSLATE_NOOP(
-        "FemScalpel_CurvedCrack", "Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups"
+        "FemScalpel_CurvedCrack",
+        "Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups",
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
         "FemScalpel_CurvedCrack",

@@ -9,7 +9,9 @@ from .base import Command
 class GroupInspector(Command):
     NAME = "FemScalpel_GroupInspector"
     MENU = QT_TRANSLATE_NOOP("FemScalpel_GroupInspector", "Group inspector")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel_GroupInspector", "Shows the groups of a FEM mesh, what they cover and what uses them")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel_GroupInspector", "Shows the groups of a FEM mesh, what they cover and what uses them"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
         "FemScalpel_GroupInspector",
         "Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, "

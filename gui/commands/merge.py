@@ -12,7 +12,9 @@ from .base import Operation, find_mesh, is_mesh
 class Merge(Operation):
     NAME = "FemScalpel_Merge"
     MENU = QT_TRANSLATE_NOOP("FemScalpel_Merge", "Merge")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel_Merge", "Adds another FEM mesh to the FEM mesh and keeps the groups of both")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel_Merge", "Adds another FEM mesh to the FEM mesh and keeps the groups of both"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
         "FemScalpel_Merge",
         "Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two "

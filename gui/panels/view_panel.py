@@ -16,6 +16,7 @@ from ..translate import translate
 from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
 from .field_filter import FieldFilter
+from .sections import name_fields
 
 
 # Forms that FreeCAD has deleted itself; Python must never do it again.
@@ -44,6 +45,7 @@ class ViewPanel(QtCore.QObject):
         self.form[0].layout().insertWidget(0, name)
         for form in self.form:
             form.setWhatsThis(help.tag(self.page()))
+            name_fields(form)
         self._fields = FieldFilter(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)

@@ -4,6 +4,8 @@
 import os
 from unittest import mock
 
+import numpy as np
+
 from .gui_testing import *  # noqa: F403
 from .test_crack_panel import CrackTest
 
@@ -100,3 +102,25 @@ class Themes(CrackTest):
                 with self.subTest(theme=name):
                     self.choose_theme(name)
                     self.check()
+
+
+class HighResolution(CrackTest):
+    def test_labels_have_the_pixels_of_the_screen(self):
+        from femscalpelgui.view import label
+
+        pictures, draw = {}, label.label_picture
+
+        def drawn(text, ratio=1.0):
+            pictures[ratio] = draw(text, ratio)
+            return pictures[ratio]
+
+        for ratio in (1.0, 2.0, 1.25):
+            with mock.patch.object(label, "pixel_ratio", lambda ratio=ratio: ratio):
+                with mock.patch.object(label, "label_picture", drawn):
+                    self.open_panel()
+            screenshot(f"label_{ratio}")
+            press_cancel()
+        sizes = [np.array((picture.width(), picture.height())) for picture in map(pictures.get, (1.0, 2.0, 1.25))]
+        self.assertLessEqual(abs(sizes[1] - 2 * sizes[0]).max(), 1)
+        self.assertLessEqual(abs(sizes[2] - 1.25 * sizes[0]).max(), 1)
+        self.assertGreater(len({pictures[2.0].pixel(x, sizes[1][1] // 2) for x in range(sizes[1][0])}), 2)  # drawn, too
