@@ -220,7 +220,7 @@
     </message>
     <message>
       <source>%1 cannot be written: %2. Choose another folder or name.</source>
-      <translation type="unfinished" />
+      <translation>%1 kann nicht geschrieben werden: %2. Wählen Sie einen anderen Ordner oder Namen.</translation>
     </message>
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
@@ -228,7 +228,7 @@
     </message>
     <message>
       <source>%1 exists already. Replace it?</source>
-      <translation type="unfinished" />
+      <translation>%1 gibt es schon. Ersetzen?</translation>
     </message>
     <message>
       <source>%1 faces of %2</source>
@@ -303,12 +303,16 @@
       <translation>Ein Polygon</translation>
     </message>
     <message>
+      <source>Advanced</source>
+      <translation>Erweitert</translation>
+    </message>
+    <message>
       <source>After</source>
       <translation>Nachher</translation>
     </message>
     <message>
       <source>All commands</source>
-      <translation type="unfinished" />
+      <translation>Alle Befehle</translation>
     </message>
     <message>
       <source>An ellipse</source>
@@ -324,7 +328,7 @@
     </message>
     <message>
       <source>Back</source>
-      <translation type="unfinished" />
+      <translation>Zurück</translation>
     </message>
     <message>
       <source>Before</source>
@@ -348,7 +352,7 @@
     </message>
     <message>
       <source>CSV…</source>
-      <translation type="unfinished" />
+      <translation>CSV…</translation>
     </message>
     <message>
       <source>Cancel</source>
@@ -440,11 +444,11 @@
     </message>
     <message>
       <source>Copies all rows that are shown, for a spreadsheet</source>
-      <translation type="unfinished" />
+      <translation>Kopiert alle gezeigten Zeilen, für eine Tabellenkalkulation</translation>
     </message>
     <message>
       <source>Copy</source>
-      <translation type="unfinished" />
+      <translation>Kopieren</translation>
     </message>
     <message>
       <source>Copy the command</source>
@@ -516,7 +520,7 @@
     </message>
     <message>
       <source>FemScalpel: help</source>
-      <translation type="unfinished" />
+      <translation>FemScalpel: Hilfe</translation>
     </message>
     <message>
       <source>Fillet</source>
@@ -524,7 +528,7 @@
     </message>
     <message>
       <source>Filter by name</source>
-      <translation type="unfinished" />
+      <translation>Nach Namen filtern</translation>
     </message>
     <message>
       <source>First became triangles or tetrahedra: %1.</source>
@@ -545,6 +549,10 @@
     <message>
       <source>Groups</source>
       <translation>Gruppen</translation>
+    </message>
+    <message>
+      <source>How nodes are moved, which of them, and what must keep its shape</source>
+      <translation>Wie Knoten bewegt werden, welche, und was seine Form behalten muss</translation>
     </message>
     <message>
       <source>Incision</source>
@@ -660,7 +668,7 @@
     </message>
     <message>
       <source>Radius of the hole: %1.</source>
-      <translation type="unfinished" />
+      <translation>Radius des Lochs: %1.</translation>
     </message>
     <message>
       <source>Radius of the sphere</source>
@@ -677,6 +685,10 @@
     <message>
       <source>Refine to edges of %1 instead</source>
       <translation>Stattdessen auf Kanten von %1 verfeinern</translation>
+    </message>
+    <message>
+      <source>Refinement</source>
+      <translation>Verfeinerung</translation>
     </message>
     <message>
       <source>Refining first to edges of %1 would make %2. That is above the limit set in the preferences.</source>
@@ -700,11 +712,11 @@
     </message>
     <message>
       <source>Saves all rows that are shown as CSV</source>
-      <translation type="unfinished" />
+      <translation>Speichert alle gezeigten Zeilen als CSV</translation>
     </message>
     <message>
       <source>Save…</source>
-      <translation type="unfinished" />
+      <translation>Speichern…</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -740,7 +752,7 @@
     </message>
     <message>
       <source>Text</source>
-      <translation type="unfinished" />
+      <translation>Text</translation>
     </message>
     <message>
       <source>That edge is curved. Pick a straight or a circular edge.</source>
@@ -859,6 +871,10 @@
       <translation>Was nichts hält, hat keine Lösung: Halten Sie es fest, oder lassen Sie das Werkzeug im Bauteil enden.</translation>
     </message>
     <message>
+      <source>Whether elements near the tool are divided first, and how small they become</source>
+      <translation>Ob Elemente nahe dem Werkzeug zuerst geteilt werden, und wie klein sie werden</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Ganzes Teil</translation>
     </message>
@@ -880,7 +896,7 @@
     </message>
     <message>
       <source>and %1 other combinations of groups</source>
-      <translation type="unfinished" />
+      <translation>und %1 andere Kombinationen von Gruppen</translation>
     </message>
     <message>
       <source>back, +y</source>
@@ -888,7 +904,7 @@
     </message>
     <message>
       <source>beams</source>
-      <translation type="unfinished" />
+      <translation>Balken</translation>
     </message>
     <message>
       <source>became empty</source>
@@ -896,11 +912,11 @@
     </message>
     <message>
       <source>border between groups</source>
-      <translation type="unfinished" />
+      <translation>Rand zwischen Gruppen</translation>
     </message>
     <message>
       <source>border of what is made</source>
-      <translation type="unfinished" />
+      <translation>Rand des Neuen</translation>
     </message>
     <message>
       <source>bottom, -z</source>
@@ -916,11 +932,11 @@
     </message>
     <message>
       <source>changed elements, poor to good (mean ratio 0 to 1)</source>
-      <translation type="unfinished" />
+      <translation>geänderte Elemente, schlecht bis gut (Mean ratio 0 bis 1)</translation>
     </message>
     <message>
       <source>crack of %1</source>
-      <translation type="unfinished" />
+      <translation>Riss: %1</translation>
     </message>
     <message>
       <source>cut off the addition</source>
@@ -952,7 +968,7 @@
     </message>
     <message>
       <source>front of %1</source>
-      <translation type="unfinished" />
+      <translation>Front: %1</translation>
     </message>
     <message>
       <source>front, -y</source>
@@ -960,7 +976,7 @@
     </message>
     <message>
       <source>front: the crack ends here</source>
-      <translation type="unfinished" />
+      <translation>Front: hier endet der Riss</translation>
     </message>
     <message>
       <source>held by %1</source>
@@ -1000,7 +1016,7 @@
     </message>
     <message>
       <source>moved nodes</source>
-      <translation type="unfinished" />
+      <translation>verschobene Knoten</translation>
     </message>
     <message>
       <source>never</source>
@@ -1060,7 +1076,7 @@
     </message>
     <message>
       <source>removed</source>
-      <translation type="unfinished" />
+      <translation>entfernt</translation>
     </message>
     <message>
       <source>right, +x</source>
@@ -1092,7 +1108,7 @@
     </message>
     <message>
       <source>unchanged</source>
-      <translation type="unfinished" />
+      <translation>unverändert</translation>
     </message>
     <message>
       <source>untouched</source>
@@ -1104,7 +1120,7 @@
     </message>
     <message>
       <source>wall of %1</source>
-      <translation type="unfinished" />
+      <translation>Wand: %1</translation>
     </message>
     <message>
       <source>where the tool is finer</source>
@@ -1566,8 +1582,8 @@
       <translation>Kantenlänge</translation>
     </message>
     <message>
-      <source>Feature angle</source>
-      <translation>Kantenwinkel</translation>
+      <source>Edges of the skin that are sharper than this keep their shape (feature angle)</source>
+      <translation>Kanten der Oberfläche, die schärfer sind, behalten ihre Form (Merkmalswinkel)</translation>
     </message>
     <message>
       <source>Group borders</source>
@@ -1576,6 +1592,10 @@
     <message>
       <source>Group name</source>
       <translation>Gruppenname</translation>
+    </message>
+    <message>
+      <source>How many rings of elements around the tool may move (the paper: transition)</source>
+      <translation>Wie viele Ringe von Elementen um das Werkzeug sich bewegen dürfen (im Aufsatz: transition)</translation>
     </message>
     <message>
       <source>Longest edge wanted there; farther away edges grow longer again</source>
@@ -1602,12 +1622,12 @@
       <translation>Erst verfeinern</translation>
     </message>
     <message>
-      <source>Rings of elements around the tool that may move</source>
-      <translation>Ringe von Elementen um das Werkzeug, die sich bewegen dürfen</translation>
+      <source>Rings that may move</source>
+      <translation>Bewegliche Ringe</translation>
     </message>
     <message>
-      <source>Skin edges sharper than this keep their shape</source>
-      <translation>Hautkanten, die schärfer sind, behalten ihre Form</translation>
+      <source>Sharp edges from</source>
+      <translation>Scharfe Kanten ab</translation>
     </message>
     <message>
       <source>The analysis then solves the new mesh; loads, supports and materials stay as they are</source>
@@ -1618,24 +1638,20 @@
       <translation>Die Ränder der angekreuzten Gruppen behalten ihre Form; die der anderen dürfen sich verschieben</translation>
     </message>
     <message>
-      <source>Transition</source>
-      <translation>Übergang</translation>
-    </message>
-    <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
     </message>
     <message>
-      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
-      <translation>Ob die Ränder aller Gruppen ihre Form behalten; wo manche sich verschieben dürfen, können Elemente besser werden</translation>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better (the paper: virtual boundaries)</source>
+      <translation>Ob die Ränder aller Gruppen ihre Form behalten; wo die einiger wandern dürfen, können Elemente besser werden (im Aufsatz: virtual boundaries)</translation>
     </message>
     <message>
       <source>automatic</source>
       <translation>automatisch</translation>
     </message>
     <message>
-      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
-      <translation>snap: Knoten bewegen und Elemente teilen, gelingt auf einem gesunden Netz immer; deform: nur Knoten bewegen</translation>
+      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes (the paper's way)</source>
+      <translation>snap: Knoten bewegen und Elemente teilen, gelingt auf einem gesunden Netz immer; deform: nur Knoten bewegen (wie im Aufsatz)</translation>
     </message>
   </context>
   <context>
@@ -1835,7 +1851,7 @@
     </message>
     <message>
       <source>Shows what is done and what becomes of every group, to be copied and saved</source>
-      <translation type="unfinished" />
+      <translation>Zeigt, was getan wird und was aus jeder Gruppe wird; zum Kopieren und Speichern</translation>
     </message>
     <message>
       <source>What the colours of the elements mean</source>

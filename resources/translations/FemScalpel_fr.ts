@@ -220,7 +220,7 @@
     </message>
     <message>
       <source>%1 cannot be written: %2. Choose another folder or name.</source>
-      <translation type="unfinished" />
+      <translation>%1 ne peut pas être écrit : %2. Choisissez un autre dossier ou un autre nom.</translation>
     </message>
     <message>
       <source>%1 elements; smallest %2, mean %3.</source>
@@ -228,7 +228,7 @@
     </message>
     <message>
       <source>%1 exists already. Replace it?</source>
-      <translation type="unfinished" />
+      <translation>%1 existe déjà. Le remplacer ?</translation>
     </message>
     <message>
       <source>%1 faces of %2</source>
@@ -303,12 +303,16 @@
       <translation>Un polygone</translation>
     </message>
     <message>
+      <source>Advanced</source>
+      <translation>Avancé</translation>
+    </message>
+    <message>
       <source>After</source>
       <translation>Après</translation>
     </message>
     <message>
       <source>All commands</source>
-      <translation type="unfinished" />
+      <translation>Toutes les commandes</translation>
     </message>
     <message>
       <source>An ellipse</source>
@@ -324,7 +328,7 @@
     </message>
     <message>
       <source>Back</source>
-      <translation type="unfinished" />
+      <translation>Retour</translation>
     </message>
     <message>
       <source>Before</source>
@@ -348,7 +352,7 @@
     </message>
     <message>
       <source>CSV…</source>
-      <translation type="unfinished" />
+      <translation>CSV…</translation>
     </message>
     <message>
       <source>Cancel</source>
@@ -440,11 +444,11 @@
     </message>
     <message>
       <source>Copies all rows that are shown, for a spreadsheet</source>
-      <translation type="unfinished" />
+      <translation>Copie toutes les lignes affichées, pour un tableur</translation>
     </message>
     <message>
       <source>Copy</source>
-      <translation type="unfinished" />
+      <translation>Copier</translation>
     </message>
     <message>
       <source>Copy the command</source>
@@ -516,7 +520,7 @@
     </message>
     <message>
       <source>FemScalpel: help</source>
-      <translation type="unfinished" />
+      <translation>FemScalpel : aide</translation>
     </message>
     <message>
       <source>Fillet</source>
@@ -524,7 +528,7 @@
     </message>
     <message>
       <source>Filter by name</source>
-      <translation type="unfinished" />
+      <translation>Filtrer par nom</translation>
     </message>
     <message>
       <source>First became triangles or tetrahedra: %1.</source>
@@ -545,6 +549,10 @@
     <message>
       <source>Groups</source>
       <translation>Groupes</translation>
+    </message>
+    <message>
+      <source>How nodes are moved, which of them, and what must keep its shape</source>
+      <translation>Comment les nœuds sont déplacés, lesquels, et ce qui doit garder sa forme</translation>
     </message>
     <message>
       <source>Incision</source>
@@ -660,7 +668,7 @@
     </message>
     <message>
       <source>Radius of the hole: %1.</source>
-      <translation type="unfinished" />
+      <translation>Rayon du trou : %1.</translation>
     </message>
     <message>
       <source>Radius of the sphere</source>
@@ -677,6 +685,10 @@
     <message>
       <source>Refine to edges of %1 instead</source>
       <translation>Raffiner plutôt à des arêtes de %1</translation>
+    </message>
+    <message>
+      <source>Refinement</source>
+      <translation>Raffinement</translation>
     </message>
     <message>
       <source>Refining first to edges of %1 would make %2. That is above the limit set in the preferences.</source>
@@ -700,11 +712,11 @@
     </message>
     <message>
       <source>Saves all rows that are shown as CSV</source>
-      <translation type="unfinished" />
+      <translation>Enregistre toutes les lignes affichées en CSV</translation>
     </message>
     <message>
       <source>Save…</source>
-      <translation type="unfinished" />
+      <translation>Enregistrer…</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -740,7 +752,7 @@
     </message>
     <message>
       <source>Text</source>
-      <translation type="unfinished" />
+      <translation>Texte</translation>
     </message>
     <message>
       <source>That edge is curved. Pick a straight or a circular edge.</source>
@@ -859,6 +871,10 @@
       <translation>Ce que rien ne tient n'a pas de solution : fixez-le, ou faites finir l'outil dans la pièce.</translation>
     </message>
     <message>
+      <source>Whether elements near the tool are divided first, and how small they become</source>
+      <translation>Si les éléments près de l'outil sont d'abord divisés, et à quelle taille</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Pièce entière</translation>
     </message>
@@ -880,7 +896,7 @@
     </message>
     <message>
       <source>and %1 other combinations of groups</source>
-      <translation type="unfinished" />
+      <translation>et %1 autres combinaisons de groupes</translation>
     </message>
     <message>
       <source>back, +y</source>
@@ -888,7 +904,7 @@
     </message>
     <message>
       <source>beams</source>
-      <translation type="unfinished" />
+      <translation>poutres</translation>
     </message>
     <message>
       <source>became empty</source>
@@ -896,11 +912,11 @@
     </message>
     <message>
       <source>border between groups</source>
-      <translation type="unfinished" />
+      <translation>bord entre groupes</translation>
     </message>
     <message>
       <source>border of what is made</source>
-      <translation type="unfinished" />
+      <translation>bord de ce qui est créé</translation>
     </message>
     <message>
       <source>bottom, -z</source>
@@ -916,11 +932,11 @@
     </message>
     <message>
       <source>changed elements, poor to good (mean ratio 0 to 1)</source>
-      <translation type="unfinished" />
+      <translation>éléments modifiés, de mauvais à bons (mean ratio de 0 à 1)</translation>
     </message>
     <message>
       <source>crack of %1</source>
-      <translation type="unfinished" />
+      <translation>fissure de %1</translation>
     </message>
     <message>
       <source>cut off the addition</source>
@@ -952,7 +968,7 @@
     </message>
     <message>
       <source>front of %1</source>
-      <translation type="unfinished" />
+      <translation>front de %1</translation>
     </message>
     <message>
       <source>front, -y</source>
@@ -960,7 +976,7 @@
     </message>
     <message>
       <source>front: the crack ends here</source>
-      <translation type="unfinished" />
+      <translation>front : la fissure finit ici</translation>
     </message>
     <message>
       <source>held by %1</source>
@@ -1000,7 +1016,7 @@
     </message>
     <message>
       <source>moved nodes</source>
-      <translation type="unfinished" />
+      <translation>nœuds déplacés</translation>
     </message>
     <message>
       <source>never</source>
@@ -1060,7 +1076,7 @@
     </message>
     <message>
       <source>removed</source>
-      <translation type="unfinished" />
+      <translation>supprimé</translation>
     </message>
     <message>
       <source>right, +x</source>
@@ -1092,7 +1108,7 @@
     </message>
     <message>
       <source>unchanged</source>
-      <translation type="unfinished" />
+      <translation>inchangé</translation>
     </message>
     <message>
       <source>untouched</source>
@@ -1104,7 +1120,7 @@
     </message>
     <message>
       <source>wall of %1</source>
-      <translation type="unfinished" />
+      <translation>paroi de %1</translation>
     </message>
     <message>
       <source>where the tool is finer</source>
@@ -1566,8 +1582,8 @@
       <translation>Longueur d'arête</translation>
     </message>
     <message>
-      <source>Feature angle</source>
-      <translation>Angle vif</translation>
+      <source>Edges of the skin that are sharper than this keep their shape (feature angle)</source>
+      <translation>Les arêtes de la peau plus vives que cet angle gardent leur forme (angle caractéristique)</translation>
     </message>
     <message>
       <source>Group borders</source>
@@ -1576,6 +1592,10 @@
     <message>
       <source>Group name</source>
       <translation>Nom du groupe</translation>
+    </message>
+    <message>
+      <source>How many rings of elements around the tool may move (the paper: transition)</source>
+      <translation>Combien d'anneaux d'éléments autour de l'outil peuvent bouger (dans l'article : transition)</translation>
     </message>
     <message>
       <source>Longest edge wanted there; farther away edges grow longer again</source>
@@ -1602,12 +1622,12 @@
       <translation>Raffiner d'abord</translation>
     </message>
     <message>
-      <source>Rings of elements around the tool that may move</source>
-      <translation>Couches d'éléments autour de l'outil qui peuvent bouger</translation>
+      <source>Rings that may move</source>
+      <translation>Anneaux mobiles</translation>
     </message>
     <message>
-      <source>Skin edges sharper than this keep their shape</source>
-      <translation>Les arêtes de peau plus vives gardent leur forme</translation>
+      <source>Sharp edges from</source>
+      <translation>Arêtes vives dès</translation>
     </message>
     <message>
       <source>The analysis then solves the new mesh; loads, supports and materials stay as they are</source>
@@ -1618,24 +1638,20 @@
       <translation>Les bords des groupes cochés gardent leur forme ; ceux des autres peuvent dériver</translation>
     </message>
     <message>
-      <source>Transition</source>
-      <translation>Transition</translation>
-    </message>
-    <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
     </message>
     <message>
-      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
-      <translation>Si les bords de tous les groupes gardent leur forme ; là où certains peuvent dériver, les éléments peuvent être meilleurs</translation>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better (the paper: virtual boundaries)</source>
+      <translation>Si les bords de tous les groupes gardent leur forme ; là où certains peuvent dériver, les éléments peuvent être meilleurs (dans l'article : virtual boundaries)</translation>
     </message>
     <message>
       <source>automatic</source>
       <translation>automatique</translation>
     </message>
     <message>
-      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
-      <translation>snap : déplacer des nœuds et diviser des éléments, réussit toujours sur un maillage sain ; deform : seulement déplacer des nœuds</translation>
+      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes (the paper's way)</source>
+      <translation>snap : déplacer des nœuds et diviser des éléments, réussit toujours sur un maillage sain ; deform : seulement déplacer des nœuds (comme dans l'article)</translation>
     </message>
   </context>
   <context>
@@ -1835,7 +1851,7 @@
     </message>
     <message>
       <source>Shows what is done and what becomes of every group, to be copied and saved</source>
-      <translation type="unfinished" />
+      <translation>Montre ce qui est fait et ce que devient chaque groupe, à copier ou à enregistrer</translation>
     </message>
     <message>
       <source>What the colours of the elements mean</source>
