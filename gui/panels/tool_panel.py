@@ -165,6 +165,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         """Asks for a new preview of what is entered now."""
         if self._closed or self.source is None:
             return
+        self._steady.hold()
         problem = self.geometry.error()
         self.geometry.show_error(problem)
         if problem:
@@ -213,6 +214,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, value) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._steady.hold()
         self._clear_errors()
         self._set_ok(True)
         self.shown = value
@@ -230,6 +232,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._steady.hold()
         if isinstance(error, TooMuch):
             self._clear_errors()
             self._no_result(translate("FemScalpel", "No preview yet: see the question above."))

@@ -17,6 +17,7 @@ from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
 from .field_filter import FieldFilter
 from .sections import name_fields
+from .steady import Steady
 
 
 # Forms that FreeCAD has deleted itself; Python must never do it again.
@@ -46,7 +47,7 @@ class ViewPanel(QtCore.QObject):
         for form in self.form:
             form.setWhatsThis(help.tag(self.page()))
             name_fields(form)
-        self._fields = FieldFilter(self.form)
+        self._fields, self._steady = FieldFilter(self.form), Steady(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
         self.worker = LatestWins(self._arrived, self._broke)
@@ -133,6 +134,7 @@ class ViewPanel(QtCore.QObject):
         if self._closed:
             return
         self._closed = True
+        self._steady.close()
         self.worker.close()
         self.clear_view()
         self._meshes.restore()

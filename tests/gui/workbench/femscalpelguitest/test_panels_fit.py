@@ -117,3 +117,25 @@ class Sections(CrackTest):
         type_into("originX", "7")
         self.wait_for_preview()
         self.assertTrue(ok.isEnabled())
+
+
+class Messages(CrackTest):
+    def place(self, name):
+        return widget(name).mapToGlobal(QtCore.QPoint(0, 0)).y()
+
+    def test_do_not_move_what_is_under_the_mouse(self):
+        self.open_panel()
+        field = widget("groupName")
+        QtGui.QCursor.setPos(field.mapToGlobal(field.rect().center()))
+        spin(0.3)
+        before = self.place("groupName")
+        for _ in range(2):
+            widget("originX").setProperty("rawValue", 900)
+            self.wait_for_message("geometryError")
+            spin(0.3)
+            self.assertEqual(self.place("groupName"), before)
+            screenshot("message_beside_the_mouse")
+            widget("originX").setProperty("rawValue", 7)
+            self.wait_for_preview()
+            spin(0.3)
+            self.assertEqual(self.place("groupName"), before)
