@@ -141,6 +141,11 @@ def test_extents_of_a_front():
     )
 
 
+def test_extents_of_a_slot_are_walls():
+    report = fs.cut(grid_box(), PLANE, width=0.4).report
+    assert [e.what for e in report.extents] == ["wall"] and report.operation == "cut"
+
+
 def test_quadratic():
     mesh = quadratic(grid_box())
     result = fs.crack(mesh, PLANE)

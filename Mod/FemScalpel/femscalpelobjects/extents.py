@@ -10,7 +10,7 @@ PROPERTIES = (
     ("App::PropertyArea", "CrackArea", "Area of one lip of the crack"),
     ("App::PropertyLength", "CrackLength", "Length of the crack in a shell"),
     ("App::PropertyLength", "FrontLength", "Length of the crack's front"),
-    ("App::PropertyArea", "WallArea", "Area of the hole's or slot's wall"),
+    ("App::PropertyArea", "WallArea", "Area of the hole's wall; of one wall of a slot"),
     ("App::PropertyLength", "HoleRadius", "Radius of the hole: mean distance of its wall's nodes from the axis"),
 )
 _NAMES = {

@@ -118,7 +118,7 @@ class Extent(NamedTuple):
     measure: float  #: in the mesh's unit
 
 
-# Groups that operators make, by what their names end with. The other lip, _N, is as large as this one.
+# Groups that operators make, by what their names end with. The other lip, or wall of a slot, _N, is as large as _P.
 _MADE = {
     "_P": "crack",
     "_FRONT": "front",
@@ -195,7 +195,8 @@ class Report:
     def extents(self) -> List[Extent]:
         """Area or length of what the operator has made: a crack and its front, a hole's wall, a seam, ..."""
         found = {g.name: g for g in self.groups if g.status == "new" and g.kind != "node" and g.dimension > 0}
-        named = [(what, found.get(self.name + suffix)) for suffix, what in _MADE.items()]
+        made = dict(_MADE, _P="wall") if self.operation == "cut" else _MADE
+        named = [(what, found.get(self.name + suffix)) for suffix, what in made.items()]
         return [Extent(what, g.name, g.dimension, g.measure_after) for what, g in named if g is not None]
 
     def to_text(self) -> str:
