@@ -26,7 +26,11 @@ class Reasons(CrackTest):
         for entries, reason, advice in (
             ((("originX", "900"),), r"misses the mesh: .* distance 886", "Move the plane or turn it"),
             ((("originX", "0"),), "only touches the mesh, on its outside", "Move the plane into the material"),
-            ((disk, ("originY", "50"), ("patchRadius", "1")), "only outside the part of it that is to cut", "Move that"),
+            (
+                (disk, ("originY", "50"), ("patchRadius", "1")),
+                "only outside the part of it that is to cut",
+                "Move that",
+            ),
             ((disk, ("originY", "6"), ("patchRadius", "1")), "there is no material within its front", "Move it into"),
             (
                 (("refine", "Never"), disk, ("originX", "7.3"), ("originY", "2.313"), ("patchRadius", "0.001")),
