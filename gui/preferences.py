@@ -64,6 +64,16 @@ def most_memory():
     return max(0, _group().GetInt("MostMemory", 0))
 
 
+def is_unfolded(section, default):
+    """Whether a section of the panels is open."""
+    return _group().GetBool("Unfolded" + section, default)
+
+
+def set_unfolded(section, is_open):
+    """Keeps whether a section of the panels is open."""
+    _group().SetBool("Unfolded" + section, is_open)
+
+
 def put_into_analysis():
     """Whether new objects take their source's place in its analysis."""
     return _group().GetBool("PutIntoAnalysis", True)

@@ -26,13 +26,17 @@ class Progress:
         self._title, self._tell = title, tell
         self._begin = time.monotonic()
         self._dialog = None
-        self._said = ("", None)
+        self._said, self._shown = ("", None), None
         #: Whether the user has cancelled; read by other threads, too.
         self.cancelled = False
 
     def say(self, text, fraction=None):
         """Says what is being done now, and how much of it is done, in [0, 1], where that is known."""
-        self._said = (text, fraction)
+        if fraction is not None:
+            fraction = round(fraction, 2)
+        if self._shown == (text, fraction, self._dialog is not None):  # drawing it again would cost as much
+            return
+        self._said, self._shown = (text, fraction), (text, fraction, self._dialog is not None)
         if fraction is not None:
             text = f"{text} {100 * fraction:.0f} %"
         self._tell(text)

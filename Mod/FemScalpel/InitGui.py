@@ -21,7 +21,9 @@ class FemScalpelWorkbench(FreeCADGui.Workbench):
         if femscalpel_parts.missing():
             from femscalpelgui import missing_part as commands
         else:
-            from femscalpelgui import commands
+            from femscalpelgui import commands, help
+
+            help.watch_whats_this()
 
         toolbar, menu = commands.register()
         self.appendToolbar("FemScalpel", toolbar)

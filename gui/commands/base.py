@@ -99,17 +99,26 @@ class Command:
     NAME = MENU = TOOLTIP = WHATS_THIS = ACCEL = ICON = ""
     #: The task panel it opens.
     PANEL = None
-    CONTEXT = "FemScalpel"
 
     def GetResources(self):
+        # FreeCAD translates the texts, in the context of the command's name, and anew when the language changes.
         return {
             "Pixmap": icon(self.ICON or self.NAME),
-            "MenuText": translate(self.CONTEXT, self.MENU),
-            "ToolTip": translate(self.CONTEXT, self.TOOLTIP),
-            "StatusTip": translate(self.CONTEXT, self.TOOLTIP),
-            "WhatsThis": translate(self.CONTEXT, self.WHATS_THIS),
+            "MenuText": self.MENU,
+            "ToolTip": self.TOOLTIP,
+            "StatusTip": self.TOOLTIP,
+            "WhatsThis": self.WHATS_THIS,
             "Accel": self.ACCEL,
         }
+
+    @classmethod
+    def page(cls):
+        """The name of its page of help."""
+        return cls.__module__.rsplit(".", 1)[-1]
+
+    def title(self):
+        """Its name in the user's language."""
+        return translate(self.NAME, self.MENU).replace("&", "")
 
     def IsActive(self):
         """With a FEM mesh in the active document and no task panel open."""
@@ -124,9 +133,7 @@ class Command:
         try:
             action()
         except Unusable as reason:
-            QtGui.QMessageBox.warning(
-                FreeCADGui.getMainWindow(), translate(self.CONTEXT, self.MENU).replace("&", ""), str(reason)
-            )
+            QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), self.title(), str(reason))
 
     def run(self, mesh):
         """Does it."""
@@ -154,7 +161,7 @@ class Operation(Command):
             return mesh
         answer = QtGui.QMessageBox.question(
             FreeCADGui.getMainWindow(),
-            translate(self.CONTEXT, self.MENU).replace("&", ""),
+            self.title(),
             translate("FemScalpel", "%1 is the source of another operation. Take %2, the latest, instead?")
             .replace("%1", mesh.Label)
             .replace("%2", last.Label),

@@ -8,10 +8,10 @@ from .base import Operation
 
 class Crack(Operation):
     NAME = "FemScalpel_Crack"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Crack")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a plane and keeps its groups")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Crack", "Crack")
+    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel_Crack", "Cracks the FEM mesh along a plane and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Crack",
         "Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a "
         "planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview "
         "shows the "

@@ -11,12 +11,13 @@ from .base import Operation
 
 class CurvedCrack(Operation):
     NAME = "FemScalpel_CurvedCrack"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Curved crack")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_CurvedCrack", "Curved crack")
     TOOLTIP = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups"
+        "FemScalpel_CurvedCrack",
+        "Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups",
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_CurvedCrack",
         "Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged "
         "by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the "
         "material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will "

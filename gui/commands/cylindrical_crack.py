@@ -8,10 +8,12 @@ from .base import Operation
 
 class CylindricalCrack(Operation):
     NAME = "FemScalpel_CylindricalCrack"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Cylindrical crack")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cracks the FEM mesh along a cylinder and keeps its groups")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_CylindricalCrack", "Cylindrical crack")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel_CylindricalCrack", "Cracks the FEM mesh along a cylinder and keeps its groups"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_CylindricalCrack",
         "Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a "
         "cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the "
         "handles. "

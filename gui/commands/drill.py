@@ -8,10 +8,10 @@ from .base import Operation
 
 class Drill(Operation):
     NAME = "FemScalpel_Drill"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Drill")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Drills a hole into the FEM mesh and keeps its groups")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Drill", "Drill")
+    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel_Drill", "Drills a hole into the FEM mesh and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Drill",
         "Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that "
         "go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away "
         "and "

@@ -10,12 +10,12 @@ from .base import Command, Unusable, has_free_window
 
 class Example(Command):
     NAME = "FemScalpel_Example"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Example: caisson")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Example", "Example: caisson")
     TOOLTIP = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on"
+        "FemScalpel_Example", "Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on"
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Example",
         "Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with "
         "groups "
         "for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.",

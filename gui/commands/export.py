@@ -14,12 +14,12 @@ from .base import Command, Unusable
 
 class Export(Command):
     NAME = "FemScalpel_Export"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Export mesh…")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Export", "Export mesh…")
     TOOLTIP = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Writes the FEM mesh with its groups to a file, in a format of solvers or viewers"
+        "FemScalpel_Export", "Writes the FEM mesh with its groups to a file, in a format of solvers or viewers"
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Export",
         "Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.",
     )
     ACCEL = "S, E"

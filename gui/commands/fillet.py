@@ -8,10 +8,10 @@ from .base import Operation
 
 class Fillet(Operation):
     NAME = "FemScalpel_Fillet"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Fillet")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Rounds edges of the FEM mesh and keeps its groups")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Fillet", "Fillet")
+    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel_Fillet", "Rounds edges of the FEM mesh and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Fillet",
         "Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the "
         "edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The "
         "faces of the rounding become a group, and the groups beside it keep to their sides.",

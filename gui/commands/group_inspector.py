@@ -8,10 +8,12 @@ from .base import Command
 
 class GroupInspector(Command):
     NAME = "FemScalpel_GroupInspector"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Group inspector")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Shows the groups of a FEM mesh, what they cover and what uses them")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_GroupInspector", "Group inspector")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel_GroupInspector", "Shows the groups of a FEM mesh, what they cover and what uses them"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_GroupInspector",
         "Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, "
         "double-click a name to rename the group and a colour to change it. Elementary groups are the "
         "entities "

@@ -8,10 +8,10 @@ from .base import Operation
 
 class Incision(Operation):
     NAME = "FemScalpel_Incision"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Incision")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Cuts a slot into the FEM mesh and keeps its groups")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Incision", "Incision")
+    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel_Incision", "Cuts a slot into the FEM mesh and keeps its groups")
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Incision",
         "Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, "
         "and whether it goes right through or down to the plane's point; the elements that go are shown "
         "as "

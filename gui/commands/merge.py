@@ -11,10 +11,12 @@ from .base import Operation, find_mesh, is_mesh
 
 class Merge(Operation):
     NAME = "FemScalpel_Merge"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Merge")
-    TOOLTIP = QT_TRANSLATE_NOOP("FemScalpel", "Adds another FEM mesh to the FEM mesh and keeps the groups of both")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Merge", "Merge")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "FemScalpel_Merge", "Adds another FEM mesh to the FEM mesh and keeps the groups of both"
+    )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Merge",
         "Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two "
         "touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one "
         "of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both "

@@ -8,12 +8,12 @@ from .base import Operation
 
 class Refine(Operation):
     NAME = "FemScalpel_Refine"
-    MENU = QT_TRANSLATE_NOOP("FemScalpel", "Refine")
+    MENU = QT_TRANSLATE_NOOP("FemScalpel_Refine", "Refine")
     TOOLTIP = QT_TRANSLATE_NOOP(
-        "FemScalpel", "Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups"
+        "FemScalpel_Refine", "Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups"
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
-        "FemScalpel",
+        "FemScalpel_Refine",
         "Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short "
         "as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a "
         "finer mesh around it. All groups keep their meaning.",

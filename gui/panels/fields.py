@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """FreeCAD's unit-aware number fields, and messages beside fields."""
 
-from PySide import QtGui
-
-#: Colours of errors and warnings, and what is read better in dark themes.
-ERROR, WARNING = "#b3261e", "#8a5a00"
-_IN_THE_DARK = {ERROR: "#ff8f85", WARNING: "#f2b956"}
+#: Styles of errors and warnings. They have a ground of their own, as themes have any: dark, light, or grey.
+ERROR = "color: #8c1d18; background-color: #fde7e4;"
+WARNING = "color: #654000; background-color: #fff1cf;"
 
 
 class Number:
@@ -39,17 +37,9 @@ class Number:
         self._changed()
 
 
-def for_theme(text, widget):
-    """`text` with the colours of messages as they can be read where `widget` is."""
-    if widget.palette().color(QtGui.QPalette.WindowText).lightness() > 128:
-        for light, dark in _IN_THE_DARK.items():
-            text = text.replace(light, dark)
-    return text
-
-
 def show_error(label, text):
     """Shows `text` in a message label, or hides it when there is none."""
-    label.setStyleSheet(for_theme(f"color: {ERROR};", label.parentWidget() or label))
+    label.setStyleSheet(f"QLabel {{ {ERROR} padding: 3px; }}")
     label.setText(text or "")
     label.setVisible(bool(text))
 

@@ -16,6 +16,7 @@ from ..view import colours
 from ..view.group_shape import GroupShape, elements_shape, facets_shape, nodes_shape
 from . import fields
 from .inspection_panel import InspectionPanel
+from .table_tools import TableTools, cell
 
 WHAT = ("groups", "elementary")
 PARTS = ("members", "bounding", "linking", "isolated")
@@ -63,13 +64,11 @@ class GroupInspectorPanel(InspectionPanel):
         table = self.panel.groups
         table.setColumnCount(len(headers))
         table.setHorizontalHeaderLabels(headers)
-        table.verticalHeader().hide()
-        table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 6)
-        table.setSortingEnabled(False)
+        self._tools = TableTools(table, translate("FemScalpel", "Groups"), (_KIND,))
         self.entries, self._shapes = [], {}
         self.panel.what.currentIndexChanged.connect(lambda *_: self._list())
         self.panel.part.currentIndexChanged.connect(lambda *_: self._draw())
-        self.panel.all.clicked.connect(lambda: self._tick(lambda row: True))
+        self.panel.all.clicked.connect(lambda: self._tick(lambda row: not table.isRowHidden(row)))
         self.panel.none.clicked.connect(lambda: self._tick(lambda row: False))
         self.panel.only.clicked.connect(self._only_selected)
         table.itemChanged.connect(self._changed)
@@ -104,15 +103,15 @@ class GroupInspectorPanel(InspectionPanel):
         for row, entry in enumerate(self.entries):
             dimension, measure = self._dimension_and_measure(entry)
             cells = (
-                entry.name,
-                "",
-                _kind(entry.kind, dimension),
-                str(len(entry.ids)),
-                measure,
-                ", ".join(label for name in entry.names for label in users.get(name, ())),
+                cell(entry.name),
+                cell(""),
+                cell(_kind(entry.kind, dimension)),
+                cell(str(len(entry.ids)), len(entry.ids)),
+                cell(_measure_text(measure, dimension), measure),
+                cell(", ".join(label for name in entry.names for label in users.get(name, ()))),
             )
-            for column, text in enumerate(cells):
-                item = QtGui.QTableWidgetItem(text)
+            tip = "\n".join(filter(None, (item.text() for item in cells)))
+            for column, item in enumerate(cells):
                 flags = QtCore.Qt.ItemIsEnabled | QtCore.Qt.ItemIsSelectable
                 if column == _NAME:
                     item.setCheckState(QtCore.Qt.Unchecked)
@@ -123,12 +122,11 @@ class GroupInspectorPanel(InspectionPanel):
                 if column == _COLOUR:
                     item.setBackground(_qcolour(self._colour(row)))
                     item.setToolTip(translate("FemScalpel", "Double-click to change the colour"))
-                if column in (_SIZE, _MEASURE):
-                    item.setTextAlignment(int(QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter))
+                else:
+                    item.setToolTip(tip)
                 table.setItem(row, column, item)
-        table.resizeColumnsToContents()
-        table.setColumnWidth(_COLOUR, 18)
         table.blockSignals(blocked)
+        self._tools.arrange()
         self.panel.status.setText(
             translate("FemScalpel", "%1 groups, %2 nodes, %3 elements.")
             .replace("%1", str(len(self.entries)))
@@ -152,8 +150,9 @@ class GroupInspectorPanel(InspectionPanel):
         self._draw()
 
     def _dimension_and_measure(self, entry):
+        """The dimension of its largest members, and their measure, None where there is none."""
         if entry.kind != "element":
-            return entry.dimension, ""
+            return entry.dimension, None
         dimensions, total = {}, {}
         for name, ids in self.source.mesh.cell_ids.items():
             chosen = np.isin(ids, entry.ids)
@@ -162,9 +161,9 @@ class GroupInspectorPanel(InspectionPanel):
                 dimensions[dimension] = True
                 total[dimension] = total.get(dimension, 0.0) + float(self._measures[name][chosen].sum())
         if not dimensions:
-            return None, ""
+            return None, None
         dimension = max(dimensions)
-        return dimension, f"{total[dimension]:.6g} {('', 'mm', 'mm²', 'mm³')[dimension]}" if dimension else ""
+        return dimension, total[dimension] if dimension else None
 
     def _tick(self, wanted):
         table = self.panel.groups
@@ -248,6 +247,10 @@ class GroupInspectorPanel(InspectionPanel):
         self._tick(
             lambda row: self.entries[row].name in shown or self.entries[row].name == name and entry.name in shown
         )
+
+
+def _measure_text(measure, dimension):
+    return "" if measure is None else f"{measure:.6g} {('', 'mm', 'mm²', 'mm³')[dimension]}"
 
 
 def _qcolour(rgb):

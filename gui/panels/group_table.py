@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Fills a table widget with a group report."""
 
-from PySide import QtCore, QtGui
+from PySide import QtCore
 
 from ..translate import translate
+from .table_tools import TableTools, cell
 
+_STATES = ("new", "became empty", "reduced", "changed", "kept", "untouched")
 _UNITS = {1: "mm", 2: "mm²", 3: "mm³"}
 
 
 def set_up(table):
-    """Gives the table its columns."""
+    """Gives the table its columns; returns its TableTools."""
     headers = [
         translate("FemScalpel", "Group"),
         translate("FemScalpel", "Kind"),
@@ -20,42 +22,34 @@ def set_up(table):
     ]
     table.setColumnCount(len(headers))
     table.setHorizontalHeaderLabels(headers)
-    table.verticalHeader().hide()
-    table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 6)
-    table.setWordWrap(False)
-    table.horizontalHeader().setStretchLastSection(True)
+    return TableTools(table, translate("FemScalpel", "Groups"), (1, 4))
 
 
-def fill(table, records):
-    """Shows femscalpel.GroupRecord rows, those that changed first; keeps the selected group."""
+def fill(table, records, tools):
+    """Shows femscalpel.GroupRecord rows, those that changed first or as the user has sorted them by `tools`; keeps the
+    selected group."""
     chosen = selected(table)
-    order = sorted(
-        records, key=lambda r: ("new", "became empty", "reduced", "changed", "kept", "untouched").index(r.status)
-    )
+    order = sorted(records, key=lambda r: _STATES.index(r.status))
     blocked = table.blockSignals(True)
     table.clearSelection()
     table.setRowCount(len(order))
     for row, record in enumerate(order):
         cells = (
-            record.name,
-            _kind(record),
-            str(record.count_before),
-            str(record.count_after),
-            _change(record),
-            _status(record.status),
+            cell(record.name),
+            cell(_kind(record)),
+            cell(str(record.count_before), record.count_before),
+            cell(str(record.count_after), record.count_after),
+            cell(*_change(record)),
+            cell(_status(record.status)),
         )
-        for column, text in enumerate(cells):
-            item = QtGui.QTableWidgetItem(text)
-            if column in (2, 3, 4):
-                item.setTextAlignment(int(QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter))
-            if column == 0:
-                item.setData(QtCore.Qt.UserRole, (record.name, record.kind))
-            item.setToolTip(_tip(record))
+        cells[0].setData(QtCore.Qt.UserRole, (record.name, record.kind))
+        for column, item in enumerate(cells):
+            item.setToolTip(f"{record.name}: {_kind(record)}; {_tip(record)}")
             table.setItem(row, column, item)
         if (record.name, record.kind) == chosen:
             table.selectRow(row)
-    table.resizeColumnsToContents()
     table.blockSignals(blocked)
+    tools.arrange()
 
 
 def selected(table):
@@ -89,10 +83,11 @@ def _status(status):
 
 
 def _change(record):
+    """As text, and the number, None where there is none."""
     if record.kind == "node" or not record.measure_before:
-        return ""
+        return "", None
     change = (record.measure_after - record.measure_before) / record.measure_before
-    return "0" if abs(change) < 1e-12 else f"{change:+.1e}"
+    return "0" if abs(change) < 1e-12 else f"{change:+.1e}", change
 
 
 def _tip(record):

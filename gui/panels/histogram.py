@@ -8,7 +8,7 @@ from ..translate import translate
 from ..view.colours import quality_rgb
 
 
-class Histogram(QtGui.QWidget):
+class Histogram(QtGui.QLabel):  # as themes say the colours of texts for labels
     """Bars for `after`, an outline for `before`; each an array of counts of equal bins over [0, 1]."""
 
     def __init__(self, parent=None):
@@ -51,8 +51,7 @@ class Histogram(QtGui.QWidget):
                 QtCore.QRectF(area.left() + k * width + 0.5, area.bottom() - height, width - 1, height),
                 QtGui.QColor.fromRgbF(*[float(c) for c in rgb]),
             )
-        pen = QtGui.QPen(self.palette().color(QtGui.QPalette.WindowText))
-        painter.setPen(pen)
+        painter.setPen(self.palette().color(self.foregroundRole()))
         if self.before is not None:
             line = QtGui.QPolygonF()
             for k, n in enumerate(self.before):

@@ -32,7 +32,7 @@ class InspectionPanel(ViewPanel):
         raise NotImplementedError
 
     def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Close)
+        return int(QtGui.QDialogButtonBox.Close | QtGui.QDialogButtonBox.Help)
 
     def not_loaded(self, error):
         fields.show_error(self.panel.error, str(error))

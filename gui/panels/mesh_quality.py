@@ -14,6 +14,7 @@ from ..view.group_scene import zoom_to
 from ..view.group_shape import GroupShape, elements_shape
 from .histogram import Histogram
 from .inspection_panel import InspectionPanel
+from .table_tools import TableTools, cell
 
 #: Measures: name, function, value of the regular element, unit.
 MEASURES = (
@@ -45,9 +46,8 @@ class MeshQualityPanel(InspectionPanel):
         self.panel.worst.setHorizontalHeaderLabels(
             [translate("FemScalpel", "Element"), translate("FemScalpel", "Type"), translate("FemScalpel", "Value")]
         )
-        self.panel.worst.verticalHeader().hide()
         self.panel.worst.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
-        self.panel.worst.horizontalHeader().setStretchLastSection(True)
+        self._tools = TableTools(self.panel.worst, translate("FemScalpel", "Worst elements"))
         self.panel.measure.currentIndexChanged.connect(lambda *_: (self._set_limit(), self._measure()))
         self.panel.onlyBad.toggled.connect(lambda *_: self._draw())
         self.panel.limit.valueChanged.connect(lambda *_: self._draw())
@@ -98,10 +98,12 @@ class MeshQualityPanel(InspectionPanel):
         self.panel.worst.clearSelection()
         self.panel.worst.setRowCount(len(worst))
         for row, at in enumerate(worst):
-            for column, entry in enumerate((str(cells.ids[at]), str(self._types[at]), f"{self.values[at]:.4f}{unit}")):
-                self.panel.worst.setItem(row, column, QtGui.QTableWidgetItem(entry))
-        self.panel.worst.resizeColumnsToContents()
+            number, value = int(cells.ids[at]), float(self.values[at])
+            entries = cell(str(number), number), cell(str(self._types[at])), cell(f"{value:.4f}{unit}", value)
+            for column, entry in enumerate(entries):
+                self.panel.worst.setItem(row, column, entry)
         self.panel.worst.blockSignals(blocked)
+        self._tools.arrange()
         self._draw()
 
     def _draw(self, extra=()):

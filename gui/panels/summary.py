@@ -4,6 +4,7 @@
 import html
 from collections import Counter
 
+import FreeCAD
 from femscalpelobjects import pieces
 
 from .. import preferences
@@ -16,7 +17,6 @@ def sentence(text):
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
-_WARNING = f"color:{fields.WARNING}"
 # What Report.converted counts.
 _KINDS = {
     "triangle": QT_TRANSLATE_NOOP("FemScalpel", "triangles of seven nodes"),
@@ -25,6 +25,28 @@ _KINDS = {
     "wedge": QT_TRANSLATE_NOOP("FemScalpel", "prisms"),
     "hexahedron": QT_TRANSLATE_NOOP("FemScalpel", "hexahedra"),
 }
+
+
+def made_text(report):
+    """How large what was made is, as a sentence; "" where there is nothing to say."""
+    named = {
+        ("crack", 2): translate("FemScalpel", "crack of %1"),
+        ("crack", 1): translate("FemScalpel", "crack of %1"),
+        ("front", 1): translate("FemScalpel", "front of %1"),
+        ("wall", 2): translate("FemScalpel", "wall of %1"),
+    }
+    texts = [
+        named[extent.what, extent.dimension].replace("%1", measure_text(extent.measure, extent.dimension))
+        for extent in report.extents
+        if (extent.what, extent.dimension) in named
+    ]
+    return sentence(", ".join(texts)) if texts else ""
+
+
+def measure_text(measure, dimension):
+    """A length, area or volume in the user's unit."""
+    quantity = FreeCAD.Units.Quantity(f"{float(measure)!r} {('', 'mm', 'mm^2', 'mm^3')[dimension]}")
+    return quantity.UserString.replace("^2", "²").replace("^3", "³")
 
 
 def summary(report):
@@ -43,6 +65,8 @@ def summary(report):
     )
     for k, number in enumerate(numbers, 1):
         text = text.replace(f"%{k}", str(number))
+    made = made_text(report)
+    text += f" {made}" if made else ""
     if report.converted:
         counts = Counter()
         for kind, count in report.converted.items():
@@ -51,14 +75,14 @@ def summary(report):
         text += " " + translate("FemScalpel", "First became triangles or tetrahedra: %1.").replace("%1", kinds)
     if after.minimum < preferences.quality_threshold():
         text += (
-            f" <b style='color:{fields.ERROR}'>"
+            f" <b style='{fields.ERROR}'>"
             + translate("FemScalpel", "Worse than your threshold of %1.").replace(
                 "%1", f"{preferences.quality_threshold():g}"
             )
             + "</b>"
         )
     for warning in report.warnings:
-        text += f"<br><span style='{_WARNING}'>{sentence(warning)}</span>"
+        text += f"<br><span style='{fields.WARNING}'>{sentence(warning)}</span>"
     return text
 
 
@@ -76,5 +100,5 @@ class PiecesText:
             self._supports = (pieces.find_supports(self._source),)
         held = pieces.holders(parting, self._supports[0])
         text = html.escape(pieces.sentence_of(parting, held, translate))
-        style = f" style='{_WARNING}'" if pieces.is_unsafe(held) else ""
+        style = f" style='{fields.WARNING}'" if pieces.is_unsafe(held) else ""
         return f"<br><span{style}>{text}</span>"

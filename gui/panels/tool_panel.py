@@ -14,7 +14,9 @@ from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
 from . import fields, group_table
 from .histogram import Histogram
+from .legend import Legend, entries_of
 from .placements import as_text
+from .report_dialog import show_report
 from .refinement_question import RefinementQuestion, refining_text
 from .summary import PiecesText, sentence, summary
 from .view_panel import ViewPanel
@@ -137,7 +139,10 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             r.colouring.addItem(text, data)
         self.histogram = Histogram()
         r.histogramLayout.addWidget(self.histogram)
-        group_table.set_up(r.groups)
+        self.legend = Legend()
+        r.rows.insertWidget(1, self.legend)
+        self._table_tools = group_table.set_up(r.groups)
+        r.report.clicked.connect(self._show_report)
         for box in (r.look, r.colouring):
             box.currentIndexChanged.connect(lambda *_: self._restyle())
         for box in (r.moved, r.worst):
@@ -160,6 +165,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         """Asks for a new preview of what is entered now."""
         if self._closed or self.source is None:
             return
+        self._steady.hold()
         problem = self.geometry.error()
         self.geometry.show_error(problem)
         if problem:
@@ -208,13 +214,16 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, value) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._steady.hold()
         self._clear_errors()
         self._set_ok(True)
         self.shown = value
         self.scene.show(value)
         report = value.result.report
         self.histogram.show_counts(report.quality.after.histogram, report.quality.before.histogram)
-        group_table.fill(self.result.groups, report.groups)
+        group_table.fill(self.result.groups, report.groups, self._table_tools)
+        self.result.report.setEnabled(True)
+        self.legend.show_entries(entries_of(self.scene, value))
         self._light_up()
         self._summary = summary(report) + self._pieces(value.parting)
         self._status(self._summary)
@@ -223,6 +232,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._steady.hold()
         if isinstance(error, TooMuch):
             self._clear_errors()
             self._no_result(translate("FemScalpel", "No preview yet: see the question above."))
@@ -240,6 +250,8 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             self.scene.show_whole(self.source.whole(), self.beside())
         self.scene.highlight(None)
         self.histogram.clear()
+        self.legend.show_entries([])
+        self.result.report.setEnabled(False)
         self.result.groups.setRowCount(0)
         self._status(status)
 
@@ -287,7 +299,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         return next(form for form in self.form if form.isAncestorOf(label))
 
     def _status(self, text):
-        self.result.status.setText(fields.for_theme(text, self.result))
+        self.result.status.setText(text)
         # The panel's own may be scrolled out of sight.
         bar = FreeCADGui.getMainWindow().statusBar()
         bar.showMessage(text) if text.endswith("…") else bar.clearMessage()
@@ -297,6 +309,14 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.scene.look, self.scene.colouring = r.look.currentData(), r.colouring.currentData()
         self.scene.show_moved, self.scene.show_worst = r.moved.isChecked(), r.worst.isChecked()
         self.scene.redraw()
+        if self.shown is not None:
+            self.legend.show_entries(entries_of(self.scene, self.shown))
+
+    def _show_report(self):
+        """The report of what is shown, to be read, copied and saved."""
+        if self.shown is not None:
+            report = self.shown.result.report
+            show_report(translate("FemScalpel", self.TITLE), report.to_text(), report.to_json())
 
     def _light_up(self):
         chosen = group_table.selected(self.result.groups)
@@ -337,5 +357,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.scene.close()
 
     def forget_widgets(self):
-        self.options = self.result = self.histogram = self._feature_angle = self._refine_size = None
+        self.options = (
+            self.result
+        ) = self.histogram = self.legend = self._table_tools = self._feature_angle = self._refine_size = None
         self._preserve = None

@@ -10,11 +10,14 @@ from pivy import coin
 import femmesh_bridge
 from femscalpelobjects import contents
 
+from .. import help
 from ..latest_wins import LatestWins
 from ..translate import translate
 from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
 from .field_filter import FieldFilter
+from .sections import name_fields
+from .steady import Steady
 
 
 # Forms that FreeCAD has deleted itself; Python must never do it again.
@@ -41,7 +44,10 @@ class ViewPanel(QtCore.QObject):
         name.setTextFormat(QtCore.Qt.PlainText)
         name.setWordWrap(True)
         self.form[0].layout().insertWidget(0, name)
-        self._fields = FieldFilter(self.form)
+        for form in self.form:
+            form.setWhatsThis(help.tag(self.page()))
+            name_fields(form)
+        self._fields, self._steady = FieldFilter(self.form), Steady(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
         self.worker = LatestWins(self._arrived, self._broke)
@@ -51,6 +57,15 @@ class ViewPanel(QtCore.QObject):
         femmesh = self.source_object.FemMesh
         self._changes = contents.changes_of(self.source_object)
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
+
+    @classmethod
+    def page(cls):
+        """The name of its page of help."""
+        return cls.__module__.rsplit(".", 1)[-1]
+
+    def helpRequested(self):
+        """The Help button."""
+        help.show(self.page())
 
     def read_mesh(self, femmesh):
         """The PreviewSource of a FemMesh; called on another thread."""
@@ -119,6 +134,7 @@ class ViewPanel(QtCore.QObject):
         if self._closed:
             return
         self._closed = True
+        self._steady.close()
         self.worker.close()
         self.clear_view()
         self._meshes.restore()

@@ -13,11 +13,12 @@ from ..macro import record_import
 from ..progress import Progress, Steps
 from ..translate import translate
 from . import fields
-from .summary import sentence
+from .summary import made_text, sentence
 from .view_panel import abort_transaction
 
 #: Seconds that a cancelled computation may take to end.
 _PATIENCE = 2.0
+_TOLD = 15_000  # milliseconds for which the status bar says what was made
 
 
 class WithOk:
@@ -32,7 +33,7 @@ class WithOk:
     _given_up = False  # whether the user has cancelled the preview of what is entered
 
     def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel | QtGui.QDialogButtonBox.Help)
 
     def _set_ok(self, enabled):
         if enabled != self._ok:
@@ -68,10 +69,22 @@ class WithOk:
         if obj is None:
             return False
         self.leave()
+        self._tell_extents(obj)
         if self.edited is None:
             FreeCADGui.Selection.clearSelection()
             FreeCADGui.Selection.addSelection(self.document.Name, obj.Name)
         return True
+
+    @staticmethod
+    def _tell_extents(obj):
+        """Says how large what was made is, now that the panel is gone."""
+        texts = [made_text(obj.Proxy.report)] if obj.Proxy.report is not None else []
+        if obj.HoleRadius.Value:
+            texts.append(translate("FemScalpel", "Radius of the hole: %1.").replace("%1", obj.HoleRadius.UserString))
+        if any(texts):
+            text = f"{obj.Label}: {' '.join(filter(None, texts))}"
+            FreeCAD.Console.PrintMessage(text + "\n")
+            FreeCADGui.getMainWindow().statusBar().showMessage(text, _TOLD)
 
     def _do(self, progress):
         """The object made or changed, None where the panel is to stay."""

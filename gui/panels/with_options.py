@@ -7,6 +7,7 @@ from .. import preferences
 from ..translate import translate
 from . import fields
 from .preserve_input import PreserveInput
+from .sections import Section
 
 #: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
 OPTION_ERRORS = {
@@ -57,9 +58,37 @@ class WithOptions:
         for row in (row for name, row in OPTION_ROWS.items() if name not in self.OFFERED):
             for column in (0, 1):
                 o.grid.itemAtPosition(row, column).widget().hide()
+        self._fold_options()
         analysis = self._analysis()
         o.intoAnalysis.setVisible(analysis is not None and self.edited is None)
         o.intoAnalysis.setChecked(analysis is not None and self.edited is None and preferences.put_into_analysis())
+
+    def _fold_options(self):
+        """Puts what is not always needed into sections."""
+        o = self.options
+        sections = (
+            (
+                ("refine",),
+                (6, 7, 8),
+                "Refinement",
+                translate("FemScalpel", "Refinement"),
+                translate("FemScalpel", "Whether elements near the tool are divided first, and how small they become"),
+                True,
+            ),
+            (
+                ("method", "transition", "feature_angle", "preserve"),
+                (2, 3, 4, 5, 9, 10, 11),
+                "Advanced",
+                translate("FemScalpel", "Advanced"),
+                translate("FemScalpel", "How nodes are moved, which of them, and what must keep its shape"),
+                False,
+            ),
+        )
+        self._sections = [
+            Section(o.rows, o.grid, rows, *texts)
+            for names, rows, *texts in sections
+            if any(name in self.OFFERED for name in names)
+        ]
 
     def _refine_to(self, size):
         """Enters an edge length to refine to first."""

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A text in the 3-D view that stays readable on whatever is behind it."""
 
+import math
+
+import FreeCADGui
 from pivy import coin
 from PySide import QtCore, QtGui
 
@@ -33,26 +36,34 @@ class LabelNode(Part):
         self._place.translation.setValue(*[float(x) for x in point])
         if text != self._text:
             self._text = text
-            picture = label_picture(text)
+            picture = label_picture(text, pixel_ratio())
             size = coin.SbVec2s(picture.width(), picture.height())
             self._image.image.setValue(size, 4, bytes(picture.constBits()))
         self.reveal()
 
 
-def label_picture(text):
-    """The box with its line, from the bottom left corner, as Coin reads images: RGBA from the bottom row up."""
+def pixel_ratio():
+    """Pixels of the screen, which Coin draws, for one of those that the window is laid out in."""
+    return float(FreeCADGui.getMainWindow().devicePixelRatioF())
+
+
+def label_picture(text, ratio=1.0):
+    """The box with its line, from the bottom left corner, as Coin reads images: RGBA from the bottom row up. `ratio` as
+    of pixel_ratio()."""
     font = QtGui.QApplication.font()
     font.setBold(True)
     font.setPixelSize(max(14, QtGui.QFontInfo(font).pixelSize() + 2))
     metrics = QtGui.QFontMetrics(font)
     box = QtCore.QRectF(_LEADER, 0.5, metrics.boundingRect(text).width() + 3 * _PAD, metrics.height() + _PAD)
-    picture = QtGui.QImage(int(box.right()) + 2, int(box.bottom()) + _LEADER, QtGui.QImage.Format_RGBA8888)
+    width, height = int(box.right()) + 2, int(box.bottom()) + _LEADER
+    picture = QtGui.QImage(math.ceil(ratio * width), math.ceil(ratio * height), QtGui.QImage.Format_RGBA8888)
+    picture.setDevicePixelRatio(ratio)
     picture.fill(QtCore.Qt.transparent)
     painter = QtGui.QPainter(picture)
     painter.setRenderHint(QtGui.QPainter.Antialiasing)
     painter.setFont(font)
     # A light line beneath the dark one: seen on any background.
-    line = QtCore.QLineF(1, picture.height() - 1, box.left() + 3, box.bottom() - 3)
+    line = QtCore.QLineF(1, height - 1, box.left() + 3, box.bottom() - 3)
     for colour, width in ((QtCore.Qt.white, 4.0), (QtCore.Qt.black, 1.6)):
         painter.setPen(QtGui.QPen(QtGui.QColor(colour), width))
         painter.drawLine(line)

@@ -8,6 +8,7 @@ import femscalpel
 from femscalpelobjects.analysis import analysis_of
 
 from ..macro import record_import
+from ..panels.report_dialog import show_report_of
 from ..translate import icon, translate
 
 
@@ -41,11 +42,11 @@ def fill(menu, provider, vobj):
         _add(
             menu,
             icon(command.NAME),
-            translate("FemScalpel", command.MENU),
+            command.title(),
             lambda command=command: _run(command, obj),
             has_mesh,
         )
-    _add(menu, None, translate("FemScalpel", "Report…"), lambda: show_report(obj), bool(obj.GroupReport))
+    _add(menu, None, translate("FemScalpel", "Report…"), lambda: show_report_of(obj), bool(obj.GroupReport))
     if provider.crack is not None and provider.crack.is_one:
         action = _add(menu, None, translate("FemScalpel", "Show crack"), lambda: provider.crack.light(), has_mesh)
         action.setCheckable(True)
@@ -60,7 +61,7 @@ def _add(menu, picture, text, run, enabled=True):
 
 
 def _run(command, obj):
-    if is_free(translate("FemScalpel", command.MENU).replace("&", "")):
+    if is_free(command.title()):
         command.guarded(lambda: command.run(obj))
 
 
@@ -73,27 +74,3 @@ def _move(obj, title, function):
         )
     except (femscalpel.Error, ValueError, RuntimeError) as error:
         QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, str(error))
-
-
-def show_report(obj):
-    """Shows what was done to make the mesh of an object, and what became of every group."""
-    dialog = QtGui.QDialog(FreeCADGui.getMainWindow())
-    dialog.setObjectName("femscalpelReport")
-    dialog.setWindowTitle(translate("FemScalpel", "Report: %1").replace("%1", obj.Label))
-    text = QtGui.QPlainTextEdit()
-    text.setObjectName("reportText")
-    text.setReadOnly(True)
-    text.setLineWrapMode(QtGui.QPlainTextEdit.NoWrap)
-    font = text.font()
-    font.setFamily("monospace")
-    font.setStyleHint(font.Monospace)
-    text.setFont(font)
-    text.setPlainText("\n".join(obj.GroupReport))
-    buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Close)
-    buttons.rejected.connect(dialog.reject)
-    layout = QtGui.QVBoxLayout(dialog)
-    layout.addWidget(text)
-    layout.addWidget(buttons)
-    dialog.resize(760, 520)
-    dialog.setAttribute(QtCore.Qt.WA_DeleteOnClose)
-    dialog.show()

@@ -219,8 +219,16 @@
       <translation>%1 kann nicht hinzukommen. Klicken Sie auf ein anderes FEM-Netz.</translation>
     </message>
     <message>
+      <source>%1 cannot be written: %2. Choose another folder or name.</source>
+      <translation>%1 kann nicht geschrieben werden: %2. Wählen Sie einen anderen Ordner oder Namen.</translation>
+    </message>
+    <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 Elemente; kleinster Wert %2, Mittel %3.</translation>
+    </message>
+    <message>
+      <source>%1 exists already. Replace it?</source>
+      <translation>%1 gibt es schon. Ersetzen?</translation>
     </message>
     <message>
       <source>%1 faces of %2</source>
@@ -295,16 +303,16 @@
       <translation>Ein Polygon</translation>
     </message>
     <message>
-      <source>Adds another FEM mesh to the FEM mesh and keeps the groups of both</source>
-      <translation>Fügt dem FEM-Netz ein anderes hinzu und erhält die Gruppen beider</translation>
-    </message>
-    <message>
-      <source>Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both stay, and what was added and where it is joined become groups.</source>
-      <translation>Fügt ein anderes FEM-Netz hinzu, etwa eine Steife oder ein Auge, in FreeCAD gezeichnet und vernetzt. Wo sich beide berühren oder kreuzen, bekommen sie dieselben Knoten und Kanten; wo sich zwei Volumen überdecken, wird die Überdeckung von einem abgeschnitten. Wählen Sie erst das Netz, dann das, was hinzukommt, oder wählen Sie dieses im Dialog. Die Gruppen beider bleiben; was hinzukam und wo es anschließt, wird zu Gruppen.</translation>
+      <source>Advanced</source>
+      <translation>Erweitert</translation>
     </message>
     <message>
       <source>After</source>
       <translation>Nachher</translation>
+    </message>
+    <message>
+      <source>All commands</source>
+      <translation>Alle Befehle</translation>
     </message>
     <message>
       <source>An ellipse</source>
@@ -317,6 +325,10 @@
     <message>
       <source>At the bottom it has</source>
       <translation>Am Grund, den es hat</translation>
+    </message>
+    <message>
+      <source>Back</source>
+      <translation>Zurück</translation>
     </message>
     <message>
       <source>Before</source>
@@ -337,6 +349,10 @@
     <message>
       <source>CAD face</source>
       <translation>CAD-Fläche</translation>
+    </message>
+    <message>
+      <source>CSV…</source>
+      <translation>CSV…</translation>
     </message>
     <message>
       <source>Cancel</source>
@@ -411,10 +427,6 @@
       <translation>Farbe von %1</translation>
     </message>
     <message>
-      <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
-      <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
-    </message>
-    <message>
       <source>Compute it all the same</source>
       <translation>Trotzdem berechnen</translation>
     </message>
@@ -431,6 +443,14 @@
       <translation>Kegel</translation>
     </message>
     <message>
+      <source>Copies all rows that are shown, for a spreadsheet</source>
+      <translation>Kopiert alle gezeigten Zeilen, für eine Tabellenkalkulation</translation>
+    </message>
+    <message>
+      <source>Copy</source>
+      <translation>Kopieren</translation>
+    </message>
+    <message>
       <source>Copy the command</source>
       <translation>Befehl kopieren</translation>
     </message>
@@ -441,22 +461,6 @@
     <message>
       <source>Crack along faces</source>
       <translation>Riss entlang Flächen</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
-      <translation>Reißt das FEM-Netz entlang eines Zylinders auf und erhält seine Gruppen</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along a plane and keeps its groups</source>
-      <translation>Reißt das FEM-Netz entlang einer Ebene auf und erhält seine Gruppen</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups</source>
-      <translation>Reißt das FEM-Netz entlang einer Kugel, eines Torus, eines Kegels oder der Fläche eines Teils auf und erhält seine Gruppen</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
-      <translation>Reißt das FEM-Netz entlang vorhandener Flächen auf, denen einer Gruppe</translation>
     </message>
     <message>
       <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
@@ -471,24 +475,12 @@
       <translation>Aufgeschnitten</translation>
     </message>
     <message>
-      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, and whether it goes right through or down to the plane's point; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
-      <translation>Schneidet einen Schlitz zwischen zwei parallelen Ebenen. Geben Sie die Ebene in der Mitte wie für einen Riss an, die Breite, und ob er ganz hindurch oder bis zum Punkt der Ebene geht; die Elemente, die verschwinden, werden durchscheinend gezeigt. Die Flächen der beiden Wände werden Gruppen; Gruppen verlieren, was weggeschnitten wird, und sonst nichts, und der Bericht sagt, welche.</translation>
-    </message>
-    <message>
-      <source>Cuts a slot into the FEM mesh and keeps its groups</source>
-      <translation>Schneidet einen Schlitz in das FEM-Netz und erhält seine Gruppen</translation>
-    </message>
-    <message>
       <source>Cylinder</source>
       <translation>Zylinder</translation>
     </message>
     <message>
       <source>Cylindrical crack</source>
       <translation>Zylindrischer Riss</translation>
-    </message>
-    <message>
-      <source>Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
-      <translation>Teilt die Elemente nahe einem Zylinder, einer Kugel, einer Ebene, einer CAD-Fläche oder einem anderen Werkzeug, bis ihre Kanten so kurz sind wie verlangt; zum übrigen Netz hin wachsen sie mit der Abstufung. Dort nützlich, wo ein Riss oder eine Bohrung ein feineres Netz um sich braucht. Alle Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
       <source>Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is missing, nor after the document was saved without it. Close it without saving.</source>
@@ -507,14 +499,6 @@
       <translation>Bohrung</translation>
     </message>
     <message>
-      <source>Drills a hole into the FEM mesh and keeps its groups</source>
-      <translation>Bohrt ein Loch in das FEM-Netz und erhält seine Gruppen</translation>
-    </message>
-    <message>
-      <source>Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and nothing else, and the report says which.</source>
-      <translation>Bohrt ein Loch, durchgehend oder bis zu einer Tiefe. Achse und Radius werden wie beim zylindrischen Riss angegeben; die Elemente, die wegfallen, erscheinen durchscheinend. Die Flächen der Wand werden eine Gruppe; Gruppen verlieren, was weggebohrt wird, und sonst nichts, und der Bericht sagt, welche.</translation>
-    </message>
-    <message>
       <source>Edit</source>
       <translation>Bearbeiten</translation>
     </message>
@@ -527,24 +511,24 @@
       <translation>Elementargruppen</translation>
     </message>
     <message>
-      <source>Example: caisson</source>
-      <translation>Beispiel: Kastenträger</translation>
-    </message>
-    <message>
       <source>Export mesh</source>
       <translation>Netz exportieren</translation>
-    </message>
-    <message>
-      <source>Export mesh…</source>
-      <translation>Netz exportieren…</translation>
     </message>
     <message>
       <source>FemScalpel cannot run: %1</source>
       <translation>FemScalpel kann nicht arbeiten: %1</translation>
     </message>
     <message>
+      <source>FemScalpel: help</source>
+      <translation>FemScalpel: Hilfe</translation>
+    </message>
+    <message>
       <source>Fillet</source>
       <translation>Rundung</translation>
+    </message>
+    <message>
+      <source>Filter by name</source>
+      <translation>Nach Namen filtern</translation>
     </message>
     <message>
       <source>First became triangles or tetrahedra: %1.</source>
@@ -567,6 +551,10 @@
       <translation>Gruppen</translation>
     </message>
     <message>
+      <source>How nodes are moved, which of them, and what must keep its shape</source>
+      <translation>Wie Knoten bewegt werden, welche, und was seine Form behalten muss</translation>
+    </message>
+    <message>
       <source>Incision</source>
       <translation>Einschnitt</translation>
     </message>
@@ -581,10 +569,6 @@
     <message>
       <source>Linking (LE)</source>
       <translation>Verbindend (LE)</translation>
-    </message>
-    <message>
-      <source>Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, double-click a name to rename the group and a colour to change it. Elementary groups are the entities that are in exactly the same groups; bounding, linking and isolated entities are what an operation must keep in shape.</source>
-      <translation>Zählt die Gruppen des FEM-Netzes auf, mit Art, Größe, Maß und dem, was sie benutzt. Angekreuzte Gruppen sind zu sehen; ein Doppelklick auf einen Namen benennt die Gruppe um, auf eine Farbe ändert sie. Elementare Gruppen sind die Teile, die genau denselben Gruppen angehören; umrandende, verbindende und einzelne Teile sind das, was eine Operation in Form halten muss.</translation>
     </message>
     <message>
       <source>Mean ratio</source>
@@ -609,14 +593,6 @@
     <message>
       <source>Mesh: %1</source>
       <translation>Netz: %1</translation>
-    </message>
-    <message>
-      <source>Moves a wall of the FEM mesh and keeps its groups</source>
-      <translation>Verschiebt eine Wand des FEM-Netzes und erhält seine Gruppen</translation>
-    </message>
-    <message>
-      <source>Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The elements around follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.</source>
-      <translation>Verschiebt, was eine Gruppe bedeckt: die Wand einer Bohrung auf einen anderen Radius, eine Fläche auf eine andere Ebene, um einen Vektor oder um einen Punkt skaliert. Der Dialog beginnt mit der Ebene, dem Zylinder oder der Kugel, auf der die Wand liegt. Die Elemente ringsum folgen so weit wie nötig und werden geteilt oder vereinigt, wo sie schlecht würden. Alle Gruppen behalten ihren Sinn.</translation>
     </message>
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
@@ -645,30 +621,6 @@
     <message>
       <source>Open a document with a FEM mesh first.</source>
       <translation>Öffnen Sie zuerst ein Dokument mit einem FEM-Netz.</translation>
-    </message>
-    <message>
-      <source>Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.</source>
-      <translation>Öffnet ein neues Dokument mit dem Netz eines an Steifen hängenden Kastenträgers in einer Analyse: Tetraeder mit Gruppen für Teile, Lager, Lasten und Messstellen. Reißen Sie einen Hänger ein, bohren Sie den Boden an, vergleichen Sie die Gruppen vorher und nachher.</translation>
-    </message>
-    <message>
-      <source>Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on</source>
-      <translation>Öffnet einen geschweißten Kastenträger als neues Dokument, ein Netz mit 35 Gruppen zum Ausprobieren der Befehle</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.</source>
-      <translation>Öffnet das FEM-Netz entlang eines Zylinders. Geben Sie Achse und Radius in Zahlen ein, wählen Sie sie in der Ansicht (eine Zylinderfläche, eine gerade oder kreisförmige Kante, zwei Knoten, ein Punkt auf einer Fläche) oder ziehen Sie die Griffe. Er kann auch nur zwischen zwei Höhen und zwei Winkeln reißen. Elemente, die für den Zylinder groß sind, werden zuerst geteilt.</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
-      <translation>Öffnet das FEM-Netz entlang einer Ebene. Die Ebene durch Zahlen angeben, aus der Ansicht holen (drei Knoten, ebene Fläche, Kante, Bezugselement, Skizze, Blickrichtung) oder an den Griffen ziehen; die Vorschau zeigt das Netz, wie es wird. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will be; the faces of both lips become groups; all other groups keep their meaning.</source>
-      <translation>Öffnet das FEM-Netz entlang einer Kugel, eines Torus, eines Kegels oder eines Zylinders, durch Zahlen angegeben, aus der Ansicht gewählt oder an den Griffen gezogen; oder entlang von Flächen eines in FreeCAD gezeichneten Teils: so weit diese reichen, und wo sie im Material enden, ist die Rissfront. Vorher gewählte Flächen werden genommen. Die Vorschau zeigt das Netz, wie es wird; die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
-      <translation>Öffnet das FEM-Netz entlang von Flächen zwischen seinen Elementen. Wählen Sie eine Gruppe solcher Flächen (einer Schale: von Kanten) oder ihrer Knoten; die Elemente dürfen von jedem Typ sein, keines wird verschoben oder geteilt. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
@@ -715,6 +667,10 @@
       <translation>Radius des Zylinders</translation>
     </message>
     <message>
+      <source>Radius of the hole: %1.</source>
+      <translation>Radius des Lochs: %1.</translation>
+    </message>
+    <message>
       <source>Radius of the sphere</source>
       <translation>Radius der Kugel</translation>
     </message>
@@ -731,8 +687,8 @@
       <translation>Stattdessen auf Kanten von %1 verfeinern</translation>
     </message>
     <message>
-      <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
-      <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder anderem Werkzeug und erhält seine Gruppen</translation>
+      <source>Refinement</source>
+      <translation>Verfeinerung</translation>
     </message>
     <message>
       <source>Refining first to edges of %1 would make %2. That is above the limit set in the preferences.</source>
@@ -755,12 +711,12 @@
       <translation>Umformen</translation>
     </message>
     <message>
-      <source>Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The faces of the rounding become a group, and the groups beside it keep to their sides.</source>
-      <translation>Rundet eine Kante, konvex oder konkav, wie eine Kugel des Radius, die an ihr entlangrollt. Klicken Sie in der 3D-Ansicht nahe an die Kante, oder wählen Sie eine Gruppe auf ihr; sie wird so weit gerundet, wie sie ohne Ecke weiterläuft. Die Flächen der Rundung werden eine Gruppe, und die Gruppen daneben bleiben auf ihrer Seite.</translation>
+      <source>Saves all rows that are shown as CSV</source>
+      <translation>Speichert alle gezeigten Zeilen als CSV</translation>
     </message>
     <message>
-      <source>Rounds edges of the FEM mesh and keeps its groups</source>
-      <translation>Rundet Kanten des FEM-Netzes und erhält seine Gruppen</translation>
+      <source>Save…</source>
+      <translation>Speichern…</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -773,14 +729,6 @@
     <message>
       <source>Show crack</source>
       <translation>Riss zeigen</translation>
-    </message>
-    <message>
-      <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
-      <translation>Zeigt die Gruppen eines FEM-Netzes, was sie umfassen und was sie verwendet</translation>
-    </message>
-    <message>
-      <source>Shows the quality of the elements of a FEM mesh in colours and finds the worst</source>
-      <translation>Zeigt die Güte der Elemente eines FEM-Netzes in Farben und findet die schlechtesten</translation>
     </message>
     <message>
       <source>Size</source>
@@ -801,6 +749,10 @@
     <message>
       <source>Take out of the analysis</source>
       <translation>Aus der Analyse nehmen</translation>
+    </message>
+    <message>
+      <source>Text</source>
+      <translation>Text</translation>
     </message>
     <message>
       <source>That edge is curved. Pick a straight or a circular edge.</source>
@@ -919,6 +871,10 @@
       <translation>Was nichts hält, hat keine Lösung: Halten Sie es fest, oder lassen Sie das Werkzeug im Bauteil enden.</translation>
     </message>
     <message>
+      <source>Whether elements near the tool are divided first, and how small they become</source>
+      <translation>Ob Elemente nahe dem Werkzeug zuerst geteilt werden, und wie klein sie werden</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Ganzes Teil</translation>
     </message>
@@ -927,12 +883,8 @@
       <translation>Schlechter als Ihre Schwelle von %1.</translation>
     </message>
     <message>
-      <source>Writes the FEM mesh with its groups to a file, in a format of solvers or viewers</source>
-      <translation>Schreibt das FEM-Netz mit seinen Gruppen in eine Datei, in einem Format von Lösern oder Betrachtern</translation>
-    </message>
-    <message>
-      <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
-      <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt. Der Dateidialog zählt die Formate auf.</translation>
+      <source>Worst elements</source>
+      <translation>Schlechteste Elemente</translation>
     </message>
     <message>
       <source>Writing the mesh for FreeCAD…</source>
@@ -943,12 +895,28 @@
       <translation>alle bleiben</translation>
     </message>
     <message>
+      <source>and %1 other combinations of groups</source>
+      <translation>und %1 andere Kombinationen von Gruppen</translation>
+    </message>
+    <message>
       <source>back, +y</source>
       <translation>hinten, +y</translation>
     </message>
     <message>
+      <source>beams</source>
+      <translation>Balken</translation>
+    </message>
+    <message>
       <source>became empty</source>
       <translation>leer geworden</translation>
+    </message>
+    <message>
+      <source>border between groups</source>
+      <translation>Rand zwischen Gruppen</translation>
+    </message>
+    <message>
+      <source>border of what is made</source>
+      <translation>Rand des Neuen</translation>
     </message>
     <message>
       <source>bottom, -z</source>
@@ -961,6 +929,14 @@
     <message>
       <source>changed</source>
       <translation>geändert</translation>
+    </message>
+    <message>
+      <source>changed elements, poor to good (mean ratio 0 to 1)</source>
+      <translation>geänderte Elemente, schlecht bis gut (Mean ratio 0 bis 1)</translation>
+    </message>
+    <message>
+      <source>crack of %1</source>
+      <translation>Riss: %1</translation>
     </message>
     <message>
       <source>cut off the addition</source>
@@ -991,8 +967,16 @@
       <translation>Facetten</translation>
     </message>
     <message>
+      <source>front of %1</source>
+      <translation>Front: %1</translation>
+    </message>
+    <message>
       <source>front, -y</source>
       <translation>vorne, -y</translation>
+    </message>
+    <message>
+      <source>front: the crack ends here</source>
+      <translation>Front: hier endet der Riss</translation>
     </message>
     <message>
       <source>held by %1</source>
@@ -1029,6 +1013,10 @@
     <message>
       <source>more than %1 elements</source>
       <translation>mehr als %1 Elemente</translation>
+    </message>
+    <message>
+      <source>moved nodes</source>
+      <translation>verschobene Knoten</translation>
     </message>
     <message>
       <source>never</source>
@@ -1087,6 +1075,10 @@
       <translation>verkleinert</translation>
     </message>
     <message>
+      <source>removed</source>
+      <translation>entfernt</translation>
+    </message>
+    <message>
       <source>right, +x</source>
       <translation>rechts, +x</translation>
     </message>
@@ -1115,12 +1107,20 @@
       <translation>Dreiecke mit sieben Knoten</translation>
     </message>
     <message>
+      <source>unchanged</source>
+      <translation>unverändert</translation>
+    </message>
+    <message>
       <source>untouched</source>
       <translation>unberührt</translation>
     </message>
     <message>
       <source>volumes</source>
       <translation>Volumen</translation>
+    </message>
+    <message>
+      <source>wall of %1</source>
+      <translation>Wand: %1</translation>
     </message>
     <message>
       <source>where the tool is finer</source>
@@ -1216,6 +1216,216 @@
     <message>
       <source>snap: move and split</source>
       <translation>snap: bewegen und teilen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Crack</name>
+    <message>
+      <source>Crack</source>
+      <translation>Riss</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along a plane and keeps its groups</source>
+      <translation>Reißt das FEM-Netz entlang einer Ebene auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang einer Ebene. Die Ebene durch Zahlen angeben, aus der Ansicht holen (drei Knoten, ebene Fläche, Kante, Bezugselement, Skizze, Blickrichtung) oder an den Griffen ziehen; die Vorschau zeigt das Netz, wie es wird. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_CurvedCrack</name>
+    <message>
+      <source>Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups</source>
+      <translation>Reißt das FEM-Netz entlang einer Kugel, eines Torus, eines Kegels oder der Fläche eines Teils auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Curved crack</source>
+      <translation>Gekrümmter Riss</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will be; the faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang einer Kugel, eines Torus, eines Kegels oder eines Zylinders, durch Zahlen angegeben, aus der Ansicht gewählt oder an den Griffen gezogen; oder entlang von Flächen eines in FreeCAD gezeichneten Teils: so weit diese reichen, und wo sie im Material enden, ist die Rissfront. Vorher gewählte Flächen werden genommen. Die Vorschau zeigt das Netz, wie es wird; die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_CylindricalCrack</name>
+    <message>
+      <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
+      <translation>Reißt das FEM-Netz entlang eines Zylinders auf und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Cylindrical crack</source>
+      <translation>Zylindrischer Riss</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.</source>
+      <translation>Öffnet das FEM-Netz entlang eines Zylinders. Geben Sie Achse und Radius in Zahlen ein, wählen Sie sie in der Ansicht (eine Zylinderfläche, eine gerade oder kreisförmige Kante, zwei Knoten, ein Punkt auf einer Fläche) oder ziehen Sie die Griffe. Er kann auch nur zwischen zwei Höhen und zwei Winkeln reißen. Elemente, die für den Zylinder groß sind, werden zuerst geteilt.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Drill</name>
+    <message>
+      <source>Drill</source>
+      <translation>Bohrung</translation>
+    </message>
+    <message>
+      <source>Drills a hole into the FEM mesh and keeps its groups</source>
+      <translation>Bohrt ein Loch in das FEM-Netz und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and nothing else, and the report says which.</source>
+      <translation>Bohrt ein Loch, durchgehend oder bis zu einer Tiefe. Achse und Radius werden wie beim zylindrischen Riss angegeben; die Elemente, die wegfallen, erscheinen durchscheinend. Die Flächen der Wand werden eine Gruppe; Gruppen verlieren, was weggebohrt wird, und sonst nichts, und der Bericht sagt, welche.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Example</name>
+    <message>
+      <source>Example: caisson</source>
+      <translation>Beispiel: Kastenträger</translation>
+    </message>
+    <message>
+      <source>Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.</source>
+      <translation>Öffnet ein neues Dokument mit dem Netz eines an Steifen hängenden Kastenträgers in einer Analyse: Tetraeder mit Gruppen für Teile, Lager, Lasten und Messstellen. Reißen Sie einen Hänger ein, bohren Sie den Boden an, vergleichen Sie die Gruppen vorher und nachher.</translation>
+    </message>
+    <message>
+      <source>Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on</source>
+      <translation>Öffnet einen geschweißten Kastenträger als neues Dokument, ein Netz mit 35 Gruppen zum Ausprobieren der Befehle</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Export</name>
+    <message>
+      <source>Export mesh…</source>
+      <translation>Netz exportieren…</translation>
+    </message>
+    <message>
+      <source>Writes the FEM mesh with its groups to a file, in a format of solvers or viewers</source>
+      <translation>Schreibt das FEM-Netz mit seinen Gruppen in eine Datei, in einem Format von Lösern oder Betrachtern</translation>
+    </message>
+    <message>
+      <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
+      <translation>Schreibt das Netz mit seinen Gruppen in eine Datei, deren Endung das Format bestimmt. Der Dateidialog zählt die Formate auf.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_FaceCrack</name>
+    <message>
+      <source>Crack along faces</source>
+      <translation>Riss entlang Flächen</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
+      <translation>Reißt das FEM-Netz entlang vorhandener Flächen auf, denen einer Gruppe</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Öffnet das FEM-Netz entlang von Flächen zwischen seinen Elementen. Wählen Sie eine Gruppe solcher Flächen (einer Schale: von Kanten) oder ihrer Knoten; die Elemente dürfen von jedem Typ sein, keines wird verschoben oder geteilt. OK macht ein Objekt, das seinem Ausgangsnetz folgt. Die Flächen beider Ufer werden Gruppen; alle anderen Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Fillet</name>
+    <message>
+      <source>Fillet</source>
+      <translation>Rundung</translation>
+    </message>
+    <message>
+      <source>Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The faces of the rounding become a group, and the groups beside it keep to their sides.</source>
+      <translation>Rundet eine Kante, konvex oder konkav, wie eine Kugel des Radius, die an ihr entlangrollt. Klicken Sie in der 3D-Ansicht nahe an die Kante, oder wählen Sie eine Gruppe auf ihr; sie wird so weit gerundet, wie sie ohne Ecke weiterläuft. Die Flächen der Rundung werden eine Gruppe, und die Gruppen daneben bleiben auf ihrer Seite.</translation>
+    </message>
+    <message>
+      <source>Rounds edges of the FEM mesh and keeps its groups</source>
+      <translation>Rundet Kanten des FEM-Netzes und erhält seine Gruppen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_GroupInspector</name>
+    <message>
+      <source>Group inspector</source>
+      <translation>Gruppen-Inspektor</translation>
+    </message>
+    <message>
+      <source>Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, double-click a name to rename the group and a colour to change it. Elementary groups are the entities that are in exactly the same groups; bounding, linking and isolated entities are what an operation must keep in shape.</source>
+      <translation>Zählt die Gruppen des FEM-Netzes auf, mit Art, Größe, Maß und dem, was sie benutzt. Angekreuzte Gruppen sind zu sehen; ein Doppelklick auf einen Namen benennt die Gruppe um, auf eine Farbe ändert sie. Elementare Gruppen sind die Teile, die genau denselben Gruppen angehören; umrandende, verbindende und einzelne Teile sind das, was eine Operation in Form halten muss.</translation>
+    </message>
+    <message>
+      <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
+      <translation>Zeigt die Gruppen eines FEM-Netzes, was sie umfassen und was sie verwendet</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Incision</name>
+    <message>
+      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, and whether it goes right through or down to the plane's point; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
+      <translation>Schneidet einen Schlitz zwischen zwei parallelen Ebenen. Geben Sie die Ebene in der Mitte wie für einen Riss an, die Breite, und ob er ganz hindurch oder bis zum Punkt der Ebene geht; die Elemente, die verschwinden, werden durchscheinend gezeigt. Die Flächen der beiden Wände werden Gruppen; Gruppen verlieren, was weggeschnitten wird, und sonst nichts, und der Bericht sagt, welche.</translation>
+    </message>
+    <message>
+      <source>Cuts a slot into the FEM mesh and keeps its groups</source>
+      <translation>Schneidet einen Schlitz in das FEM-Netz und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Incision</source>
+      <translation>Einschnitt</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Merge</name>
+    <message>
+      <source>Adds another FEM mesh to the FEM mesh and keeps the groups of both</source>
+      <translation>Fügt dem FEM-Netz ein anderes hinzu und erhält die Gruppen beider</translation>
+    </message>
+    <message>
+      <source>Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both stay, and what was added and where it is joined become groups.</source>
+      <translation>Fügt ein anderes FEM-Netz hinzu, etwa eine Steife oder ein Auge, in FreeCAD gezeichnet und vernetzt. Wo sich beide berühren oder kreuzen, bekommen sie dieselben Knoten und Kanten; wo sich zwei Volumen überdecken, wird die Überdeckung von einem abgeschnitten. Wählen Sie erst das Netz, dann das, was hinzukommt, oder wählen Sie dieses im Dialog. Die Gruppen beider bleiben; was hinzukam und wo es anschließt, wird zu Gruppen.</translation>
+    </message>
+    <message>
+      <source>Merge</source>
+      <translation>Anfügen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_MeshQuality</name>
+    <message>
+      <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
+      <translation>Färbt die Elemente nach mittlerem Verhältnis (1: gleichseitig, 0: flach), kleinstem Flächenwinkel oder skalierter Jacobi-Determinante. Ein Klick auf eines der schlechtesten Elemente führt zu ihm. Das Netz wird nicht verändert.</translation>
+    </message>
+    <message>
+      <source>Mesh quality</source>
+      <translation>Netzgüte</translation>
+    </message>
+    <message>
+      <source>Shows the quality of the elements of a FEM mesh in colours and finds the worst</source>
+      <translation>Zeigt die Güte der Elemente eines FEM-Netzes in Farben und findet die schlechtesten</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Refine</name>
+    <message>
+      <source>Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
+      <translation>Teilt die Elemente nahe einem Zylinder, einer Kugel, einer Ebene, einer CAD-Fläche oder einem anderen Werkzeug, bis ihre Kanten so kurz sind wie verlangt; zum übrigen Netz hin wachsen sie mit der Abstufung. Dort nützlich, wo ein Riss oder eine Bohrung ein feineres Netz um sich braucht. Alle Gruppen behalten ihre Bedeutung.</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Verfeinern</translation>
+    </message>
+    <message>
+      <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
+      <translation>Verfeinert das FEM-Netz nahe Zylinder, Kugel oder anderem Werkzeug und erhält seine Gruppen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Reshape</name>
+    <message>
+      <source>Moves a wall of the FEM mesh and keeps its groups</source>
+      <translation>Verschiebt eine Wand des FEM-Netzes und erhält seine Gruppen</translation>
+    </message>
+    <message>
+      <source>Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The elements around follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.</source>
+      <translation>Verschiebt, was eine Gruppe bedeckt: die Wand einer Bohrung auf einen anderen Radius, eine Fläche auf eine andere Ebene, um einen Vektor oder um einen Punkt skaliert. Der Dialog beginnt mit der Ebene, dem Zylinder oder der Kugel, auf der die Wand liegt. Die Elemente ringsum folgen so weit wie nötig und werden geteilt oder vereinigt, wo sie schlecht würden. Alle Gruppen behalten ihren Sinn.</translation>
+    </message>
+    <message>
+      <source>Reshape</source>
+      <translation>Umformen</translation>
     </message>
   </context>
   <context>
@@ -1372,8 +1582,8 @@
       <translation>Kantenlänge</translation>
     </message>
     <message>
-      <source>Feature angle</source>
-      <translation>Kantenwinkel</translation>
+      <source>Edges of the skin that are sharper than this keep their shape (feature angle)</source>
+      <translation>Kanten der Oberfläche, die schärfer sind, behalten ihre Form (Merkmalswinkel)</translation>
     </message>
     <message>
       <source>Group borders</source>
@@ -1382,6 +1592,10 @@
     <message>
       <source>Group name</source>
       <translation>Gruppenname</translation>
+    </message>
+    <message>
+      <source>How many rings of elements around the tool may move (the paper: transition)</source>
+      <translation>Wie viele Ringe von Elementen um das Werkzeug sich bewegen dürfen (im Aufsatz: transition)</translation>
     </message>
     <message>
       <source>Longest edge wanted there; farther away edges grow longer again</source>
@@ -1408,12 +1622,12 @@
       <translation>Erst verfeinern</translation>
     </message>
     <message>
-      <source>Rings of elements around the tool that may move</source>
-      <translation>Ringe von Elementen um das Werkzeug, die sich bewegen dürfen</translation>
+      <source>Rings that may move</source>
+      <translation>Bewegliche Ringe</translation>
     </message>
     <message>
-      <source>Skin edges sharper than this keep their shape</source>
-      <translation>Hautkanten, die schärfer sind, behalten ihre Form</translation>
+      <source>Sharp edges from</source>
+      <translation>Scharfe Kanten ab</translation>
     </message>
     <message>
       <source>The analysis then solves the new mesh; loads, supports and materials stay as they are</source>
@@ -1424,24 +1638,20 @@
       <translation>Die Ränder der angekreuzten Gruppen behalten ihre Form; die der anderen dürfen sich verschieben</translation>
     </message>
     <message>
-      <source>Transition</source>
-      <translation>Übergang</translation>
-    </message>
-    <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
     </message>
     <message>
-      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
-      <translation>Ob die Ränder aller Gruppen ihre Form behalten; wo manche sich verschieben dürfen, können Elemente besser werden</translation>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better (the paper: virtual boundaries)</source>
+      <translation>Ob die Ränder aller Gruppen ihre Form behalten; wo die einiger wandern dürfen, können Elemente besser werden (im Aufsatz: virtual boundaries)</translation>
     </message>
     <message>
       <source>automatic</source>
       <translation>automatisch</translation>
     </message>
     <message>
-      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
-      <translation>snap: Knoten bewegen und Elemente teilen, gelingt auf einem gesunden Netz immer; deform: nur Knoten bewegen</translation>
+      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes (the paper's way)</source>
+      <translation>snap: Knoten bewegen und Elemente teilen, gelingt auf einem gesunden Netz immer; deform: nur Knoten bewegen (wie im Aufsatz)</translation>
     </message>
   </context>
   <context>
@@ -1634,6 +1844,14 @@
     <message>
       <source>Preview</source>
       <translation>Vorschau</translation>
+    </message>
+    <message>
+      <source>Report…</source>
+      <translation>Bericht…</translation>
+    </message>
+    <message>
+      <source>Shows what is done and what becomes of every group, to be copied and saved</source>
+      <translation>Zeigt, was getan wird und was aus jeder Gruppe wird; zum Kopieren und Speichern</translation>
     </message>
     <message>
       <source>What the colours of the elements mean</source>

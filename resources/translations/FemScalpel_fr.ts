@@ -219,8 +219,16 @@
       <translation>%1 ne peut pas être ajouté. Cliquez sur un autre maillage EF.</translation>
     </message>
     <message>
+      <source>%1 cannot be written: %2. Choose another folder or name.</source>
+      <translation>%1 ne peut pas être écrit : %2. Choisissez un autre dossier ou un autre nom.</translation>
+    </message>
+    <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 éléments ; minimum %2, moyenne %3.</translation>
+    </message>
+    <message>
+      <source>%1 exists already. Replace it?</source>
+      <translation>%1 existe déjà. Le remplacer ?</translation>
     </message>
     <message>
       <source>%1 faces of %2</source>
@@ -295,16 +303,16 @@
       <translation>Un polygone</translation>
     </message>
     <message>
-      <source>Adds another FEM mesh to the FEM mesh and keeps the groups of both</source>
-      <translation>Ajoute un autre maillage EF au maillage EF et garde les groupes des deux</translation>
-    </message>
-    <message>
-      <source>Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both stay, and what was added and where it is joined become groups.</source>
-      <translation>Ajoute un autre maillage EF, tel qu'un raidisseur ou un bossage dessiné et maillé dans FreeCAD. Là où les deux se touchent ou se croisent, ils reçoivent les mêmes nœuds et arêtes ; là où deux solides se recouvrent, le recouvrement est ôté de l'un d'eux. Sélectionnez d'abord le maillage, puis celui à ajouter, ou choisissez celui-ci dans le panneau. Les groupes des deux restent ; ce qui est ajouté et son raccord deviennent des groupes.</translation>
+      <source>Advanced</source>
+      <translation>Avancé</translation>
     </message>
     <message>
       <source>After</source>
       <translation>Après</translation>
+    </message>
+    <message>
+      <source>All commands</source>
+      <translation>Toutes les commandes</translation>
     </message>
     <message>
       <source>An ellipse</source>
@@ -317,6 +325,10 @@
     <message>
       <source>At the bottom it has</source>
       <translation>Au fond qu'il a</translation>
+    </message>
+    <message>
+      <source>Back</source>
+      <translation>Retour</translation>
     </message>
     <message>
       <source>Before</source>
@@ -337,6 +349,10 @@
     <message>
       <source>CAD face</source>
       <translation>Face CAO</translation>
+    </message>
+    <message>
+      <source>CSV…</source>
+      <translation>CSV…</translation>
     </message>
     <message>
       <source>Cancel</source>
@@ -411,10 +427,6 @@
       <translation>Couleur de %1</translation>
     </message>
     <message>
-      <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
-      <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
-    </message>
-    <message>
       <source>Compute it all the same</source>
       <translation>Calculer quand même</translation>
     </message>
@@ -431,6 +443,14 @@
       <translation>Cône</translation>
     </message>
     <message>
+      <source>Copies all rows that are shown, for a spreadsheet</source>
+      <translation>Copie toutes les lignes affichées, pour un tableur</translation>
+    </message>
+    <message>
+      <source>Copy</source>
+      <translation>Copier</translation>
+    </message>
+    <message>
       <source>Copy the command</source>
       <translation>Copier la commande</translation>
     </message>
@@ -441,22 +461,6 @@
     <message>
       <source>Crack along faces</source>
       <translation>Fissure le long de faces</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
-      <translation>Fissure le maillage EF le long d'un cylindre en gardant ses groupes</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along a plane and keeps its groups</source>
-      <translation>Fissure le maillage EF le long d'un plan en gardant ses groupes</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups</source>
-      <translation>Fissure le maillage EF le long d'une sphère, d'un tore, d'un cône ou d'une face de pièce et garde ses groupes</translation>
-    </message>
-    <message>
-      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
-      <translation>Fissure le maillage EF le long de faces existantes, celles d'un groupe</translation>
     </message>
     <message>
       <source>Cracks, drills and cuts FEM meshes and keeps their groups</source>
@@ -471,24 +475,12 @@
       <translation>En coupe</translation>
     </message>
     <message>
-      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, and whether it goes right through or down to the plane's point; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
-      <translation>Coupe une fente entre deux plans parallèles. Donnez le plan du milieu comme pour une fissure, la largeur, et si elle traverse toute la pièce ou va jusqu'au point du plan ; les éléments qui disparaissent sont montrés en fantômes. Les faces des deux parois deviennent des groupes ; les groupes perdent ce qui est coupé et rien d'autre, et le rapport dit lesquels.</translation>
-    </message>
-    <message>
-      <source>Cuts a slot into the FEM mesh and keeps its groups</source>
-      <translation>Coupe une fente dans le maillage EF et garde ses groupes</translation>
-    </message>
-    <message>
       <source>Cylinder</source>
       <translation>Cylindre</translation>
     </message>
     <message>
       <source>Cylindrical crack</source>
       <translation>Fissure cylindrique</translation>
-    </message>
-    <message>
-      <source>Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
-      <translation>Divise les éléments près d'un cylindre, d'une sphère, d'un plan, d'une face CAO ou d'un autre outil jusqu'à ce que leurs arêtes soient aussi courtes que demandé, en grandissant vers le reste du maillage selon la gradation. Utile là où une fissure ou un trou demande un maillage plus fin autour de lui. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is missing, nor after the document was saved without it. Close it without saving.</source>
@@ -507,14 +499,6 @@
       <translation>Perçage</translation>
     </message>
     <message>
-      <source>Drills a hole into the FEM mesh and keeps its groups</source>
-      <translation>Perce un trou dans le maillage EF en gardant ses groupes</translation>
-    </message>
-    <message>
-      <source>Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and nothing else, and the report says which.</source>
-      <translation>Perce un trou, débouchant ou d'une profondeur donnée. L'axe et le rayon se donnent comme pour une fissure cylindrique ; les éléments enlevés sont montrés en transparence. Les faces de la paroi forment un groupe ; les groupes perdent ce qui est percé et rien d'autre, et le rapport dit lesquels.</translation>
-    </message>
-    <message>
       <source>Edit</source>
       <translation>Modifier</translation>
     </message>
@@ -527,24 +511,24 @@
       <translation>Groupes élémentaires</translation>
     </message>
     <message>
-      <source>Example: caisson</source>
-      <translation>Exemple : caisson</translation>
-    </message>
-    <message>
       <source>Export mesh</source>
       <translation>Exporter le maillage</translation>
-    </message>
-    <message>
-      <source>Export mesh…</source>
-      <translation>Exporter le maillage…</translation>
     </message>
     <message>
       <source>FemScalpel cannot run: %1</source>
       <translation>FemScalpel ne peut pas fonctionner : %1</translation>
     </message>
     <message>
+      <source>FemScalpel: help</source>
+      <translation>FemScalpel : aide</translation>
+    </message>
+    <message>
       <source>Fillet</source>
       <translation>Congé</translation>
+    </message>
+    <message>
+      <source>Filter by name</source>
+      <translation>Filtrer par nom</translation>
     </message>
     <message>
       <source>First became triangles or tetrahedra: %1.</source>
@@ -567,6 +551,10 @@
       <translation>Groupes</translation>
     </message>
     <message>
+      <source>How nodes are moved, which of them, and what must keep its shape</source>
+      <translation>Comment les nœuds sont déplacés, lesquels, et ce qui doit garder sa forme</translation>
+    </message>
+    <message>
       <source>Incision</source>
       <translation>Incision</translation>
     </message>
@@ -581,10 +569,6 @@
     <message>
       <source>Linking (LE)</source>
       <translation>Liants (LE)</translation>
-    </message>
-    <message>
-      <source>Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, double-click a name to rename the group and a colour to change it. Elementary groups are the entities that are in exactly the same groups; bounding, linking and isolated entities are what an operation must keep in shape.</source>
-      <translation>Liste les groupes du maillage EF avec leur genre, leur taille, leur mesure et ce qui les utilise. Cochez des groupes pour les voir, double-cliquez sur un nom pour renommer le groupe et sur une couleur pour la changer. Les groupes élémentaires réunissent les entités qui sont exactement dans les mêmes groupes ; les entités de bord, de liaison et isolées sont celles dont une opération doit garder la forme.</translation>
     </message>
     <message>
       <source>Mean ratio</source>
@@ -609,14 +593,6 @@
     <message>
       <source>Mesh: %1</source>
       <translation>Maillage : %1</translation>
-    </message>
-    <message>
-      <source>Moves a wall of the FEM mesh and keeps its groups</source>
-      <translation>Déplace une paroi du maillage EF et garde ses groupes</translation>
-    </message>
-    <message>
-      <source>Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The elements around follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.</source>
-      <translation>Déplace ce qu'un groupe couvre : la paroi d'un trou à un autre rayon, une face sur un autre plan, d'un vecteur, ou à l'échelle autour d'un point. Le panneau commence par le plan, le cylindre ou la sphère où se trouve la paroi. Les éléments voisins suivent autant qu'il faut et sont divisés ou réunis là où ils deviendraient mauvais. Tous les groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
@@ -645,30 +621,6 @@
     <message>
       <source>Open a document with a FEM mesh first.</source>
       <translation>Ouvrez d'abord un document avec un maillage EF.</translation>
-    </message>
-    <message>
-      <source>Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.</source>
-      <translation>Ouvre un nouveau document avec le maillage d'un caisson suspendu à des raidisseurs, dans une analyse : des tétraèdres avec des groupes pour les pièces, les appuis, les charges et les points de mesure. Fissurez une suspente, percez le plancher, regardez les groupes avant et après.</translation>
-    </message>
-    <message>
-      <source>Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on</source>
-      <translation>Ouvre un caisson soudé comme nouveau document, un maillage de 35 groupes pour essayer les commandes</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.</source>
-      <translation>Ouvre le maillage FEM le long d'un cylindre. Donnez l'axe et le rayon en nombres, choisissez-les dans la vue (une face cylindrique, une arête droite ou circulaire, deux nœuds, un point sur une face) ou tirez les poignées. La fissure peut aussi n'aller qu'entre deux hauteurs et deux angles. Les éléments grands pour le cylindre sont d'abord divisés.</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
-      <translation>Ouvre le maillage EF le long d'un plan. Donnez le plan par des nombres, prenez-le dans la vue (trois nœuds, une face plane, une arête, une référence, une esquisse, la direction de vue) ou tirez les poignées ; l'aperçu montre le maillage tel qu'il sera. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will be; the faces of both lips become groups; all other groups keep their meaning.</source>
-      <translation>Ouvre le maillage EF le long d'une sphère, d'un tore, d'un cône ou d'un cylindre, donné par des nombres, choisi dans la vue ou tiré par ses poignées ; ou le long de faces d'une pièce dessinée dans FreeCAD : jusqu'où elles vont, et là où elles finissent dans la matière se trouve le front de fissure. Les faces sélectionnées avant sont prises. L'aperçu montre le maillage tel qu'il sera ; les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
-    </message>
-    <message>
-      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
-      <translation>Ouvre le maillage EF le long de faces entre ses éléments. Choisissez un groupe de telles faces (d'une coque : d'arêtes) ou de leurs nœuds ; les éléments peuvent être de tout type, aucun n'est déplacé ni divisé. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
@@ -715,6 +667,10 @@
       <translation>Rayon du cylindre</translation>
     </message>
     <message>
+      <source>Radius of the hole: %1.</source>
+      <translation>Rayon du trou : %1.</translation>
+    </message>
+    <message>
       <source>Radius of the sphere</source>
       <translation>Rayon de la sphère</translation>
     </message>
@@ -731,8 +687,8 @@
       <translation>Raffiner plutôt à des arêtes de %1</translation>
     </message>
     <message>
-      <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
-      <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un autre outil et garde ses groupes</translation>
+      <source>Refinement</source>
+      <translation>Raffinement</translation>
     </message>
     <message>
       <source>Refining first to edges of %1 would make %2. That is above the limit set in the preferences.</source>
@@ -755,12 +711,12 @@
       <translation>Reformer</translation>
     </message>
     <message>
-      <source>Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The faces of the rounding become a group, and the groups beside it keep to their sides.</source>
-      <translation>Arrondit une arête, convexe ou concave, comme une bille de ce rayon qui roule le long d'elle. Cliquez près de l'arête dans la vue 3D, ou choisissez un groupe sur elle ; elle est arrondie aussi loin qu'elle continue sans coin. Les faces du congé deviennent un groupe, et les groupes voisins restent de leur côté.</translation>
+      <source>Saves all rows that are shown as CSV</source>
+      <translation>Enregistre toutes les lignes affichées en CSV</translation>
     </message>
     <message>
-      <source>Rounds edges of the FEM mesh and keeps its groups</source>
-      <translation>Arrondit des arêtes du maillage EF et garde ses groupes</translation>
+      <source>Save…</source>
+      <translation>Enregistrer…</translation>
     </message>
     <message>
       <source>Scaled Jacobian</source>
@@ -773,14 +729,6 @@
     <message>
       <source>Show crack</source>
       <translation>Montrer la fissure</translation>
-    </message>
-    <message>
-      <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
-      <translation>Montre les groupes d'un maillage EF, ce qu'ils couvrent et ce qui les utilise</translation>
-    </message>
-    <message>
-      <source>Shows the quality of the elements of a FEM mesh in colours and finds the worst</source>
-      <translation>Montre en couleurs la qualité des éléments d'un maillage EF et trouve les plus mauvais</translation>
     </message>
     <message>
       <source>Size</source>
@@ -801,6 +749,10 @@
     <message>
       <source>Take out of the analysis</source>
       <translation>Retirer de l’analyse</translation>
+    </message>
+    <message>
+      <source>Text</source>
+      <translation>Texte</translation>
     </message>
     <message>
       <source>That edge is curved. Pick a straight or a circular edge.</source>
@@ -919,6 +871,10 @@
       <translation>Ce que rien ne tient n'a pas de solution : fixez-le, ou faites finir l'outil dans la pièce.</translation>
     </message>
     <message>
+      <source>Whether elements near the tool are divided first, and how small they become</source>
+      <translation>Si les éléments près de l'outil sont d'abord divisés, et à quelle taille</translation>
+    </message>
+    <message>
       <source>Whole part</source>
       <translation>Pièce entière</translation>
     </message>
@@ -927,12 +883,8 @@
       <translation>Pire que votre seuil de %1.</translation>
     </message>
     <message>
-      <source>Writes the FEM mesh with its groups to a file, in a format of solvers or viewers</source>
-      <translation>Écrit le maillage EF avec ses groupes dans un fichier, dans un format de solveur ou de visualiseur</translation>
-    </message>
-    <message>
-      <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
-      <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format. Le dialogue de fichiers énumère les formats.</translation>
+      <source>Worst elements</source>
+      <translation>Plus mauvais éléments</translation>
     </message>
     <message>
       <source>Writing the mesh for FreeCAD…</source>
@@ -943,12 +895,28 @@
       <translation>tous</translation>
     </message>
     <message>
+      <source>and %1 other combinations of groups</source>
+      <translation>et %1 autres combinaisons de groupes</translation>
+    </message>
+    <message>
       <source>back, +y</source>
       <translation>derrière, +y</translation>
     </message>
     <message>
+      <source>beams</source>
+      <translation>poutres</translation>
+    </message>
+    <message>
       <source>became empty</source>
       <translation>devenu vide</translation>
+    </message>
+    <message>
+      <source>border between groups</source>
+      <translation>bord entre groupes</translation>
+    </message>
+    <message>
+      <source>border of what is made</source>
+      <translation>bord de ce qui est créé</translation>
     </message>
     <message>
       <source>bottom, -z</source>
@@ -961,6 +929,14 @@
     <message>
       <source>changed</source>
       <translation>modifié</translation>
+    </message>
+    <message>
+      <source>changed elements, poor to good (mean ratio 0 to 1)</source>
+      <translation>éléments modifiés, de mauvais à bons (mean ratio de 0 à 1)</translation>
+    </message>
+    <message>
+      <source>crack of %1</source>
+      <translation>fissure de %1</translation>
     </message>
     <message>
       <source>cut off the addition</source>
@@ -991,8 +967,16 @@
       <translation>facettes</translation>
     </message>
     <message>
+      <source>front of %1</source>
+      <translation>front de %1</translation>
+    </message>
+    <message>
       <source>front, -y</source>
       <translation>devant, -y</translation>
+    </message>
+    <message>
+      <source>front: the crack ends here</source>
+      <translation>front : la fissure finit ici</translation>
     </message>
     <message>
       <source>held by %1</source>
@@ -1029,6 +1013,10 @@
     <message>
       <source>more than %1 elements</source>
       <translation>plus de %1 éléments</translation>
+    </message>
+    <message>
+      <source>moved nodes</source>
+      <translation>nœuds déplacés</translation>
     </message>
     <message>
       <source>never</source>
@@ -1087,6 +1075,10 @@
       <translation>réduit</translation>
     </message>
     <message>
+      <source>removed</source>
+      <translation>supprimé</translation>
+    </message>
+    <message>
       <source>right, +x</source>
       <translation>à droite, +x</translation>
     </message>
@@ -1115,12 +1107,20 @@
       <translation>triangles à sept nœuds</translation>
     </message>
     <message>
+      <source>unchanged</source>
+      <translation>inchangé</translation>
+    </message>
+    <message>
       <source>untouched</source>
       <translation>intact</translation>
     </message>
     <message>
       <source>volumes</source>
       <translation>volumes</translation>
+    </message>
+    <message>
+      <source>wall of %1</source>
+      <translation>paroi de %1</translation>
     </message>
     <message>
       <source>where the tool is finer</source>
@@ -1216,6 +1216,216 @@
     <message>
       <source>snap: move and split</source>
       <translation>snap : déplacer et diviser</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Crack</name>
+    <message>
+      <source>Crack</source>
+      <translation>Fissure</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along a plane and keeps its groups</source>
+      <translation>Fissure le maillage EF le long d'un plan en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a plane. Give the plane by numbers, pick it from the view (three nodes, a planar face, an edge, a datum, a sketch, the view direction) or drag the handles; the preview shows the mesh as it will be. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long d'un plan. Donnez le plan par des nombres, prenez-le dans la vue (trois nœuds, une face plane, une arête, une référence, une esquisse, la direction de vue) ou tirez les poignées ; l'aperçu montre le maillage tel qu'il sera. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_CurvedCrack</name>
+    <message>
+      <source>Cracks the FEM mesh along a sphere, torus, cone or face of a part and keeps its groups</source>
+      <translation>Fissure le maillage EF le long d'une sphère, d'un tore, d'un cône ou d'une face de pièce et garde ses groupes</translation>
+    </message>
+    <message>
+      <source>Curved crack</source>
+      <translation>Fissure courbe</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a sphere, torus, cone or cylinder, given by numbers, picked from the view or dragged by its handles; or along faces of a part drawn in FreeCAD: as far as these go, and where they end inside the material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will be; the faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long d'une sphère, d'un tore, d'un cône ou d'un cylindre, donné par des nombres, choisi dans la vue ou tiré par ses poignées ; ou le long de faces d'une pièce dessinée dans FreeCAD : jusqu'où elles vont, et là où elles finissent dans la matière se trouve le front de fissure. Les faces sélectionnées avant sont prises. L'aperçu montre le maillage tel qu'il sera ; les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_CylindricalCrack</name>
+    <message>
+      <source>Cracks the FEM mesh along a cylinder and keeps its groups</source>
+      <translation>Fissure le maillage EF le long d'un cylindre en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Cylindrical crack</source>
+      <translation>Fissure cylindrique</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along a cylinder. Give axis and radius by numbers, pick them from the view (a cylindrical face, a straight or circular edge, two nodes, a point on a face) or drag the handles. It may crack between two heights and two angles only. Elements that are large for the cylinder are divided first.</source>
+      <translation>Ouvre le maillage FEM le long d'un cylindre. Donnez l'axe et le rayon en nombres, choisissez-les dans la vue (une face cylindrique, une arête droite ou circulaire, deux nœuds, un point sur une face) ou tirez les poignées. La fissure peut aussi n'aller qu'entre deux hauteurs et deux angles. Les éléments grands pour le cylindre sont d'abord divisés.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Drill</name>
+    <message>
+      <source>Drill</source>
+      <translation>Perçage</translation>
+    </message>
+    <message>
+      <source>Drills a hole into the FEM mesh and keeps its groups</source>
+      <translation>Perce un trou dans le maillage EF en gardant ses groupes</translation>
+    </message>
+    <message>
+      <source>Drills a hole, through or to a depth. Give axis and radius as for a cylindrical crack; the elements that go are shown as ghosts. The faces of the wall become a group; groups lose what is drilled away and nothing else, and the report says which.</source>
+      <translation>Perce un trou, débouchant ou d'une profondeur donnée. L'axe et le rayon se donnent comme pour une fissure cylindrique ; les éléments enlevés sont montrés en transparence. Les faces de la paroi forment un groupe ; les groupes perdent ce qui est percé et rien d'autre, et le rapport dit lesquels.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Example</name>
+    <message>
+      <source>Example: caisson</source>
+      <translation>Exemple : caisson</translation>
+    </message>
+    <message>
+      <source>Opens a new document with the mesh of a caisson that hangs on stiffeners, in an analysis: tetrahedra with groups for parts, supports, loads and gauges. Crack a hanger, drill the floor, look at the groups before and after.</source>
+      <translation>Ouvre un nouveau document avec le maillage d'un caisson suspendu à des raidisseurs, dans une analyse : des tétraèdres avec des groupes pour les pièces, les appuis, les charges et les points de mesure. Fissurez une suspente, percez le plancher, regardez les groupes avant et après.</translation>
+    </message>
+    <message>
+      <source>Opens a welded caisson as a new document, a mesh with 35 groups to try the commands on</source>
+      <translation>Ouvre un caisson soudé comme nouveau document, un maillage de 35 groupes pour essayer les commandes</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Export</name>
+    <message>
+      <source>Export mesh…</source>
+      <translation>Exporter le maillage…</translation>
+    </message>
+    <message>
+      <source>Writes the FEM mesh with its groups to a file, in a format of solvers or viewers</source>
+      <translation>Écrit le maillage EF avec ses groupes dans un fichier, dans un format de solveur ou de visualiseur</translation>
+    </message>
+    <message>
+      <source>Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.</source>
+      <translation>Écrit le maillage avec ses groupes dans un fichier dont l'extension dit le format. Le dialogue de fichiers énumère les formats.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_FaceCrack</name>
+    <message>
+      <source>Crack along faces</source>
+      <translation>Fissure le long de faces</translation>
+    </message>
+    <message>
+      <source>Cracks the FEM mesh along faces that it has, those of a group</source>
+      <translation>Fissure le maillage EF le long de faces existantes, celles d'un groupe</translation>
+    </message>
+    <message>
+      <source>Opens the FEM mesh along faces between its elements. Choose a group of such faces (of a shell: of edges), or of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows its source mesh. The faces of both lips become groups; all other groups keep their meaning.</source>
+      <translation>Ouvre le maillage EF le long de faces entre ses éléments. Choisissez un groupe de telles faces (d'une coque : d'arêtes) ou de leurs nœuds ; les éléments peuvent être de tout type, aucun n'est déplacé ni divisé. OK crée un objet qui suit son maillage source. Les faces des deux lèvres deviennent des groupes ; tous les autres groupes gardent leur sens.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Fillet</name>
+    <message>
+      <source>Fillet</source>
+      <translation>Congé</translation>
+    </message>
+    <message>
+      <source>Rounds an edge, convex or concave, as a ball of the radius would that rolls along it. Click near the edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The faces of the rounding become a group, and the groups beside it keep to their sides.</source>
+      <translation>Arrondit une arête, convexe ou concave, comme une bille de ce rayon qui roule le long d'elle. Cliquez près de l'arête dans la vue 3D, ou choisissez un groupe sur elle ; elle est arrondie aussi loin qu'elle continue sans coin. Les faces du congé deviennent un groupe, et les groupes voisins restent de leur côté.</translation>
+    </message>
+    <message>
+      <source>Rounds edges of the FEM mesh and keeps its groups</source>
+      <translation>Arrondit des arêtes du maillage EF et garde ses groupes</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_GroupInspector</name>
+    <message>
+      <source>Group inspector</source>
+      <translation>Inspecteur de groupes</translation>
+    </message>
+    <message>
+      <source>Lists the groups of the FEM mesh with kind, size, measure and what uses them. Tick groups to see them, double-click a name to rename the group and a colour to change it. Elementary groups are the entities that are in exactly the same groups; bounding, linking and isolated entities are what an operation must keep in shape.</source>
+      <translation>Liste les groupes du maillage EF avec leur genre, leur taille, leur mesure et ce qui les utilise. Cochez des groupes pour les voir, double-cliquez sur un nom pour renommer le groupe et sur une couleur pour la changer. Les groupes élémentaires réunissent les entités qui sont exactement dans les mêmes groupes ; les entités de bord, de liaison et isolées sont celles dont une opération doit garder la forme.</translation>
+    </message>
+    <message>
+      <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
+      <translation>Montre les groupes d'un maillage EF, ce qu'ils couvrent et ce qui les utilise</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Incision</name>
+    <message>
+      <source>Cuts a slot between two parallel planes. Give the plane in the middle as for a crack, the width, and whether it goes right through or down to the plane's point; the elements that go are shown as ghosts. The faces of the two walls become groups; groups lose what is cut away and nothing else, and the report says which.</source>
+      <translation>Coupe une fente entre deux plans parallèles. Donnez le plan du milieu comme pour une fissure, la largeur, et si elle traverse toute la pièce ou va jusqu'au point du plan ; les éléments qui disparaissent sont montrés en fantômes. Les faces des deux parois deviennent des groupes ; les groupes perdent ce qui est coupé et rien d'autre, et le rapport dit lesquels.</translation>
+    </message>
+    <message>
+      <source>Cuts a slot into the FEM mesh and keeps its groups</source>
+      <translation>Coupe une fente dans le maillage EF et garde ses groupes</translation>
+    </message>
+    <message>
+      <source>Incision</source>
+      <translation>Incision</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Merge</name>
+    <message>
+      <source>Adds another FEM mesh to the FEM mesh and keeps the groups of both</source>
+      <translation>Ajoute un autre maillage EF au maillage EF et garde les groupes des deux</translation>
+    </message>
+    <message>
+      <source>Adds another FEM mesh, such as a stiffener or a boss drawn in FreeCAD and meshed there. Where the two touch or cross they get the same nodes and edges; where two solids overlap, the overlap is cut off one of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both stay, and what was added and where it is joined become groups.</source>
+      <translation>Ajoute un autre maillage EF, tel qu'un raidisseur ou un bossage dessiné et maillé dans FreeCAD. Là où les deux se touchent ou se croisent, ils reçoivent les mêmes nœuds et arêtes ; là où deux solides se recouvrent, le recouvrement est ôté de l'un d'eux. Sélectionnez d'abord le maillage, puis celui à ajouter, ou choisissez celui-ci dans le panneau. Les groupes des deux restent ; ce qui est ajouté et son raccord deviennent des groupes.</translation>
+    </message>
+    <message>
+      <source>Merge</source>
+      <translation>Fusion</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_MeshQuality</name>
+    <message>
+      <source>Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled Jacobian. Click one of the worst elements to go to it. The mesh is not changed.</source>
+      <translation>Colore les éléments selon le rapport moyen (1 : équilatéral, 0 : plat), le plus petit angle dièdre ou le jacobien normalisé. Cliquez sur l'un des pires éléments pour y aller. Le maillage n'est pas modifié.</translation>
+    </message>
+    <message>
+      <source>Mesh quality</source>
+      <translation>Qualité du maillage</translation>
+    </message>
+    <message>
+      <source>Shows the quality of the elements of a FEM mesh in colours and finds the worst</source>
+      <translation>Montre en couleurs la qualité des éléments d'un maillage EF et trouve les plus mauvais</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Refine</name>
+    <message>
+      <source>Divides the elements near a cylinder, sphere, plane, CAD face or other tool until their edges are as short as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a finer mesh around it. All groups keep their meaning.</source>
+      <translation>Divise les éléments près d'un cylindre, d'une sphère, d'un plan, d'une face CAO ou d'un autre outil jusqu'à ce que leurs arêtes soient aussi courtes que demandé, en grandissant vers le reste du maillage selon la gradation. Utile là où une fissure ou un trou demande un maillage plus fin autour de lui. Tous les groupes gardent leur sens.</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Raffiner</translation>
+    </message>
+    <message>
+      <source>Refines the FEM mesh near a cylinder, sphere or other tool and keeps its groups</source>
+      <translation>Raffine le maillage EF près d'un cylindre, d'une sphère ou d'un autre outil et garde ses groupes</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_Reshape</name>
+    <message>
+      <source>Moves a wall of the FEM mesh and keeps its groups</source>
+      <translation>Déplace une paroi du maillage EF et garde ses groupes</translation>
+    </message>
+    <message>
+      <source>Moves what a group covers: the wall of a hole to another radius, a face to another plane, by a vector, or scaled about a point. The panel begins with the plane, cylinder or sphere that the wall lies on. The elements around follow as far as needed and are divided or merged where they would get poor. All groups keep their meaning.</source>
+      <translation>Déplace ce qu'un groupe couvre : la paroi d'un trou à un autre rayon, une face sur un autre plan, d'un vecteur, ou à l'échelle autour d'un point. Le panneau commence par le plan, le cylindre ou la sphère où se trouve la paroi. Les éléments voisins suivent autant qu'il faut et sont divisés ou réunis là où ils deviendraient mauvais. Tous les groupes gardent leur sens.</translation>
+    </message>
+    <message>
+      <source>Reshape</source>
+      <translation>Reformer</translation>
     </message>
   </context>
   <context>
@@ -1372,8 +1582,8 @@
       <translation>Longueur d'arête</translation>
     </message>
     <message>
-      <source>Feature angle</source>
-      <translation>Angle vif</translation>
+      <source>Edges of the skin that are sharper than this keep their shape (feature angle)</source>
+      <translation>Les arêtes de la peau plus vives que cet angle gardent leur forme (angle caractéristique)</translation>
     </message>
     <message>
       <source>Group borders</source>
@@ -1382,6 +1592,10 @@
     <message>
       <source>Group name</source>
       <translation>Nom du groupe</translation>
+    </message>
+    <message>
+      <source>How many rings of elements around the tool may move (the paper: transition)</source>
+      <translation>Combien d'anneaux d'éléments autour de l'outil peuvent bouger (dans l'article : transition)</translation>
     </message>
     <message>
       <source>Longest edge wanted there; farther away edges grow longer again</source>
@@ -1408,12 +1622,12 @@
       <translation>Raffiner d'abord</translation>
     </message>
     <message>
-      <source>Rings of elements around the tool that may move</source>
-      <translation>Couches d'éléments autour de l'outil qui peuvent bouger</translation>
+      <source>Rings that may move</source>
+      <translation>Anneaux mobiles</translation>
     </message>
     <message>
-      <source>Skin edges sharper than this keep their shape</source>
-      <translation>Les arêtes de peau plus vives gardent leur forme</translation>
+      <source>Sharp edges from</source>
+      <translation>Arêtes vives dès</translation>
     </message>
     <message>
       <source>The analysis then solves the new mesh; loads, supports and materials stay as they are</source>
@@ -1424,24 +1638,20 @@
       <translation>Les bords des groupes cochés gardent leur forme ; ceux des autres peuvent dériver</translation>
     </message>
     <message>
-      <source>Transition</source>
-      <translation>Transition</translation>
-    </message>
-    <message>
       <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
       <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
     </message>
     <message>
-      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better</source>
-      <translation>Si les bords de tous les groupes gardent leur forme ; là où certains peuvent dériver, les éléments peuvent être meilleurs</translation>
+      <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better (the paper: virtual boundaries)</source>
+      <translation>Si les bords de tous les groupes gardent leur forme ; là où certains peuvent dériver, les éléments peuvent être meilleurs (dans l'article : virtual boundaries)</translation>
     </message>
     <message>
       <source>automatic</source>
       <translation>automatique</translation>
     </message>
     <message>
-      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes</source>
-      <translation>snap : déplacer des nœuds et diviser des éléments, réussit toujours sur un maillage sain ; deform : seulement déplacer des nœuds</translation>
+      <source>snap: move nodes and split elements, always succeeds on a sound mesh; deform: only move nodes (the paper's way)</source>
+      <translation>snap : déplacer des nœuds et diviser des éléments, réussit toujours sur un maillage sain ; deform : seulement déplacer des nœuds (comme dans l'article)</translation>
     </message>
   </context>
   <context>
@@ -1634,6 +1844,14 @@
     <message>
       <source>Preview</source>
       <translation>Aperçu</translation>
+    </message>
+    <message>
+      <source>Report…</source>
+      <translation>Rapport…</translation>
+    </message>
+    <message>
+      <source>Shows what is done and what becomes of every group, to be copied and saved</source>
+      <translation>Montre ce qui est fait et ce que devient chaque groupe, à copier ou à enregistrer</translation>
     </message>
     <message>
       <source>What the colours of the elements mean</source>

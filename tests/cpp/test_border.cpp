@@ -135,6 +135,12 @@ TEST(KeepPatch, RefusesPatchesThatNoFaceFitsIn) {
     const Patch small = Disk({1, 0.6, 0.3}, 0.15).on(plane);
     EXPECT_THAT([&] { keep_patch(f, small); },
                 testing::ThrowsMessage<ToolError>(HasSubstr("no element face fits in it")));
+    const Patch tiny = Disk({1, 0.613, 0.317}, 1e-3).on(plane);
+    EXPECT_THAT([&] { keep_patch(f, tiny); },
+                testing::ThrowsMessage<ToolError>(HasSubstr("no element face fits in it")));
+    const Patch touching = Disk({1, -0.5, 1}, 0.5).on(plane);
+    EXPECT_THAT([&] { keep_patch(f, touching); },
+                testing::ThrowsMessage<ToolError>(HasSubstr("there is no material within its front")));
     const Patch outside = HalfPlane({1, 5, 0}, {0, 1, 0}).on(plane);
     EXPECT_THAT([&] { keep_patch(f, outside); },
                 testing::ThrowsMessage<ToolError>(HasSubstr("the crack lies outside the part")));

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import csv
+import dataclasses
 import io
 import inspect
+import json
 import threading
 
 import numpy as np
@@ -107,6 +109,41 @@ def test_report_as_text_and_csv(cracked, tmp_path):
     path = tmp_path / "groups.csv"
     result.report.to_csv(path)
     assert path.read_text() == buffer.getvalue()
+
+
+def test_report_as_json(cracked, tmp_path):
+    _, result = cracked
+    report = result.report
+    data = json.loads(report.to_json())
+    assert set(data) == {field.name for field in dataclasses.fields(report)} | {"extents"}
+    assert data["node_sets"]["ICN"] == report.node_sets["ICN"].tolist() and data["node_sets"]["ICN"]
+    assert [g["measure_after"] for g in data["groups"]] == [g.measure_after for g in report.groups]
+    assert data["quality"]["after"]["worst"][0]["id"] == report.quality.after.worst[0].id
+    assert data["extents"] == [
+        {"what": "crack", "group": "CRACK_P", "dimension": 2, "measure": pytest.approx(20 * 0.94**0.5 / 0.9)}
+    ]
+    assert f"made         crack of area {data['extents'][0]['measure']:.6g}\n" in report.to_text()
+    report.to_json(tmp_path / "report.json", node_ids=False)
+    short = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert short["node_sets"]["ICN"] == len(report.node_sets["ICN"])
+    poor = dataclasses.replace(report, max_displacement=float("nan"))
+    assert json.loads(poor.to_json())["max_displacement"] is None
+
+
+def test_extents_of_a_front():
+    result = fs.crack(grid_box(), PLANE, within=fs.Disk((3.3, 2.5, 2), 1.6))
+    front = [e for e in result.report.extents if e.what == "front"][0]
+    mesh = result.mesh
+    rows = np.isin(mesh.cell_ids["line"], mesh.groups["CRACK_FRONT", "element"].ids)
+    ends = mesh.points[mesh.cells["line"][rows]]
+    assert (
+        front.measure == pytest.approx(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()) and front.dimension == 1
+    )
+
+
+def test_extents_of_a_slot_are_walls():
+    report = fs.cut(grid_box(), PLANE, width=0.4).report
+    assert [e.what for e in report.extents] == ["wall"] and report.operation == "cut"
 
 
 def test_quadratic():

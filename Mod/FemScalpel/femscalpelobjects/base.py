@@ -10,7 +10,7 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from . import contents, pieces
+from . import contents, extents, pieces
 from .geometry import shapes_of
 from .memory import Made, Shown, memory
 from .mesh_parts import nodes_around
@@ -49,12 +49,15 @@ _RESULTS = (
         "Pieces",
         "Where the mesh is in more pieces than its source: how large each is, where, and what holds it",
     ),
+    *extents.PROPERTIES,
+    ("App::PropertyString", "ReportData", "The report as JSON"),
     ("App::PropertyStringList", "GroupReport", "Summary and table of groups, line by line"),
     ("App::PropertyMap", "NodeSetCounts", "Number of nodes in the sets ICN, ECN (interface), ITN, ETN (transition)"),
     ("App::PropertyMap", "ConstraintCounts", "Number of constraints on moving nodes by kind"),
 )
 # Values of the properties above of an object without a mesh.
-_NO_RESULTS = {name: {"App::PropertyStringList": [], "App::PropertyMap": {}}.get(kind, 0) for kind, name, _ in _RESULTS}
+_EMPTY = {"App::PropertyStringList": [], "App::PropertyMap": {}, "App::PropertyString": ""}
+_NO_RESULTS = {name: _EMPTY.get(kind, 0) for kind, name, _ in _RESULTS}
 # The link to the geometry that FreeCAD's solver writers look for on a mesh object: Part up to 0.21, Shape from 1.0.
 _GEOMETRY_LINKS = ("Part", "Shape")
 
@@ -142,7 +145,7 @@ class MeshOperation:
         for kind, name, text in _RESULTS:
             if name not in present:
                 obj.addProperty(kind, name, "Result", text, OUTPUT)
-            obj.setEditorMode(name, 1)
+            obj.setEditorMode(name, 2 if name == "ReportData" else 1)
         for kind, name, text in (
             ("App::PropertyLinkHidden", "Replaced", "Mesh whose place in an analysis this one has taken"),
             ("App::PropertyLinkListHidden", "ReplacedAdditions", "Meshes added to it that were in that analysis, too"),
@@ -267,7 +270,7 @@ class MeshOperation:
             surroundings,
             token,
             femmesh,
-            _results(report, on_shape.lost),
+            _results(report, on_shape.lost, extents.hole_of(result.mesh, report, tools)),
             report,
             picture=crack_shape(result.mesh, report.name, points) if FreeCAD.GuiUp else None,
             parting=parting,
@@ -417,9 +420,12 @@ class MeshOperation:
     __setstate__ = loads
 
 
-def _results(report, lost):
-    """Values of the properties of the group Result."""
+def _results(report, lost, hole):
+    """Values of the properties of the group Result. `hole` as by extents.hole_of()."""
     before, after = report.quality
+    lines = report.to_text().splitlines()
+    if hole is not None:
+        lines.insert(1, extents.hole_line(hole))
     return {
         "RefinedTo": report.refinement.size if report.refinement else 0,
         "NodesAdded": report.nodes_added,
@@ -431,7 +437,9 @@ def _results(report, lost):
         "Warnings": report.warnings,
         "Pieces": [],
         "OffShape": lost,
-        "GroupReport": report.to_text().splitlines(),
+        **extents.values_of(report, hole and hole[0]),
+        "ReportData": report.to_json(node_ids=False),  # FreeCAD renumbers nodes when it saves a document
+        "GroupReport": lines,
         "NodeSetCounts": {name: str(len(ids)) for name, ids in report.node_sets.items()},
         "ConstraintCounts": {kind: str(count) for kind, count in report.constraints.items()},
     }

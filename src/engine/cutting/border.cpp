@@ -323,23 +323,32 @@ bool is_inside(const Workpiece& f, const Patch& patch, const auto& nodes) {
     return furthest < 0;
 }
 
-/// Whether some of the faces (edges of shells) on the tool reach into the patch, sampled.
+/// Whether some point of a triangle lies inside the patch: divided where it may, as no distance changes by more than
+/// twice the way (once, where it is exact).
+bool reaches_into(const Patch& patch, const Vec3& a, const Vec3& b, const Vec3& c, int depth) {
+    const Vec3 middle = (a + b + c) / 3;
+    const double off = patch.distance(middle);
+    if (off < 0) return true;
+    const double radius = std::max({(a - middle).norm(), (b - middle).norm(), (c - middle).norm()});
+    if (depth == 0 || off > 2 * radius) return false;
+    const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+    return reaches_into(patch, a, ab, ca, depth - 1) || reaches_into(patch, b, bc, ab, depth - 1) ||
+           reaches_into(patch, c, ca, bc, depth - 1) || reaches_into(patch, ab, bc, ca, depth - 1);
+}
+
+/// Whether some of the faces (edges of shells) on the tool reach into the patch, be it a ten thousandth of them.
 bool meets_material(const BandMesh& band, const Patch& patch) {
-    constexpr int n = 12;
+    constexpr int depth = 14;
     const auto at = [&](int v) -> const Vec3& { return band.nodes[v].at; };
     for (int s = 0; s < band.cut_faces.size(); ++s) {
         if (!band.cut_faces.alive(s)) continue;
         const auto& v = band.cut_faces[s];
-        for (int i = 0; i <= n; ++i)
-            for (int j = 0; i + j <= n; ++j)
-                if (patch.distance(at(v[0]) + (at(v[1]) - at(v[0])) * i / n + (at(v[2]) - at(v[0])) * j / n) < 0)
-                    return true;
+        if (reaches_into(patch, at(v[0]), at(v[1]), at(v[2]), depth)) return true;
     }
     for (int s = 0; s < band.cut_edges.size(); ++s) {
         if (!band.cut_edges.alive(s)) continue;
         const auto& v = band.cut_edges[s];
-        for (int i = 0; i <= n; ++i)
-            if (patch.distance(at(v[0]) + (at(v[1]) - at(v[0])) * i / n) < 0) return true;
+        if (reaches_into(patch, at(v[0]), at(v[1]), at(v[1]), depth)) return true;
     }
     return false;
 }
@@ -429,8 +438,8 @@ void keep_patch(Workpiece& f, const Patch& patch) {
     if (!any_inside(band.cut_faces) && !any_inside(band.cut_edges) && f.beam_nodes.empty()) {
         if (meets_material(band, patch)) too_coarse("no element face fits in it");
         throw ToolError(why_nothing_parts(f, Blade{f.tool, patch.distance, {}},
-                                          "the crack lies outside the part, or is far smaller than the elements there: "
-                                          "no material was found within its front. Move it, or make it larger"));
+                                          "the crack lies outside the part: there is no material within its front. "
+                                          "Move it into the material"));
     }
     const auto drop = [&](auto& list) {
         for (int s = 0; s < list.size(); ++s)

@@ -30,6 +30,7 @@ from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import (
     ElementQuality,
+    Extent,
     GroupRecord,
     HeldNodes,
     PoorPlace,
@@ -56,6 +57,7 @@ __all__ = [
     "ElementaryGroup",
     "ElementQuality",
     "Error",
+    "Extent",
     "Faces",
     "Format",
     "Group",

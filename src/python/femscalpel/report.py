@@ -3,6 +3,8 @@
 
 import csv
 import dataclasses
+import json
+import math
 import os
 from dataclasses import dataclass
 from typing import Dict, List, NamedTuple, Optional, Tuple
@@ -107,6 +109,27 @@ class PoorPlace:
     room: float  #: how large that would have to be for good elements
 
 
+class Extent(NamedTuple):
+    """How long, or large, something is that an operator has made."""
+
+    what: str  #: "crack" (one of its lips), "front", "wall", "bottom", "end", "seam" or "face"
+    group: str  #: name of its group
+    dimension: int  #: 1: `measure` is a length, 2: an area
+    measure: float  #: in the mesh's unit
+
+
+# Groups that operators make, by what their names end with. The other lip, or wall of a slot, _N, is as large as _P.
+_MADE = {
+    "_P": "crack",
+    "_FRONT": "front",
+    "_WALL": "wall",
+    "_BOTTOM": "bottom",
+    "_END": "end",
+    "_SEAM": "seam",
+    "_FACE": "face",
+}
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Report:
     """What an operator did; the same for all operators. Lengths are in the mesh's unit."""
@@ -168,6 +191,14 @@ class Report:
                 sums[key] += count
         return counts
 
+    @property
+    def extents(self) -> List[Extent]:
+        """Area or length of what the operator has made: a crack and its front, a hole's wall, a seam, ..."""
+        found = {g.name: g for g in self.groups if g.status == "new" and g.kind != "node" and g.dimension > 0}
+        made = dict(_MADE, _P="wall") if self.operation == "cut" else _MADE
+        named = [(what, found.get(self.name + suffix)) for suffix, what in made.items()]
+        return [Extent(what, g.name, g.dimension, g.measure_after) for what, g in named if g is not None]
+
     def to_text(self) -> str:
         """Summary, warnings, the table of groups and, for decks of parts, that of their instances as aligned text."""
         before, after = self.quality
@@ -191,6 +222,10 @@ class Report:
                 + (f" ({_counts({k: f'{s:.3f}' for k, s in self.seconds.items()})})" if self.seconds else ""),
             ),
         ]
+        if self.extents:
+            facts.insert(
+                0, ("made", "; ".join(f"{e.what} of {_MEASURES[e.dimension]} {e.measure:.6g}" for e in self.extents))
+            )
         if self.refinement is not None:
             size, elements_before, elements_after = self.refinement
             facts.insert(
@@ -280,6 +315,31 @@ class Report:
         writer.writerow([field.name for field in dataclasses.fields(GroupRecord)])
         writer.writerows(dataclasses.astuple(group) for group in self.groups)
 
+    def to_dict(self, node_ids: bool = True) -> dict:
+        """All of the report as dictionaries, lists, numbers and texts, `extents` among them.
+
+        With `node_ids` False, `node_sets` has the number of nodes in place of their numbers.
+        """
+        data = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        data["node_sets"] = {name: ids if node_ids else len(ids) for name, ids in self.node_sets.items()}
+        data["extents"] = self.extents
+        return _plain(data)
+
+    def to_json(self, file=None, node_ids: bool = True) -> Optional[str]:
+        """Writes the report as JSON, as :meth:`to_dict` has it; what is no number is null.
+
+        `file` is a path, or an open text file; without one the text is returned.
+        """
+        text = json.dumps(self.to_dict(node_ids), indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+        if file is None:
+            return text
+        if isinstance(file, (str, os.PathLike)):
+            with open(file, "w", encoding="utf-8") as opened:
+                opened.write(text)
+        else:
+            file.write(text)
+        return None
+
     def __str__(self) -> str:
         return self.to_text()
 
@@ -288,6 +348,26 @@ class Report:
             f"<Report {self.operation} {self.name!r}: {self.nodes_added} nodes added, {self.nodes_moved} moved, "
             f"mean ratio at least {self.quality.after.minimum:.3f}, {len(self.warnings)} warnings>"
         )
+
+
+_MEASURES = {1: "length", 2: "area", 3: "volume"}
+
+
+def _plain(value):
+    """A value made of what JSON has."""
+    if dataclasses.is_dataclass(value):
+        return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
+    if hasattr(value, "_asdict"):
+        return _plain(value._asdict())
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [_plain(entry) for entry in value]
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _aligned(rows: List[Tuple[str, ...]], left: int) -> List[str]:

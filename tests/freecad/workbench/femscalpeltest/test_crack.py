@@ -2,6 +2,7 @@
 """The document object Crack."""
 
 import os
+import json
 import sys
 
 import FreeCAD
@@ -67,6 +68,13 @@ class CrackObject(DocumentTest):
         self.assertEqual(self.crack.ConstraintCounts["plane"], str(report.constraints["plane"]))
         self.assertEqual(self.crack.Warnings, report.warnings)
         self.assertIn("LEFT", "\n".join(self.crack.GroupReport))
+        area = 20 * 0.94**0.5 / 0.9
+        self.assertAlmostEqual(self.crack.CrackArea.Value, area)
+        self.assertEqual(self.crack.FrontLength.Value, 0)
+        self.assertIn(f"crack of area {area:.6g}", "\n".join(self.crack.GroupReport))
+        data = json.loads(self.crack.ReportData)
+        self.assertEqual(data["nodes_added"], report.nodes_added)
+        self.assertEqual(data["node_sets"]["ICN"], len(report.node_sets["ICN"]))
 
     def test_source_is_untouched(self):
         before = content(femmesh_bridge.from_femmesh(self.source.FemMesh))

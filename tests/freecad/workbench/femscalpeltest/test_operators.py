@@ -170,6 +170,10 @@ class Operators(DocumentTest):
         drill = ObjectsFemScalpel.makeDrill(self.doc, self.source, origin=ORIGIN, axis=AXIS, radius=0.9)
         mesh = self.check(drill, fs.drill(self.mesh, hole))
         self.assertLess(tetra_volumes(mesh.points, mesh.cells["tetra"]).sum(), 120)
+        self.assertAlmostEqual(drill.HoleRadius.Value, 0.9, places=9)
+        self.assertAlmostEqual(drill.WallArea.Value, 2 * np.pi * 0.9 * 4, delta=1)
+        (line,) = (line for line in drill.GroupReport if line.startswith("  hole"))
+        self.assertIn("radius 0.9; nodes of the wall at most", line)
         drill.Through, drill.Depth = False, 0.5
         mesh = self.check(drill, fs.drill(self.mesh, hole, depth=0.5))
         self.assertIn("HOLE_BOTTOM", mesh.groups)

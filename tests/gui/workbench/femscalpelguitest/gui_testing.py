@@ -58,10 +58,26 @@ def wait_until(condition, what):
 
 def widget(name, parent=None):
     """The visible widget of that object name."""
-    found = [w for w in (parent or FreeCADGui.getMainWindow()).findChildren(QtGui.QWidget, name) if w.isVisible()]
+    top = parent or FreeCADGui.getMainWindow()
+    found = [w for w in top.findChildren(QtGui.QWidget, name) if w.isVisible()]
+    if not found and not name.startswith("section") and _unfold():
+        found = [w for w in top.findChildren(QtGui.QWidget, name) if w.isVisible()]
     if not found:
         raise NotShown(f"no visible widget '{name}'")
     return found[-1]
+
+
+def _unfold():
+    """Opens all sections of the panel; whether any was closed."""
+    headers = [
+        box
+        for box in FreeCADGui.getMainWindow().findChildren(QtGui.QToolButton)
+        if box.objectName().startswith("section") and box.isVisible() and not box.isChecked()
+    ]
+    for box in headers:
+        box.setChecked(True)  # no click, which would be remembered
+    spin(0)
+    return bool(headers)
 
 
 def is_shown(name):

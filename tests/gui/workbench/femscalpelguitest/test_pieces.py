@@ -3,6 +3,7 @@
 inside."""
 
 import os
+import re
 import unittest
 from contextlib import contextmanager
 
@@ -15,6 +16,7 @@ from PySide import QtCore, QtGui
 import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
+from femscalpelgui.panels import fields
 from femscalpelgui.translate import TRANSLATIONS
 from femscalpelgui.view.preview_data import PreviewSource, preview_of
 from femscalpelobjects.pieces import parting_of
@@ -131,7 +133,7 @@ class Panels(GuiTest):
             "The part falls into 2 pieces: 65 % of the volume (left, -x; held by Wall &lt;left&gt;) and 35 % of the "
             "volume (right, +x; nothing holds it)."
         )
-        self.assertRegex(widget("status").text(), "color:#8a5a00'>The part falls")
+        self.assertRegex(widget("status").text(), re.escape(fields.WARNING) + "'>The part falls")
         self.picture("pieces_en")
         before = len(report_view())
         press_ok()
@@ -152,7 +154,7 @@ class Panels(GuiTest):
         analysis.addObject(other)
         crack.ViewObject.doubleClicked()
         self.wait_for_text("right, +x; held by Other")
-        self.assertNotRegex(widget("status").text(), "color:#8a5a00'>The part falls")
+        self.assertNotRegex(widget("status").text(), re.escape(fields.WARNING) + "'>The part falls")
         self.assertNotIn("has no solution", widget("status").text())
         press_cancel()
 

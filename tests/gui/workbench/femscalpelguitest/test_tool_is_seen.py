@@ -8,6 +8,7 @@ import FreeCAD
 from femscalpelgui.panels import fields
 from .gui_testing import *  # noqa: F403
 from .test_crack_panel import CrackTest
+from .test_themes import READABLE, best_contrast, picture_of
 
 
 def pane():
@@ -87,6 +88,6 @@ class ToolIsSeen(CrackTest):
         self.open_panel()
         type_into("originX", "500")
         self.wait_for_message("geometryError")
-        colour = widget("geometryError").palette().color(QtGui.QPalette.WindowText)
-        self.assertGreater(colour.lightness(), 150)
+        picture = picture_of(widget("geometryError"))
+        self.assertGreater(best_contrast(picture, picture.rect()), READABLE)
         screenshot("dark_error")

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Parts of a panel that can be folded, and fields that know what they are called."""
+
+from PySide import QtCore, QtGui
+
+from .. import preferences
+
+
+class Section(QtCore.QObject):
+    """Rows of a grid under a header that folds them away; the user's choice is kept. A message in it unfolds it.
+
+    Parameters
+    ----------
+    grid : QGridLayout
+        Of two columns, in the box layout `rows`; what is in its `numbers` moves into the section.
+    name : str
+        Of the preference, and of the header after "section".
+    """
+
+    def __init__(self, rows, grid, numbers, name, title, tip, is_open):
+        super().__init__(rows)
+        self._name = name
+        self._header, self._content = QtGui.QToolButton(), QtGui.QWidget()
+        inside = QtGui.QGridLayout(self._content)
+        inside.setContentsMargins(0, 0, 0, 0)
+        inside.setColumnStretch(1, 1)
+        moved = []
+        for at, row in enumerate(numbers):
+            for column in (0, 1):
+                item = grid.itemAtPosition(row, column)
+                if item is not None and item.widget() not in moved:
+                    box = item.widget()
+                    moved.append(box)
+                    wide = column == 0 and grid.itemAtPosition(row, 1) is not None
+                    wide = wide and grid.itemAtPosition(row, 1).widget() == box
+                    inside.addWidget(box, at, column, 1, 2 if wide else 1)
+                    box.installEventFilter(self)
+        header = self._header
+        header.setObjectName("section" + name)
+        header.setText(title)
+        header.setToolTip(tip)
+        header.setCheckable(True)
+        header.setAutoRaise(True)
+        header.setToolButtonStyle(QtCore.Qt.ToolButtonTextBesideIcon)
+        header.setSizePolicy(QtGui.QSizePolicy.Expanding, QtGui.QSizePolicy.Fixed)
+        place = rows.indexOf(grid) + 1
+        while rows.itemAt(place) is not None and isinstance(rows.itemAt(place).widget(), QtGui.QToolButton):
+            place += 2  # behind the sections that are there
+        rows.insertWidget(place, header)
+        rows.insertWidget(place + 1, self._content)
+        header.setChecked(preferences.is_unfolded(name, is_open))
+        self._fold(header.isChecked())
+        header.toggled.connect(self._fold)
+        header.clicked.connect(lambda on: preferences.set_unfolded(self._name, on))
+
+    def _fold(self, is_open):
+        self._header.setArrowType(QtCore.Qt.DownArrow if is_open else QtCore.Qt.RightArrow)
+        self._content.setVisible(is_open)
+
+    def eventFilter(self, receiver, event):
+        if event.type() == QtCore.QEvent.ShowToParent and receiver.objectName().endswith("Error"):
+            self._header.setChecked(True)
+        return False
+
+
+def name_fields(form):
+    """Ties the labels of a form to the fields behind them, and names all fields for screen readers."""
+    kinds = (QtGui.QAbstractSpinBox, QtGui.QComboBox, QtGui.QLineEdit, QtGui.QAbstractItemView)
+    for layout in form.findChildren(QtGui.QLayout):
+        for row in _rows_of(layout):
+            label = None
+            for box in row:
+                if isinstance(box, QtGui.QLabel):
+                    label = box
+                elif isinstance(box, kinds) and label is not None:
+                    if label.text() and not label.objectName().endswith("Error"):
+                        label.setBuddy(box)
+                        if len(label.text()) > 2:  # not x, y, z
+                            box.setAccessibleName(label.text())
+                    label = None
+    for kind in kinds:
+        for box in form.findChildren(kind):
+            if not box.accessibleName():
+                box.setAccessibleName(box.toolTip())
+
+
+def _rows_of(layout):
+    """The widgets of a layout, row by row."""
+    if isinstance(layout, QtGui.QGridLayout):
+        for row in range(layout.rowCount()):
+            items = (layout.itemAtPosition(row, column) for column in range(layout.columnCount()))
+            yield [item.widget() for item in items if item is not None and item.widget() is not None]
+    elif isinstance(layout, QtGui.QHBoxLayout):
+        items = (layout.itemAt(k).widget() for k in range(layout.count()))
+        yield [box for box in items if box is not None]
