@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
-from merge_parts import block, plate, rod, shell, solid
+from merge_parts import block, plate, rod, shell, solid, worst
 from meshes import grid_box, quadratic
 from test_tie import face_areas, hexahedra
 
@@ -284,3 +284,97 @@ def test_names_that_solvers_do_not_accept(options, parameter):
     with pytest.raises(fs.ToolError) as caught:
         fs.merge(box(), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A"), **options)
     assert caught.value.parameter == parameter
+
+
+def node_groups(mesh, **groups):
+    """The mesh with node groups of those points for which a function of the coordinates is true."""
+    mesh = mesh.copy()
+    for name, is_in in groups.items():
+        mesh.add_group(name, "node", mesh.node_ids[is_in(mesh.points)])
+    return mesh
+
+
+def test_groups_of_nodes_that_become_one_are_told():
+    """The mesh's may be held, and the addition's is then, too."""
+    low = lambda z: lambda points: np.abs(points[:, 2] - z) < 1e-9
+    mesh = node_groups(box(), BOTTOM=low(0), TOP=low(4))
+    boss = node_groups(block((2, 2, 4), (2, 2, 1), (4, 4, 2), "BOSS"), BOTTOM=low(4), OTHER=low(5))
+    for method in ("conform", "tie"):
+        told = [w for w in fs.merge(mesh, boss, method=method).report.warnings if "which are one now" in w]
+        assert len(told) == 1 and told[0].startswith("both have groups 'BOTTOM', which") and "at 25 node(s)" in told[0]
+        apart = fs.merge(mesh, boss, method=method, join_groups=False)
+        assert not [w for w in apart.report.warnings if "which are one now" in w]
+        assert len(apart.mesh.groups["BOTTOM"].ids) == 42
+
+
+def test_shells_on_solids_turn_as_about_a_hinge_and_this_is_told():
+    on_solid = fs.merge(box(), plate((1, 2, 4), (4, 0, 0), (0, 0, 2), (6, 3), "RIB"))
+    assert [w for w in on_solid.report.warnings if "as about a hinge" in w]
+    assert not [w for w in fs.merge(floor(), FIRST).report.warnings if "hinge" in w]
+
+
+@pytest.mark.parametrize("angle", [0.12, 0.15, 0.3])
+def test_shells_that_cross_at_a_small_angle_keep_their_planes(angle):
+    """What is near the other for a whole edge and more is not put onto it: it passes."""
+    across = plate((2, 2, -2 * angle), (5, 1, 0), (0, 4, 4 * angle), (6, 5), "RIB")
+    mesh = fs.merge(floor(), across).mesh
+    nodes = np.unique(mesh.cells["triangle"][np.isin(mesh.cell_ids["triangle"], mesh.groups["ADD_ADDED"].ids)])
+    normal = np.cross((5, 1, 0), (0, 4, 4 * angle))
+    off = (mesh.points[nodes] - (2, 2, -2 * angle)) @ normal / np.linalg.norm(normal)
+    assert np.abs(off).max() < 1e-12
+    seam = mesh.points[np.isin(mesh.node_ids, mesh.groups["ADD_SEAM"].ids)]
+    np.testing.assert_allclose(seam[:, 1], 4 + 0.2 * (seam[:, 0] - 2), atol=1e-12)
+
+
+def test_a_seam_across_a_crack_is_refused():
+    """It would hold to one of the lips, and to nothing along an edge beside the other."""
+    cracked = fs.crack(floor(), fs.Plane((5, 0, 0), (1, 0.1, 0)), within=fs.Disk((5, 0, 0), 4)).mesh
+    with pytest.raises(fs.QualityError, match="the seam is no edge of the mesh between .* crosses double nodes there"):
+        fs.merge(cracked, plate((1.1, 2.2, 0), (7, 0.5, 0), (0, 0, 3), (8, 3), "RIB"))
+    beside = fs.merge(cracked, plate((1.1, 6.2, 0), (7, 0.5, 0), (0, 0, 3), (8, 3), "RIB"))
+    assert len(beside.mesh.groups["ADD_SEAM"].ids) > 8
+
+
+def cylinder(start, along, radius, size, order):
+    """As Gmsh meshes it."""
+    gmsh = pytest.importorskip("gmsh")
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+        gmsh.option.setNumber("Mesh.MeshSizeMin", size / 2)
+        gmsh.model.occ.addCylinder(*start, *along, radius)
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(order)
+        tags, points, _ = gmsh.model.mesh.getNodes()
+        index = np.zeros(int(tags.max()) + 1, int)
+        index[tags] = np.arange(len(tags))
+        kind, count = {1: (4, 4), 2: (11, 10)}[order]
+        cells = index[gmsh.model.mesh.getElementsByType(kind)[1]].reshape(-1, count)
+    finally:
+        gmsh.finalize()
+    if order == 2:
+        cells[:, [8, 9]] = cells[:, [9, 8]]
+    return fs.Mesh(points.reshape(-1, 3), {"tetra10" if order == 2 else "tetra": cells})
+
+
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+@pytest.mark.parametrize("radius", [1.2, 1.9])
+def test_a_branch_of_coarse_curved_elements(radius, keep):
+    """Edges of a third of the radius: refused as too coarse but with finer ones."""
+    mesh, branch = cylinder((0, 0, 0), (0, 0, 8), 2, 0.7, 2), cylinder((0, 0, 4), (6, 0, 0), radius, 0.7, 2)
+    result = fs.merge(mesh, branch, keep=keep)
+    assert worst(result.mesh) > 0.12
+    assert result.report.quality.after.minimum > 0.12
+
+
+def test_no_element_of_hardly_a_volume_is_filled_in():
+    """Cylinders of one radius touch each other along their whole length at two places."""
+    mesh, branch = cylinder((0, 0, 0), (0, 0, 8), 2, 1, 1), cylinder((0, 0, 4), (6, 0, 0), 2, 0.8, 1)
+    try:
+        result = fs.merge(mesh, branch)
+    except fs.QualityError as error:
+        assert "where the two meet" in str(error) or "cannot be joined" in str(error)
+    else:
+        assert worst(result.mesh) > 0.02

@@ -26,6 +26,8 @@ constexpr double touching = 0.1;
 constexpr double crossing_tolerance = 1e-3;
 /// Sine of the angle from which on a border that comes near does not lie there.
 constexpr double steep = 0.3;
+/// The same for flat faces, along a whole edge.
+constexpr double shallow = 0.1;
 /// Where borders cross, the one may seem to go on along the other for so many times as much as it may be off.
 constexpr double overshoot = 2.5;
 /// Cosine of the angle from which on a border does not run along another.
@@ -245,6 +247,17 @@ private:
         return in;
     }
 
+    /// Whether what seems to touch flat faces leaves them, or passes, at an angle. Who gives a tolerance means it.
+    bool rises(const Edge& edge, double start, double end, const SurfaceTree::Foot& first,
+               const SurfaceTree::Foot& last, double length) const {
+        const SurfaceTree& other = *trees_[1 - edge.mesh];
+        if (given_ || first.piece < 0 || last.piece < 0 || other.sag(first.piece) > 0 || other.sag(last.piece) > 0)
+            return false;
+        const double before = (edge.at(start) - first.at).dot(other.normal(first.piece)),
+                     after = (edge.at(end) - last.at).dot(other.normal(last.piece));
+        return std::abs(after - before) > shallow * length;
+    }
+
     void add_touch(const Edge& edge, const Vec3& normal, double start, double end) {
         const std::size_t m = edge.mesh;
         const SurfaceTree& other = *trees_[1 - m];
@@ -255,6 +268,7 @@ private:
         // An edge that but ends there, or passes, at an angle, does not lie there.
         const auto [low, high] = std::minmax({first->distance, last->distance, middle->distance});
         if (length < 4 * reach && high - low > steep * length) return;
+        if (rises(edge, start, end, *first, *last, length)) return;
         Touch out{{first->at, last->at},
                   {{normal, other.normal(middle->piece)}, {edge.size, other.size(middle->piece)}},
                   reach};

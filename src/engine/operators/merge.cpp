@@ -44,6 +44,9 @@ constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
 /// Elements filled in with a smaller mean ratio than this are worth another attempt, and a word.
 constexpr double poor = 0.12;
+/// And with one that is smaller than this and this part of the meshes' worst, nothing is joined.
+constexpr double useless = 0.02;
+constexpr double part_of_inputs = 0.1;
 /// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing or
 /// to poor elements. The last is for lines that lie on each other as polygons of one circle do: finer edges part them.
 constexpr double coarser[] = {2.5, 1.1, 0.3};
@@ -201,7 +204,8 @@ Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Me
 struct United {
     Mesh mesh;
     std::vector<std::string> warnings;
-    double worst = 1;  ///< smallest mean ratio of what was filled in
+    double worst = 1;                              ///< smallest mean ratio of what was filled in
+    std::vector<std::array<Index, 2>> seam_edges;  ///< of shells
 };
 
 /// Adds the group of the addition's elements.
@@ -212,10 +216,16 @@ std::string add_group_added(Mesh& mesh, const MergeOptions& options) {
 }
 
 United unite_shells(Joint& joint, const MergeOptions& options) {
-    United out{std::move(joint.mesh(0)), {}};
+    United out;
+    out.mesh = std::move(joint.mesh(0));
     std::vector<Index> shared(joint.mesh(1).points.size(), -1);
     for (const JointLine& line : joint.lines())
-        for (const JointLine::Stop& stop : line.stops) shared[stop.node[1]] = stop.node[0];
+        for (std::size_t k = 0; k < line.stops.size(); ++k) {
+            const auto& node = line.stops[k].node;
+            shared[node[1]] = node[0];
+            if (k + 1 < line.stops.size() || line.closed)
+                out.seam_edges.push_back({node[0], line.stops[(k + 1) % line.stops.size()].node[0]});
+        }
     if (options.keep_side) {
         Crop kept = trimmed(joint.mesh(1), joint.lines(), *options.keep_side);
         std::vector<Index> shared_kept;
@@ -427,7 +437,10 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     Result out;
     out.mesh = std::move(united.mesh);
     const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
-    if (solids) check_seam(out.mesh, seam);
+    if (solids)
+        check_seam(out.mesh, seam);
+    else
+        check_seam_edges(out.mesh, options.name + "_ADDED", united.seam_edges);
     add_seam(out.mesh, options.name, seam);
     check_pieces(out.mesh, options.name);
     out.report =
@@ -439,8 +452,12 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         text << "an element that was filled in where the two meet has a mean ratio of " << united.worst
              << ": their skins meet at a sharp angle, or nodes lie close to each other there. Move the addition a "
                 "little, or refine the coarser one there first";
+        if (united.worst < useless && united.worst < part_of_inputs * out.report.quality_before.minimum)
+            throw QualityError(text.str(), "other");
         out.report.warnings.push_back(text.str());
     }
+    if (options.join_groups) warn_of_joined_groups(mesh, addition, out.report);
+    if (!solids && mesh.dimension() == 3) warn_of_hinge(out.report);
     warn_of_sections(mesh, out.mesh, options.name + "_ADDED", out.report);
     if (!solids && mesh.dimension() == 3) warn_of_inside(mesh, out.mesh, options.name + "_ADDED", out.report);
     if (solids) warn_of_buried(out.mesh, options.name + "_ADDED", out.report);

@@ -7,11 +7,14 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "cancel.h"
 #include "cutting/crossing.h"
 #include "cutting/surface_line.h"
+#include "deck/solver_input.h"
+#include "mesh/middles.h"
 #include "mesh/near_boxes.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface.h"
@@ -233,6 +236,63 @@ void warn_of_buried(const Mesh& result, const std::string& added, Report& report
                                   result.groups[group].name +
                                   "' are inside now, between the mesh and the addition: what a solver is told to do "
                                   "there, as a pressure, it still does. Take them out of the group if it should not");
+}
+
+void warn_of_joined_groups(const Mesh& mesh, const Mesh& addition, Report& report) {
+    const bool in_deck = solver_input(mesh) != nullptr;  // which compares names as CalculiX does
+    std::string names;
+    Index count = 0;
+    for (GroupIndex g = 0; g < static_cast<GroupIndex>(addition.groups.size()); ++g) {
+        const Group& group = addition.groups[g];
+        if (group.hidden || group.kind == GroupKind::element) continue;
+        const bool is_there = std::ranges::any_of(mesh.groups, [&](const Group& other) {
+            return !other.hidden && other.kind == group.kind &&
+                   (other.name == group.name || (in_deck && deck_key(other.name) == deck_key(group.name)));
+        });
+        if (!is_there) continue;
+        const GroupMembers all = group_members(addition, g);
+        const auto members = static_cast<Index>(all.ids.size());
+        if (members == 0) continue;
+        count += members;
+        names += (names.empty() ? "'" : ", '") + group.name + "'";
+    }
+    if (count > 0)
+        report.warnings.push_back("both have groups " + names +
+                                  ", which are one now: what a solver is told to do there, "
+                                  "as a support or a load, it does at " +
+                                  std::to_string(count) +
+                                  " node(s) or facet(s) of the addition, too. join_groups=False keeps them apart");
+}
+
+void warn_of_hinge(Report& report) {
+    report.warnings.emplace_back(
+        "the addition's shells hold to the solid by its nodes, which have no rotations: they turn about the seam as "
+        "about "
+        "a hinge. Where they are welded on, add them as solid elements, or tie their rotations in the solver's input");
+}
+
+void check_seam_edges(const Mesh& result, const std::string& added, const std::vector<std::array<Index, 2>>& edges) {
+    std::unordered_map<std::uint64_t, std::array<bool, 2>> found;
+    for (const auto& [a, b] : edges) found.try_emplace(mesh_edge_key(a, b));
+    const GroupIndex group = *result.find_group(added, GroupKind::element);
+    for (const CellBlock& b : result.blocks()) {
+        const CellTraits& t = traits(traits(b.type).linear);
+        if (t.dimension < 2) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            const auto n = b.nodes(c);
+            for (const auto& e : t.edges)
+                if (const auto at = found.find(mesh_edge_key(n[e[0]], n[e[1]])); at != found.end())
+                    at->second[result.families.contains(b.families[c], group) ? 1 : 0] = true;
+        }
+    }
+    for (const auto& [a, b] : edges)
+        if (const auto& [mesh, addition] = found.at(mesh_edge_key(a, b)); !mesh || !addition)
+            throw QualityError(
+                "the seam is no edge of " + std::string(mesh ? "the addition" : "the mesh") + " between " +
+                    point_text(result.points[a]) + " and " + point_text(result.points[b]) +
+                    ": it crosses double nodes there, the lips of a crack or a contact, and the two would "
+                    "come apart. Join them before it is cracked, or end the addition there",
+                "other");
 }
 
 void warn_of_inside(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,17 @@ void check_other_elements(const Mesh& mesh, const Mesh& addition);
 
 /// Warns of groups that have faces between the elements of the group `added` and others, which were on the skin.
 void warn_of_buried(const Mesh& result, const std::string& added, Report& report);
+
+/// Warns of groups of nodes and of facets that both meshes have, and that are one in the result: what a solver's input
+/// does with the mesh's, it does with the addition's members, too.
+void warn_of_joined_groups(const Mesh& mesh, const Mesh& addition, Report& report);
+
+/// Warns that shells joined to a solid along their border turn about it.
+void warn_of_hinge(Report& report);
+
+/// Throws QualityError where edges between neighbours along the seams, as pairs of nodes of the result, are not edges
+/// of both the elements of the group `added` and of others: the two would come apart there.
+void check_seam_edges(const Mesh& result, const std::string& added, const std::vector<std::array<Index, 2>>& edges);
 
 /// Warns of elements of the group `added`, shells joined to a solid, that are inside it.
 void warn_of_inside(const Mesh& mesh, const Mesh& result, const std::string& added, Report& report);

@@ -107,6 +107,7 @@ Result tie(const Mesh& mesh, const Mesh& other, const MergeOptions& options) {
     report.nodes_added = addition.node_count();
     report.elements_added = addition.cell_count();
     warn_of_sections(mesh, out.mesh, added, report);
+    if (options.join_groups) warn_of_joined_groups(mesh, addition, report);
     tie_up(out.mesh, touching, options, names, report);
     report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;
