@@ -25,6 +25,9 @@ void bind_io(py::module_& module) {
     module.def(
         "write", [](const Mesh& mesh, const std::filesystem::path& path) { interruptible([&] { write(mesh, path); }); },
         py::arg("mesh"), py::arg("path"));
+    module.def(
+        "losses", [](const Mesh& mesh, const std::filesystem::path& path) { return losses(mesh, path); },
+        py::arg("mesh"), py::arg("path"));
     module.def("formats", [] {  // (title, extensions, read, written)
         py::list rows;
         for (const Format& f : formats()) {

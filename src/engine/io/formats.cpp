@@ -5,6 +5,7 @@
 
 #include "io/inp.h"
 #include "io/med.h"
+#include "io/msh.h"
 #include "io/vtu.h"
 
 namespace femscalpel {
@@ -17,6 +18,7 @@ constexpr Format table[] = {
      [](const std::filesystem::path& path, const std::string&) { return read_inp(path); },
      write_inp},
     {"ParaView", {".vtu"}, nullptr, write_vtu},
+    {"Gmsh", {".msh"}, nullptr, write_msh, nullptr, msh_losses},
 };
 
 /// The extension in lower case; of a packed file with the one before: ".inp.gz".

@@ -23,6 +23,8 @@ struct Format {
     void (*write)(const Mesh&, const std::filesystem::path&);  ///< null for a format that is read only
     /// The names of a file's meshes; null for a format whose files hold one, without a name.
     std::vector<std::string> (*meshes)(const std::filesystem::path&) = nullptr;
+    /// What of a mesh its files do not hold, a line each, to be told to who writes one; null where nothing is said.
+    std::vector<std::string> (*losses)(const Mesh&) = nullptr;
 
     /// The extensions without the empty ones.
     std::span<const std::string_view> extensions() const;

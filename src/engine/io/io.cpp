@@ -46,4 +46,9 @@ void write(const Mesh& mesh, const std::filesystem::path& path) {
     format->write(mesh, path);
 }
 
+std::vector<std::string> losses(const Mesh& mesh, const std::filesystem::path& path) {
+    const Format* format = format_of(path);
+    return format && format->losses ? format->losses(mesh) : std::vector<std::string>();
+}
+
 }  // namespace femscalpel

@@ -336,6 +336,8 @@ def fillet(
 
 def formats() -> list: ...
 
+def losses(mesh: Mesh, path: str | os.PathLike[str]) -> list[str]: ...
+
 @overload
 def merge(
     mesh: Mesh,

@@ -66,8 +66,13 @@ def meshes_in(path: Path) -> List[str]:
 def write(mesh: Mesh, path: Path) -> None:
     """Writes a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
-    The file is complete or, after an error, what it was before.
+    The file is complete or, after an error, what it was before. What a .msh (Gmsh) cannot hold - facet groups, the
+    cards of a deck, the unit - is told in a UserWarning.
 
     Raises :class:`femscalpel.WriteError` when the file cannot be written or its format cannot hold the mesh.
     """
-    _engine.write(check_mesh(mesh), _arguments.path(path, "path"))
+    file = _arguments.path(path, "path")
+    _engine.write(check_mesh(mesh), file)
+    lost = _engine.losses(mesh._engine_mesh, file)
+    if lost:
+        warnings.warn(f"{file} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
