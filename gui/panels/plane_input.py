@@ -27,13 +27,15 @@ class PlaneInput(GeometryInput):
             return self.base()
         return self.base() + direction.normalize() * self._offset.value
 
-    def set_pose(self, origin, direction, radius=None, from_handle=False):
+    def set_pose(self, origin, direction, radius=None, from_handle=False, follows=False):
+        if not follows and self._is_elsewhere(origin, direction):
+            self.followed.end_by_hand()
         if self._offset is not None:
             self._offset.set(0)
-        super().set_pose(origin, direction, radius, from_handle)
+        super().set_pose(origin, direction, radius, from_handle, follows=True)
 
     def _flip(self):
-        self.set_pose(self.origin(), self.direction().negative())
+        self.set_pose(self.origin(), self.direction().negative(), follows=True)
 
     def show_part(self, movable, radius, turn, outline=None):
         """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if

@@ -7,6 +7,7 @@ from PySide import QtGui
 
 import femscalpel
 from femscalpelobjects import contents
+from femscalpelobjects.following import follows
 from femscalpelobjects.ours import is_ours, made_of
 
 from ..macro import record_import
@@ -199,6 +200,7 @@ class WithOk:
         label = self._free_label(obj)
         if label != obj.Label:
             FreeCADGui.doCommand(f"{self._text_of(obj)}.Label = {label!r}")
+        self._follow(obj)
         self._remember_source()
         self._compute(obj)
         FreeCADGui.doCommand(f"{document}.recompute()")
@@ -220,6 +222,11 @@ class WithOk:
         """The mesh was read for the preview already."""
         contents.learn(self.source_object, self.source.mesh, self.source.digest, self._changes)
 
+    def _follow(self, obj):
+        line = self.following_text(self._text_of(obj))
+        if line:
+            FreeCADGui.doCommand(line)
+
     def hide_object(self, obj):
         """Hides an object of the document, by a recorded line."""
         FreeCADGui.doCommandGui(
@@ -229,8 +236,11 @@ class WithOk:
     def _change_object(self):
         record_import()
         text = self._text_of(self.edited)
+        if follows(self.edited):
+            FreeCADGui.doCommand(f"ObjectsFemScalpel.followGeometry({text}, None)")
         for name, value in self.settings().items():
             FreeCADGui.doCommand(f"{text}.{name} = {value}")
+        self._follow(self.edited)
         self._remember_source()
         self._compute(self.edited)
         self.edited.recompute()
