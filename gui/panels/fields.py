@@ -8,6 +8,10 @@ ERROR, WARNING = "#b3261e", "#8a5a00"
 _IN_THE_DARK = {ERROR: "#ff8f85", WARNING: "#f2b956"}
 
 
+#: Property of a field of a panel that makes a new object: the expression that says its number.
+EXPRESSION = "femscalpelExpression"
+
+
 class Number:
     """A Gui::QuantitySpinBox whose number is exact.
 
@@ -19,6 +23,7 @@ class Number:
         self._box, self._changed = box, changed
         if step is not None:
             box.setProperty("singleStep", step)
+        self._value = float(number)
         self.set(number)
         box.valueChanged.connect(self._typed)
 
@@ -27,8 +32,15 @@ class Number:
         """The number."""
         return self._value
 
+    @property
+    def has_expression(self):
+        """Whether an expression says the number."""
+        return bool(self._box.property("expression") or self._box.property(EXPRESSION))
+
     def set(self, number):
-        """Enters a number without telling anyone."""
+        """Enters a number without telling anyone; not where an expression says it."""
+        if self.has_expression:
+            return
         self._value = float(number)
         blocked = self._box.blockSignals(True)
         self._box.setProperty("rawValue", self._value)

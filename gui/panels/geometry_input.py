@@ -53,7 +53,7 @@ class GeometryInput(PanelInput):
         return FreeCAD.Vector(*(field.value for field in self._direction))
 
     def _typed(self):
-        if self._is_elsewhere(*self._told):  # a field that is left tells, too
+        if self.is_fixed() or self._is_elsewhere(*self._told):  # a field that is left tells, too
             self.followed.end_by_hand()
         self._tell()
 
@@ -68,6 +68,10 @@ class GeometryInput(PanelInput):
             self._set_radius(radius)
         self._tell(from_handle)
 
+    def is_fixed(self):
+        """Whether an expression says a coordinate of the point."""
+        return any(field.has_expression for field in self._point)
+
     def _is_elsewhere(self, origin, direction):
         # What handles say is rounded.
         old, new = self.direction(), FreeCAD.Vector(*direction)
@@ -76,7 +80,7 @@ class GeometryInput(PanelInput):
 
     def targets(self):
         """The geometry that the position follows, as following.targets_of()."""
-        return self.followed.targets
+        return [] if self.is_fixed() else self.followed.targets
 
     def _set_radius(self, radius):
         pass
@@ -166,7 +170,7 @@ class GeometryInput(PanelInput):
         """Enters what was picked."""
         self.set_pose(picked.origin, picked.direction.normalize(), picked.radius)
         self.picked.emit(picked)
-        self.followed.start(picked.targets)
+        self.followed.start(() if self.is_fixed() else picked.targets)
         self._tell()  # that it follows, when all is entered
 
     def _from_nodes(self, points):

@@ -23,7 +23,7 @@ class PlaneInput(GeometryInput):
 
     def origin(self):
         direction = self.direction()
-        if not direction.Length > 0 or self._offset is None:
+        if not direction.Length > 0 or self._offset is None or self.is_fixed():
             return self.base()
         return self.base() + direction.normalize() * self._offset.value
 
@@ -55,6 +55,7 @@ class PlaneInput(GeometryInput):
         handles.show_outline(self._outline() if self._outline is not None else None)
 
     def _tell(self, from_handle=False):
+        self.form.offset.setEnabled(not self.is_fixed())
         super()._tell(from_handle)
         if self.handles is not None and from_handle:
             self._draw_outline(self.handles)  # the radius may be another

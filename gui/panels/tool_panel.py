@@ -14,6 +14,7 @@ from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
 from . import fields, group_table
+from .expressions import Expressions, NewExpressions
 from .histogram import Histogram
 from .placements import as_text
 from .refinement_question import RefinementQuestion, refining_text
@@ -60,6 +61,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             self.read(edited)
             if self.geometry.followed is not None:
                 self.geometry.followed.read(edited)
+        self.expressions = Expressions(edited, self.form) if edited else NewExpressions(source_object, self.form)
         self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
             box.setWindowIcon(QtGui.QIcon(icon(name)))
@@ -353,6 +355,8 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             graph.addChild(switch)
 
     def clear_view(self):
+        if self.expressions is not None:
+            self.expressions.put_back()
         self.geometry.close()
         self.scene.close()
 

@@ -145,9 +145,7 @@ def changed_by_hand(obj, prop):
             FreeCAD.Console.PrintWarning(f"{obj.Label}: {place} was set, so it does not follow {name} any more\n")
     elif obj.SizeFollows and axes is not None and not _size_is_of(obj, axes):
         obj.SizeFollows = False
-        FreeCAD.Console.PrintWarning(
-            f"{obj.Label}: {prop} was set, so it is not that of {obj.FollowedName} any more\n"
-        )
+        FreeCAD.Console.PrintWarning(f"{obj.Label}: {prop} was set, so it is not that of {obj.FollowedName} any more\n")
 
 
 def _axes(obj):

@@ -30,8 +30,9 @@ class Axes:
 
 def name_of(targets):
     """What targets are called: "Box.Face3", "Box.Vertex1, Box.Vertex2"."""
-    return ", ".join(f"{part.Label.replace(',', ' ')}.{name}" if name else part.Label.replace(",", " ")
-                     for part, name in targets)
+    return ", ".join(
+        f"{part.Label.replace(',', ' ')}.{name}" if name else part.Label.replace(",", " ") for part, name in targets
+    )
 
 
 def axes_of(targets):
@@ -177,9 +178,7 @@ def _of_face(face):
         radius = getattr(surface, "Radius", None)
         is_cone = hasattr(surface, "SemiAngle")
         rotation = FreeCAD.Rotation(surface.value(0, 0) - surface.Center, FreeCAD.Vector(), surface.Axis, "ZXY")
-        return Axes(
-            FreeCAD.Placement(surface.Center, rotation), None if radius is None or is_cone else float(radius)
-        )
+        return Axes(FreeCAD.Placement(surface.Center, rotation), None if radius is None or is_cone else float(radius))
     if hasattr(surface, "Center"):  # a sphere
         return Axes(FreeCAD.Placement(surface.Center, FreeCAD.Rotation()), float(surface.Radius))
     raise ValueError("it is a curved face without an axis")

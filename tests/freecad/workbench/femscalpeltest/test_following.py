@@ -136,9 +136,7 @@ class Following(DocumentTest):
         # The face is where it was: its name means it still.
         feature.Shape = Part.makeBox(3.3, 2, 2).cut(Part.makeBox(0.5, 0.5, 0.5)).removeSplitter()
         moved = next(
-            f"Face{i}"
-            for i, face in enumerate(feature.Shape.Faces, 1)
-            if abs(face.CenterOfMass.x - 3.3) < 1e-9
+            f"Face{i}" for i, face in enumerate(feature.Shape.Faces, 1) if abs(face.CenterOfMass.x - 3.3) < 1e-9
         )
         self.doc.recompute()
         if moved == "Face2":
@@ -281,5 +279,3 @@ class Following(DocumentTest):
             ObjectsFemScalpel.followGeometry(
                 ObjectsFemScalpel.makeFillet(self.doc, self.source, along=[(0, 0, 0)], radius=1), [(self.part, "Face2")]
             )
-
-

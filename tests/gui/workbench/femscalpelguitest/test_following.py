@@ -6,11 +6,12 @@ from unittest import mock
 import FreeCAD
 import FreeCADGui
 import Part
+from PySide import QtCore, QtGui
 
 import ObjectsFemScalpel
 
 from .gui_testing import *  # noqa: F403
-from .gui_testing import GuiTest
+from .gui_testing import GuiTest, QTest
 from femscalpeltest.meshes import box_with_groups
 
 
@@ -176,6 +177,110 @@ class Following(GuiTest):
         for corner, local in zip(corners, crack.PatchCorners):
             place = crack.PlanePlacement.multVec(local)
             self.assertLess(place.distanceToPoint(FreeCAD.Vector(3.3, 2 + corner.x, 2 + corner.y)), 1e-9)
+
+    def enter_expression(self, name, text):
+        """Enters an expression by FreeCAD's own dialog."""
+        box = widget(name)
+        box.setFocus()
+        QTest.keyClick(box, QtCore.Qt.Key_Equal)
+        wait_until(lambda: is_shown("okBtn"), "the dialog of expressions")
+        dialog = widget("okBtn").window()
+        line = widget("expression", dialog)
+        line.setFocus()
+        QTest.keyClicks(line, text)
+        spin(0.2)
+        QTest.mouseClick(widget("okBtn", dialog), QtCore.Qt.LeftButton)
+        spin(0.2)
+
+    def enter_new_expression(self, name, *texts):
+        """Enters expressions in the panel's own dialog, of which all but the last are refused."""
+        left, labels = list(texts), []
+
+        def answer():
+            dialog = QtGui.QApplication.activeModalWidget()
+            if dialog is not None:
+                labels.append(dialog.labelText())
+                dialog.setTextValue(left.pop(0))
+                dialog.accept()
+
+        timer = QtCore.QTimer()
+        timer.timeout.connect(answer)
+        timer.start(100)
+        box = widget(name)
+        box.setFocus()
+        QTest.keyClick(box, QtCore.Qt.Key_Equal)
+        wait_until(lambda: not left, "the dialog")
+        timer.stop()
+        spin(0.2)
+        for label in labels[1:]:
+            self.assertIn("mm^2", label)
+
+    def drill(self):
+        self.open_panel("FemScalpel_Drill")
+        press_ok()
+        self.doc.clearUndos()
+        self.doc.Drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        return self.doc.Drill
+
+    def test_expression(self):
+        drill = self.drill()
+        old = drill.Radius.Value
+        self.enter_expression("radius", "Box.Length / 5")
+        self.enter_expression("originX", "Box.Length")
+        self.assertEqual((round(value("radius"), 9), value("originX")), (0.66, 3.3))
+        self.wait_for_preview()
+        screenshot("expression")
+        press_ok()
+        self.assertEqual(dict(drill.ExpressionEngine).keys(), {"Radius", ".AxisPlacement.Base.x"})
+        self.assertEqual((round(drill.Radius.Value, 9), drill.AxisPlacement.Base.x), (0.66, 3.3))
+        self.part.Length = 3.5
+        self.doc.recompute()
+        self.assertEqual((round(drill.Radius.Value, 9), drill.AxisPlacement.Base.x), (0.7, 3.5))
+        self.part.Length = 3.3
+        self.doc.recompute()
+        self.doc.undo()
+        self.assertEqual((drill.ExpressionEngine, drill.Radius.Value), ([], old))
+
+    def test_expression_of_a_new_object(self):
+        names = [o.Name for o in self.doc.Objects]
+        self.open_panel("FemScalpel_Drill")
+        self.enter_new_expression("radius", "Box.Length * Box.Length", "Box.Length / 5")
+        self.assertAlmostEqual(value("radius"), 0.66)
+        press_cancel()
+        self.assertEqual([o.Name for o in self.doc.Objects], names)
+        self.assertEqual(self.doc.UndoNames, [])
+        self.open_panel("FemScalpel_Drill")
+        self.enter_new_expression("radius", "Box.Length / 5")
+        self.assertAlmostEqual(value("radius"), 0.66)
+        type_into("radius", "2 mm")  # in vain
+        self.assertAlmostEqual(value("radius"), 0.66)
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual([o.Name for o in self.doc.Objects], [*names, "Drill"])
+        self.assertEqual(dict(self.doc.Drill.ExpressionEngine).keys(), {"Radius"})
+        self.part.Length = 3.5
+        self.doc.recompute()
+        self.assertAlmostEqual(self.doc.Drill.Radius.Value, 0.7)
+
+    def test_cancelled_expression(self):
+        drill = self.drill()
+        old = drill.Radius.Value
+        self.enter_expression("radius", "Box.Length / 5")
+        self.assertAlmostEqual(value("radius"), 0.66)
+        press_cancel()
+        self.assertEqual((drill.ExpressionEngine, drill.Radius.Value, drill.State), ([], old, ["Up-to-date"]))
+
+    def test_expression_ends_following(self):
+        crack = self.crack_from_face()
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.enter_expression("originX", "Box.Length - 0.2 mm")
+        self.assertIn("No longer follows", widget("followed").text())
+        self.assertFalse(widget("offset").isEnabled())
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((crack.Follow, self.x_of(crack)), ("Numbers", 3.1))
 
     def test_macro(self):
         lines, real = [], FreeCADGui.doCommand
