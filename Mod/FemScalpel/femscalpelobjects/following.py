@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Placements of tools that follow picked geometry: faces, edges, vertices, datums and sketches.
 
-As with FreeCAD's own attachment the geometry gives axes (see picked_geometry.py), and the placement stays where it is in
-these: it is geometry's axes * FollowOffset. FreeCAD's names of faces and edges may mean others after a change of a
+As with FreeCAD's own attachment the geometry gives axes (see picked_geometry.py), and the placement keeps its place in
+them: it is the geometry's axes * FollowOffset. FreeCAD's names of faces and edges may mean others after a change of a
 part, so a change that may have renumbered them is an error, unless what is followed is where it was.
 """
 

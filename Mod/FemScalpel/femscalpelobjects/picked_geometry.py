@@ -36,8 +36,8 @@ def name_of(targets):
 
 
 def axes_of(targets):
-    """The Axes of a face, edge, datum or sketch, or of one to three vertices, in the document's coordinates. ValueError,
-    which says why, where there are no such."""
+    """The Axes of a face, edge, datum or sketch, or of one to three vertices, in the document's coordinates.
+    ValueError, which says why, where there are no such."""
     if len(targets) > 1 or targets and targets[0][1].startswith("Vertex"):
         return _of_points([_point(*target) for target in targets])
     part, name = targets[0]
