@@ -57,9 +57,7 @@ class Expressions:
         """Expressions by path, None for one that is removed, as they differ from those at first."""
         now = _expressions_of(self._obj)
         return {
-            path: now.get(path)
-            for path in sorted({*now, *self._before})
-            if now.get(path) != self._before.get(path)
+            path: now.get(path) for path in sorted({*now, *self._before}) if now.get(path) != self._before.get(path)
         }
 
     def put_back(self):
