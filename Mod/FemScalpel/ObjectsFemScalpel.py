@@ -14,7 +14,7 @@ import FreeCAD
 import femmesh_bridge
 import femscalpel
 from femscalpel.signatures import takes
-from femscalpelobjects import operator_options, tool_properties
+from femscalpelobjects import following, operator_options, tool_properties
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.curved_crack import CurvedCrack
@@ -398,6 +398,36 @@ def renameGroup(obj, old, new, kind=None):
     or taken, or when `obj` is made by FemScalpel: its groups come from its source and from its property GroupName.
     """
     rename_group(obj, old, new, kind)
+
+
+def followGeometry(obj, geometry, offset=None):
+    """Has the plane or axis of an object of FemScalpel follow geometry of its document, when that changes.
+
+    The geometry gives axes, and the placement keeps its place in them. If the radius of the object (of a crack: the
+    disk, ellipse or polygon) is that of the geometry, it follows, too. Whatever else sets these properties ends that.
+
+    A change of a part that may have renumbered its faces and edges is an error of the object, unless the one that is
+    followed is where it was; so is geometry that is not there any more.
+
+    Parameters
+    ----------
+    obj : App.DocumentObject
+        A crack, incision, hole, refinement or moved wall.
+    geometry : sequence of (App.DocumentObject, str)
+        A face, edge, datum or sketch (the name is "" for a whole object), or two or three vertices; None or empty:
+        the numbers stay as they are from now on.
+    offset : App.Placement, optional
+        The placement in the axes of the geometry; when not given, what it is now.
+
+    Raises
+    ------
+    ValueError
+        `obj` has no placement that could follow, or the geometry no axes. Nothing is changed then.
+    """
+    if geometry:
+        following.link(obj, [(part, name) for part, name in geometry], offset)
+    else:
+        following.unlink(obj)
 
 
 def exportMesh(obj, path):

@@ -13,6 +13,7 @@ class AxisInput(GeometryInput):
 
     UI = "axis_input.ui"
     NODES = 2
+    EDGES_OF_SKETCHES = True
 
     def __init__(self, source_object):
         self._radius = self._depth = None

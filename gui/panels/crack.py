@@ -101,6 +101,20 @@ class CrackPanel(PlanePanel):
             return [(corner.x, corner.y) for corner in self._corners]
         return None
 
+    def size_is_of(self, axes):
+        outline, shown = axes.outline, self._patch()
+        if outline is None or shown not in ("Disk", "Ellipse", "Polygon"):
+            return False
+        if shown == "Polygon":
+            back = axes.placement.inverse().multiply(self.placement())
+            corners = [back.multVec(corner) for corner in self._corners]
+            return len(corners) == len(outline.corners) and all(
+                a.distanceToPoint(b) <= 1e-9 * self.geometry.size for a, b in zip(corners, outline.corners)
+            )
+        second = self._radius if shown == "Disk" else self._second
+        radii = (self._radius.value, second.value)
+        return bool(outline.radii) and all(abs(a - b) <= 1e-9 * max(1.0, b) for a, b in zip(radii, outline.radii))
+
     def _take_outline(self, picked):
         """Enters what a picked sketch encloses. A sketch without such says the plane only."""
         outline = picked.outline

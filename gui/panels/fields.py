@@ -6,6 +6,10 @@ ERROR = "color: #8c1d18; background-color: #fde7e4;"
 WARNING = "color: #654000; background-color: #fff1cf;"
 
 
+#: Property of a field of a panel that makes a new object: the expression that says its number.
+EXPRESSION = "femscalpelExpression"
+
+
 class Number:
     """A Gui::QuantitySpinBox whose number is exact.
 
@@ -17,6 +21,7 @@ class Number:
         self._box, self._changed = box, changed
         if step is not None:
             box.setProperty("singleStep", step)
+        self._value = float(number)
         self.set(number)
         box.valueChanged.connect(self._typed)
 
@@ -25,8 +30,15 @@ class Number:
         """The number."""
         return self._value
 
+    @property
+    def has_expression(self):
+        """Whether an expression says the number."""
+        return bool(self._box.property("expression") or self._box.property(EXPRESSION))
+
     def set(self, number):
-        """Enters a number without telling anyone."""
+        """Enters a number without telling anyone; not where an expression says it."""
+        if self.has_expression:
+            return
         self._value = float(number)
         blocked = self._box.blockSignals(True)
         self._box.setProperty("rawValue", self._value)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the inputs of planes and axes share: numbers, picking from the 3-D view, handles."""
 
+import dataclasses
+
 import FreeCAD
 import FreeCADGui
 from PySide import QtCore
@@ -8,6 +10,7 @@ from PySide import QtCore
 from ..translate import translate
 from ..view import picking
 from . import fields
+from .followed import Followed, vertex_at
 from .panel_input import PanelInput
 
 
@@ -17,15 +20,19 @@ class GeometryInput(PanelInput):
 
     picked = QtCore.Signal(object)
 
+    #: Whether a click at a sketch means its edge.
+    EDGES_OF_SKETCHES = False
+
     NODES = 3  # how many mesh nodes say the geometry
 
     def __init__(self, source_object):
         super().__init__(source_object)
         self.handles = None
         self.buttons = {"nodes": self.form.pickNodes, "geometry": self.form.pickGeometry}
+        self.followed = Followed(self.form, self._tell)
         step = fields.round_step(self.size / 50)
-        self._point = [fields.Number(getattr(self.form, "origin" + n), self._tell, step=step) for n in "XYZ"]
-        self._direction = [fields.Number(getattr(self.form, "normal" + n), self._tell, step=0.1) for n in "XYZ"]
+        self._point = [fields.Number(getattr(self.form, "origin" + n), self._typed, step=step) for n in "XYZ"]
+        self._direction = [fields.Number(getattr(self.form, "normal" + n), self._typed, step=0.1) for n in "XYZ"]
         self._connect_buttons()
         self.form.pickView.clicked.connect(self._take_view)
         self.form.centre.clicked.connect(lambda: self.set_pose(self.centre, self.direction()))
@@ -45,13 +52,35 @@ class GeometryInput(PanelInput):
         """The direction as entered; any length, also zero."""
         return FreeCAD.Vector(*(field.value for field in self._direction))
 
-    def set_pose(self, origin, direction, radius=None, from_handle=False):
-        """Enters a position; `changed` follows."""
+    def _typed(self):
+        if self.is_fixed() or self._is_elsewhere(*self._told):  # a field that is left tells, too
+            self.followed.end_by_hand()
+        self._tell()
+
+    def set_pose(self, origin, direction, radius=None, from_handle=False, follows=False):
+        """Enters a position; `changed` follows. Unless it is told that it still `follows` what it did, another one
+        ends that."""
+        if not follows and self._is_elsewhere(origin, direction):
+            self.followed.end_by_hand()
         for field, number in zip((*self._point, *self._direction), (*origin, *direction)):
             field.set(number)
         if radius is not None:
             self._set_radius(radius)
         self._tell(from_handle)
+
+    def is_fixed(self):
+        """Whether an expression says a coordinate of the point."""
+        return any(field.has_expression for field in self._point)
+
+    def _is_elsewhere(self, origin, direction):
+        # What handles say is rounded.
+        old, new = self.direction(), FreeCAD.Vector(*direction)
+        turned = not (old.Length > 0 and new.Length > 0) or old.getAngle(new) > 1e-5
+        return turned or self.origin().distanceToPoint(FreeCAD.Vector(*origin)) > 1e-6 * self.size
+
+    def targets(self):
+        """The geometry that the position follows, as following.targets_of()."""
+        return [] if self.is_fixed() else self.followed.targets
 
     def _set_radius(self, radius):
         pass
@@ -61,6 +90,7 @@ class GeometryInput(PanelInput):
         return 0.0
 
     def _tell(self, from_handle=False):
+        self._told = self.origin(), self.direction()
         if self.handles is not None and not from_handle and self.direction().Length > 0:
             self.handles.set_pose(self.origin(), self.rotation(), self.radius())
         self.changed.emit()
@@ -77,7 +107,7 @@ class GeometryInput(PanelInput):
         """What is wrong with the numbers, "" when nothing is."""
         if not self.direction().Length > 0:
             return translate("FemScalpel", "The direction is zero. Give one, or pick it from the 3-D view.")
-        return ""
+        return self.followed.error()
 
     # Handles.
 
@@ -95,13 +125,13 @@ class GeometryInput(PanelInput):
     # Picking.
 
     def _start(self, kind):
-        self._nodes = {}
+        self._nodes, self._vertices = {}, []
         super()._start(kind)
 
     def _ask(self, kind, found=0):
         if kind == "nodes":
             return (
-                translate("FemScalpel", "Click node %1 of %2 on the mesh. Escape stops.")
+                translate("FemScalpel", "Click node %1 of %2 on the mesh, or a vertex of a part. Escape stops.")
                 .replace("%1", str(found + 1))
                 .replace("%2", str(self.NODES))
             )
@@ -112,7 +142,12 @@ class GeometryInput(PanelInput):
 
     def _picked(self, kind, click):
         if kind == "nodes":
-            node = picking.node_at(click, self.source)
+            node, vertex = picking.node_at(click, self.source), vertex_at(click)
+            if vertex is not None:
+                target = (click.obj, click.name.split(".")[-1])
+                node = ((target[0].Name, target[1]), vertex)
+                if target not in self._vertices and target[0].Document == self.source_object.Document:
+                    self._vertices.append(target)
             if node is None:
                 raise picking.PickError(translate("FemScalpel", "That is not the mesh. Click a node of the mesh."))
             self._nodes[node[0]] = node[1]
@@ -122,8 +157,10 @@ class GeometryInput(PanelInput):
                 return None
             points = list(self._nodes.values())
             self._nodes = {}
-            return self._from_nodes(points)
-        return self._from_click(click)
+            targets = tuple(self._vertices) if len(self._vertices) == len(points) else ()
+            return dataclasses.replace(self._from_nodes(points), targets=targets)
+        targets = picking.targets_of(click, self.source_object.Document, self.EDGES_OF_SKETCHES)
+        return dataclasses.replace(self._from_click(click), targets=targets)
 
     def _mark(self, points):
         if self.handles is not None:
@@ -133,6 +170,8 @@ class GeometryInput(PanelInput):
         """Enters what was picked."""
         self.set_pose(picked.origin, picked.direction.normalize(), picked.radius)
         self.picked.emit(picked)
+        self.followed.start(() if self.is_fixed() else picked.targets)
+        self._tell()  # that it follows, when all is entered
 
     def _from_nodes(self, points):
         raise NotImplementedError
@@ -149,4 +188,5 @@ class GeometryInput(PanelInput):
             handles, self.handles = self.handles, None
             handles.close()
         super().close()
+        self.followed = None
         self._point, self._direction = [], []

@@ -30,7 +30,7 @@ class IncisionPanel(PlanePanel):
         ):
             self.slot.slotEnd.addItem(text, data)
         self._turn = Turn(
-            self.geometry, lambda: self._end() == "Point", fields.Number(self.slot.slotTurn, self.update, 0, 10)
+            self.geometry, lambda: self._end() == "Point", fields.Number(self.slot.slotTurn, self._choose, 0, 10)
         )
         self.slot.slotEnd.currentIndexChanged.connect(lambda *_: self._choose())
         self._choose()
@@ -44,7 +44,16 @@ class IncisionPanel(PlanePanel):
     def _choose(self):
         for box in (self.slot.turnLabel, self.slot.slotTurn):
             box.setVisible(self._end() == "Point")
+        if self._end() == "Point":
+            self.geometry.show_part(False, None, self._turn, self._outline)
+        else:
+            self.geometry.show_part(False, None, None)
         self.update()
+
+    def _outline(self):
+        """Corners (x, y) of the half of the middle plane in which the slot is, as far as it is drawn."""
+        half = 0.36 * self.geometry.size
+        return [(0, -half), (half, -half), (half, half), (0, half)]
 
     def _bottom_placement(self):
         """Placement whose z axis points from the bottom into the material that stays; None without a bottom."""

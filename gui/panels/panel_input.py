@@ -20,6 +20,8 @@ class PanelInput(QtCore.QObject):
 
     UI = ""
 
+    followed = None  # the Followed, where the position can follow geometry
+
     def __init__(self, source_object):
         super().__init__()
         self.form = FreeCADGui.PySideUic.loadUi(form(self.UI))

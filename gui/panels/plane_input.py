@@ -23,17 +23,19 @@ class PlaneInput(GeometryInput):
 
     def origin(self):
         direction = self.direction()
-        if not direction.Length > 0 or self._offset is None:
+        if not direction.Length > 0 or self._offset is None or self.is_fixed():
             return self.base()
         return self.base() + direction.normalize() * self._offset.value
 
-    def set_pose(self, origin, direction, radius=None, from_handle=False):
+    def set_pose(self, origin, direction, radius=None, from_handle=False, follows=False):
+        if not follows and self._is_elsewhere(origin, direction):
+            self.followed.end_by_hand()
         if self._offset is not None:
             self._offset.set(0)
-        super().set_pose(origin, direction, radius, from_handle)
+        super().set_pose(origin, direction, radius, from_handle, follows=True)
 
     def _flip(self):
-        self.set_pose(self.origin(), self.direction().negative())
+        self.set_pose(self.origin(), self.direction().negative(), follows=True)
 
     def show_part(self, movable, radius, turn, outline=None):
         """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if
@@ -53,6 +55,7 @@ class PlaneInput(GeometryInput):
         handles.show_outline(self._outline() if self._outline is not None else None)
 
     def _tell(self, from_handle=False):
+        self.form.offset.setEnabled(not self.is_fixed())
         super()._tell(from_handle)
         if self.handles is not None and from_handle:
             self._draw_outline(self.handles)  # the radius may be another

@@ -103,6 +103,9 @@ class ToolInput(AxisInput):
     def _number(self, asked):
         return self.radius() if asked == "radius" else self._numbers[asked].value
 
+    def targets(self):
+        return super().targets() if self._asks(POINT) else []
+
     def direction(self):
         direction = super().direction()
         return direction if direction.Length > 0 or self._asks(DIRECTION) else Vector(0, 0, 1)

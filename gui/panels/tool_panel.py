@@ -7,12 +7,14 @@ from PySide import QtCore, QtGui
 
 import femscalpel
 from femscalpelobjects.geometry import geometry_of
+from femscalpelobjects.picked_geometry import axes_of
 
 from ..refinement_guard import Guard, TooMuch
 from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
 from . import fields, group_table
+from .expressions import Expressions, NewExpressions
 from .histogram import Histogram
 from .legend import Legend, entries_of
 from .placements import as_text
@@ -59,6 +61,9 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.add_inputs()
         if edited is not None:
             self.read(edited)
+            if self.geometry.followed is not None:
+                self.geometry.followed.read(edited)
+        self.expressions = Expressions(edited, self.form) if edited else NewExpressions(source_object, self.form)
         self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
             box.setWindowIcon(QtGui.QIcon(icon(name)))
@@ -110,6 +115,20 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
     def placement(self):
         """The tool as the document object holds it."""
         return self.geometry.placement()
+
+    def size_is_of(self, axes):
+        """Whether the radius is that of picked geometry, of which there are the Axes."""
+        radius = self.geometry.radius()
+        return axes.radius is not None and abs(axes.radius - radius) <= 1e-9 * max(1.0, radius)
+
+    def following_text(self, text):
+        """A line that has the object `text` follow the geometry that was picked, "" where there is none."""
+        targets = self.geometry.targets() if self.geometry.followed is not None else []
+        if not targets:
+            return ""
+        offset = axes_of(targets).placement.inverse().multiply(self.placement())
+        parts = ", ".join(f"({self._text_of(part)}, {name!r})" for part, name in targets)
+        return f"ObjectsFemScalpel.followGeometry({text}, [{parts}], {as_text(offset)})"
 
     def placement_text(self):
         """The placement as exact Python text."""
@@ -166,6 +185,9 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._closed or self.source is None:
             return
         self._steady.hold()
+        if self.geometry.followed is not None:
+            targets = self.geometry.targets()
+            self.geometry.followed.say_size(bool(targets) and self.size_is_of(axes_of(targets)))
         problem = self.geometry.error()
         self.geometry.show_error(problem)
         if problem:
@@ -353,6 +375,8 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             graph.addChild(switch)
 
     def clear_view(self):
+        if self.expressions is not None:
+            self.expressions.put_back()
         self.geometry.close()
         self.scene.close()
 

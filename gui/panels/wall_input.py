@@ -75,6 +75,9 @@ class WallInput(AxisInput):
         """That of "Scale"."""
         return self._factor.value
 
+    def targets(self):
+        return super().targets() if self.motion() == "Onto" else []
+
     def fill(self, source, group=None):
         """Lists the walls of a PreviewSource, and enters the one of that name, or the first."""
         self.source = source

@@ -7,6 +7,7 @@ from PySide import QtGui
 
 import femscalpel
 from femscalpelobjects import contents
+from femscalpelobjects.following import follows
 from femscalpelobjects.ours import is_ours, made_of
 
 from ..macro import record_import
@@ -68,6 +69,8 @@ class WithOk:
             self._take_input(True)
         if obj is None:
             return False
+        if self.edited is not None:
+            self.expressions = None  # they stay
         self.leave()
         self._tell_extents(obj)
         if self.edited is None:
@@ -97,9 +100,10 @@ class WithOk:
         if self.shown is None:
             return None
         self._status(self._summary)
+        lines = self._changing() if self.edited is not None else ()
         self.document.openTransaction(translate("FemScalpel", self.TITLE))
         try:
-            obj = self._change_object() if self.edited is not None else self._make_object()
+            obj = self._change_object(lines) if self.edited is not None else self._make_object()
             if progress.cancelled:  # while FreeCAD took the mesh over
                 raise femscalpel.Cancelled("cancelled")
             if "Invalid" in obj.State or obj.FemMesh.NodeCount == 0:
@@ -212,6 +216,12 @@ class WithOk:
         label = self._free_label(obj)
         if label != obj.Label:
             FreeCADGui.doCommand(f"{self._text_of(obj)}.Label = {label!r}")
+        lines = [self.following_text(self._text_of(obj))]
+        lines += [
+            f"{self._text_of(obj)}.setExpression{pair!r}" for pair in self.expressions.take(obj, self.form).items()
+        ]
+        for line in filter(None, lines):
+            FreeCADGui.doCommand(line)
         self._remember_source()
         self._compute(obj)
         FreeCADGui.doCommand(f"{document}.recompute()")
@@ -239,11 +249,22 @@ class WithOk:
             f"FreeCADGui.getDocument({self.document.Name!r}).getObject({obj.Name!r}).Visibility = False"
         )
 
-    def _change_object(self):
+    def _changing(self):
+        """Lines that change the object. What FreeCAD has set of expressions is put back, for undo."""
+        text = self._text_of(self.edited)
+        lines = [f"{text}.{name} = {value}" for name, value in self.settings().items()]
+        lines += filter(None, [self.following_text(text)])
+        lines += [f"{text}.setExpression{pair!r}" for pair in self.expressions.changes().items()]
+        self.expressions.put_back()
+        return lines
+
+    def _change_object(self, lines):
         record_import()
         text = self._text_of(self.edited)
-        for name, value in self.settings().items():
-            FreeCADGui.doCommand(f"{text}.{name} = {value}")
+        if follows(self.edited):
+            FreeCADGui.doCommand(f"ObjectsFemScalpel.followGeometry({text}, None)")
+        for line in lines:
+            FreeCADGui.doCommand(line)
         self._remember_source()
         self._compute(self.edited)
         self.edited.recompute()

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 import FreeCAD
 import numpy as np
 
+from femscalpelobjects.picked_geometry import axes_of, is_datum, is_sketch, outline_of, shape_of
+
 from ..translate import translate
 
 _Z = FreeCAD.Vector(0, 0, 1)
@@ -23,23 +25,15 @@ class PickError(ValueError):
 @dataclass(frozen=True)
 class Picked:
     """A point and a direction; for an axis also a radius, None where nothing says one; of a sketch its Outline; for a
-    tool its further lengths and angles by what femscalpel.tools asks them as."""
+    tool its further lengths and angles by what femscalpel.tools asks them as; and what it can follow, see
+    targets_of()."""
 
     origin: FreeCAD.Vector
     direction: FreeCAD.Vector
     radius: object = None
     outline: object = None
     values: dict = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Outline:
-    """What a sketch encloses: a polygon with `corners`, an ellipse (a circle) with `radii`, or neither; in the axes of
-    `placement`, z = 0."""
-
-    placement: FreeCAD.Placement
-    corners: tuple = ()
-    radii: tuple = ()
+    targets: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -120,7 +114,7 @@ def axis(click, source):
     if click.on_mesh:
         return Picked(click.point, _mesh_face(click, source).direction)
     # An edge of a sketch is meant itself.
-    datum, shape = (None, _shape(click)) if _is_sketch(click.obj) and click.name else _of_document(click, _pick_axis)
+    datum, shape = (None, _shape(click)) if is_sketch(click.obj) and click.name else _of_document(click, _pick_axis)
     if datum is not None:
         return datum
     if shape.ShapeType == "Face":
@@ -140,7 +134,7 @@ def axis(click, source):
 
 def tool(click, source):
     """As axis(), and what the face of a torus or cone says more."""
-    shape = None if click.on_mesh or _is_sketch(click.obj) else _shape(click)
+    shape = None if click.on_mesh or is_sketch(click.obj) else _shape(click)
     surface = shape.Surface if shape is not None and shape.ShapeType == "Face" else None
     if hasattr(surface, "MinorRadius") and hasattr(surface, "Center"):
         values = {"tube_radius": float(surface.MinorRadius)}
@@ -166,6 +160,21 @@ def face(click):
     return click.obj, name
 
 
+def targets_of(click, document, edges_of_sketches=False):
+    """What of a document can be followed that a click means, as following.targets_of(); empty where there is nothing.
+    A sketch is meant as a whole, or its edges are."""
+    if click.on_mesh or click.obj.Document != document:
+        return ()
+    name = click.name.split(".")[-1]
+    if is_datum(click.obj) and not (edges_of_sketches and is_sketch(click.obj)):
+        name = ""
+    try:
+        axes_of([(click.obj, name)])
+    except ValueError:
+        return ()
+    return ((click.obj, name),)
+
+
 def _pick_plane():
     return translate(
         "FemScalpel", "Pick a planar face, an edge, a datum plane or line, a sketch, or a face of the mesh."
@@ -178,56 +187,13 @@ def _pick_axis():
     )
 
 
-def _global(obj):
-    """Takes what is given in the object's parent's coordinates, as its shape is, to the document's."""
-    return (
-        obj.getGlobalPlacement().multiply(obj.Placement.inverse()) if hasattr(obj, "Placement") else FreeCAD.Placement()
-    )
-
-
-def _is_sketch(obj):
-    return obj.isDerivedFrom("Sketcher::SketchObject")
-
-
-def _outline(sketch):
-    """What the lines of a sketch enclose, as Outline; an empty one where they are no closed polygon, circle or
-    ellipse."""
-    wires = sketch.Shape.Wires
-    if len(wires) != 1 or not wires[0].isClosed():
-        return Outline(sketch.getGlobalPlacement())
-    edges = wires[0].OrderedEdges
-    kinds = {type(edge.Curve).__name__ for edge in edges}
-    axes = sketch.getGlobalPlacement().Rotation
-    if kinds <= {"Line", "LineSegment"} and len(edges) > 2:
-        corners = [_global(sketch).multVec(vertex.Point) for vertex in wires[0].OrderedVertexes]
-        middle = FreeCAD.Placement(sum(corners, FreeCAD.Vector()) / len(corners), axes)
-        return Outline(middle, corners=tuple(middle.inverse().multVec(corner) for corner in corners))
-    if len(edges) == 1 and kinds <= {"Circle", "Ellipse"}:
-        curve = edges[0].Curve
-        centre = _global(sketch).multVec(curve.Center)
-        if kinds == {"Circle"}:
-            return Outline(FreeCAD.Placement(centre, axes), radii=(curve.Radius, curve.Radius))
-        along = _global(sketch).Rotation.multVec(curve.XAxis)
-        rotation = FreeCAD.Rotation(along, FreeCAD.Vector(), axes.multVec(_Z), "ZXY")
-        return Outline(FreeCAD.Placement(centre, rotation), radii=(curve.MajorRadius, curve.MinorRadius))
-    return Outline(sketch.getGlobalPlacement())
-
-
 def _datum(obj):
     """Plane or line of a datum object or sketch; None for other objects."""
-    if (
-        obj.isDerivedFrom("PartDesign::Plane")
-        or obj.isDerivedFrom("App::Plane")
-        or obj.isDerivedFrom("Sketcher::SketchObject")
-        or obj.isDerivedFrom("PartDesign::Line")
-    ):
-        direction = _Z
-    elif obj.isDerivedFrom("App::Line"):
-        direction = FreeCAD.Vector(1, 0, 0)
-    else:
+    if not is_datum(obj):
         return None
+    direction = FreeCAD.Vector(1, 0, 0) if obj.isDerivedFrom("App::Line") else _Z
     placement = obj.getGlobalPlacement()
-    outline = _outline(obj) if _is_sketch(obj) else None
+    outline = outline_of(obj) if is_sketch(obj) else None
     return Picked(placement.Base, placement.Rotation.multVec(direction), outline=outline)
 
 
@@ -242,20 +208,7 @@ def _of_document(click, ask):
 
 
 def _shape(click):
-    if not hasattr(click.obj, "Shape"):
-        return None
-    shape = click.obj.Shape
-    if click.name:
-        shape = shape.getElement(click.name.split(".")[-1])
-    elif len(shape.Faces) == 1:
-        shape = shape.Faces[0]
-    elif not shape.Faces and len(shape.Edges) == 1:
-        shape = shape.Edges[0]
-    else:
-        return None
-    shape = shape.copy()
-    shape.Placement = _global(click.obj).multiply(shape.Placement)
-    return shape
+    return shape_of(click.obj, click.name.split(".")[-1])
 
 
 def _normal(face, point):

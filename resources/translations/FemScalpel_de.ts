@@ -283,6 +283,10 @@
       <translation>%1 kleinere</translation>
     </message>
     <message>
+      <source>%1, where this was picked, is not there any more or may be another one. Pick it again, or press Unlink: then the numbers stay.</source>
+      <translation>%1, woher dies stammt, gibt es nicht mehr, oder es ist vielleicht etwas anderes. Wählen Sie es neu, oder drücken Sie Lösen: Dann bleiben die Zahlen.</translation>
+    </message>
+    <message>
       <source>1 node</source>
       <translation>1 Knoten</translation>
     </message>
@@ -407,8 +411,8 @@
       <translation>Klicken Sie auf eine runde Fläche, eine gerade oder runde Kante, eine Bezugslinie oder einen Punkt einer Fläche. Escape bricht ab.</translation>
     </message>
     <message>
-      <source>Click node %1 of %2 on the mesh. Escape stops.</source>
-      <translation>Klicken Sie auf Knoten %1 von %2 des Netzes. Escape bricht ab.</translation>
+      <source>Click node %1 of %2 on the mesh, or a vertex of a part. Escape stops.</source>
+      <translation>Klicken Sie auf Knoten %1 von %2 des Netzes oder auf eine Ecke eines Bauteils. Escape bricht ab.</translation>
     </message>
     <message>
       <source>Click the mesh itself, near the edge.</source>
@@ -515,6 +519,10 @@
       <translation>Netz exportieren</translation>
     </message>
     <message>
+      <source>Expression</source>
+      <translation>Ausdruck</translation>
+    </message>
+    <message>
       <source>FemScalpel cannot run: %1</source>
       <translation>FemScalpel kann nicht arbeiten: %1</translation>
     </message>
@@ -597,6 +605,10 @@
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
       <translation>Keine Gruppe des Netzes bedeckt Flächen in seinem Inneren (einer Schale: Kanten). Machen Sie erst eine davon oder von ihren Knoten.</translation>
+    </message>
+    <message>
+      <source>No longer follows %1: other numbers were entered.</source>
+      <translation>Folgt %1 nicht mehr: Es wurden andere Zahlen eingegeben.</translation>
     </message>
     <message>
       <source>No preview yet: see the question above.</source>
@@ -747,6 +759,10 @@
       <translation>Zustand</translation>
     </message>
     <message>
+      <source>Such as Box.Length / 2. With nothing entered the field takes numbers again.</source>
+      <translation>Etwa Box.Length / 2. Wird nichts eingegeben, nimmt das Feld wieder Zahlen an.</translation>
+    </message>
+    <message>
       <source>Take out of the analysis</source>
       <translation>Aus der Analyse nehmen</translation>
     </message>
@@ -765,6 +781,10 @@
     <message>
       <source>That face is in no group. Click another one, or make a group of it first.</source>
       <translation>Diese Fläche ist in keiner Gruppe. Klicken Sie auf eine andere, oder machen Sie zuerst eine Gruppe daraus.</translation>
+    </message>
+    <message>
+      <source>That is %1; it must be a number, or in %2.</source>
+      <translation>Das ist %1; es muss eine Zahl sein oder in %2.</translation>
     </message>
     <message>
       <source>That is no face of a part. Click one.</source>
@@ -811,6 +831,10 @@
       <translation>Diese Gruppe hat das Netz nicht mehr.</translation>
     </message>
     <message>
+      <source>The numbers stay as they are when the geometry changes</source>
+      <translation>Die Zahlen bleiben, wie sie sind, wenn sich die Geometrie ändert</translation>
+    </message>
+    <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>Das Objekt konnte nicht berechnet werden; siehe die Ausgabeansicht.</translation>
     </message>
@@ -853,6 +877,10 @@
     <message>
       <source>Type</source>
       <translation>Typ</translation>
+    </message>
+    <message>
+      <source>Unlink</source>
+      <translation>Lösen</translation>
     </message>
     <message>
       <source>Used by</source>
@@ -965,6 +993,14 @@
     <message>
       <source>facets</source>
       <translation>Facetten</translation>
+    </message>
+    <message>
+      <source>from %1</source>
+      <translation>von %1</translation>
+    </message>
+    <message>
+      <source>from %1, size included</source>
+      <translation>von %1, auch die Größe</translation>
     </message>
     <message>
       <source>front of %1</source>

@@ -283,6 +283,10 @@
       <translation>%1 plus petits</translation>
     </message>
     <message>
+      <source>%1, where this was picked, is not there any more or may be another one. Pick it again, or press Unlink: then the numbers stay.</source>
+      <translation>%1, d'où cela provient, n'existe plus ou est peut-être autre chose. Choisissez-le à nouveau, ou appuyez sur Délier : les nombres restent alors.</translation>
+    </message>
+    <message>
       <source>1 node</source>
       <translation>1 nœud</translation>
     </message>
@@ -407,8 +411,8 @@
       <translation>Cliquez sur une face ronde, une arête droite ou circulaire, une ligne de référence ou un point d'une face. Échap arrête.</translation>
     </message>
     <message>
-      <source>Click node %1 of %2 on the mesh. Escape stops.</source>
-      <translation>Cliquez sur le nœud %1 sur %2 du maillage. Échap arrête.</translation>
+      <source>Click node %1 of %2 on the mesh, or a vertex of a part. Escape stops.</source>
+      <translation>Cliquez sur le nœud %1 de %2 du maillage, ou sur un sommet d'une pièce. Échap arrête.</translation>
     </message>
     <message>
       <source>Click the mesh itself, near the edge.</source>
@@ -515,6 +519,10 @@
       <translation>Exporter le maillage</translation>
     </message>
     <message>
+      <source>Expression</source>
+      <translation>Expression</translation>
+    </message>
+    <message>
       <source>FemScalpel cannot run: %1</source>
       <translation>FemScalpel ne peut pas fonctionner : %1</translation>
     </message>
@@ -597,6 +605,10 @@
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
       <translation>Aucun groupe du maillage ne couvre de faces intérieures (d'une coque : d'arêtes). Créez-en d'abord un, ou un groupe de leurs nœuds.</translation>
+    </message>
+    <message>
+      <source>No longer follows %1: other numbers were entered.</source>
+      <translation>Ne suit plus %1 : d'autres nombres ont été entrés.</translation>
     </message>
     <message>
       <source>No preview yet: see the question above.</source>
@@ -747,6 +759,10 @@
       <translation>État</translation>
     </message>
     <message>
+      <source>Such as Box.Length / 2. With nothing entered the field takes numbers again.</source>
+      <translation>Par exemple Box.Length / 2. Si rien n'est entré, le champ accepte de nouveau des nombres.</translation>
+    </message>
+    <message>
       <source>Take out of the analysis</source>
       <translation>Retirer de l’analyse</translation>
     </message>
@@ -765,6 +781,10 @@
     <message>
       <source>That face is in no group. Click another one, or make a group of it first.</source>
       <translation>Cette face n'est dans aucun groupe. Cliquez sur une autre, ou faites-en d'abord un groupe.</translation>
+    </message>
+    <message>
+      <source>That is %1; it must be a number, or in %2.</source>
+      <translation>C'est %1 ; il faut un nombre, ou en %2.</translation>
     </message>
     <message>
       <source>That is no face of a part. Click one.</source>
@@ -811,6 +831,10 @@
       <translation>Le maillage n'a plus ce groupe.</translation>
     </message>
     <message>
+      <source>The numbers stay as they are when the geometry changes</source>
+      <translation>Les nombres restent tels quels quand la géométrie change</translation>
+    </message>
+    <message>
       <source>The object could not be computed; see the report view.</source>
       <translation>L'objet n'a pas pu être calculé ; voir la vue rapport.</translation>
     </message>
@@ -853,6 +877,10 @@
     <message>
       <source>Type</source>
       <translation>Type</translation>
+    </message>
+    <message>
+      <source>Unlink</source>
+      <translation>Délier</translation>
     </message>
     <message>
       <source>Used by</source>
@@ -965,6 +993,14 @@
     <message>
       <source>facets</source>
       <translation>facettes</translation>
+    </message>
+    <message>
+      <source>from %1</source>
+      <translation>de %1</translation>
+    </message>
+    <message>
+      <source>from %1, size included</source>
+      <translation>de %1, taille comprise</translation>
     </message>
     <message>
       <source>front of %1</source>

@@ -10,7 +10,7 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from . import contents, extents, pieces
+from . import contents, extents, following, pieces
 from .geometry import shapes_of
 from .memory import Made, Shown, memory
 from .mesh_parts import nodes_around
@@ -105,6 +105,7 @@ class MeshOperation:
         self.shown = None  # memory.Shown: which mesh the object holds; None while nobody has asked
         self.is_giving = False  # whether this gives the object a mesh just now
         self._wanted = None  # the Made that execute() is to show
+        self._is_following = False  # whether it takes its numbers from geometry just now
         self._prepared = None  # the Made that begin() has led to, for execute() to take if it is still right
 
     # --- what a subclass says
@@ -154,14 +155,23 @@ class MeshOperation:
                 obj.addProperty(kind, name, section, text, OUTPUT)
             obj.setEditorMode(name, 2)
         obj.setEditorMode("Placement", 2)
+        following.set_up(obj)
 
     def onDocumentRestored(self, obj):
         self.add_properties(obj)
 
     def onChanged(self, obj, prop):
         # While a document loads, a link may be set before what it points to is complete.
-        if prop == "Source" and "Restore" not in obj.State:
+        if "Restore" in obj.State or obj.Document.Restoring:
+            return
+        if prop == "Source":
             self._link_geometry(obj)
+        elif prop in following.NUMBERS_THAT_FOLLOW and not self._is_following and not obj.Document.Transacting:
+            self._is_following = True
+            try:
+                following.changed_by_hand(obj, prop)
+            finally:
+                self._is_following = False
 
     def _link_geometry(self, obj):
         source = obj.Source
@@ -189,7 +199,7 @@ class MeshOperation:
         if made is not None:
             self._give(obj, made)
             return
-        inputs = contents.inputs_of(obj)
+        inputs = self._inputs(obj)
         try:
             made, is_new = self._made(obj, inputs)
         except (femscalpel.Error, ValueError, TypeError) as error:
@@ -214,7 +224,8 @@ class MeshOperation:
         """
         self._link_geometry(obj)
         self.mesh_of(obj, "Source")
-        inputs, surroundings = contents.inputs_of(obj), contents.surroundings_of(obj)
+        inputs, surroundings = self._inputs(obj), contents.surroundings_of(obj)
+        self._check_following(obj)
         if self._remembered(obj, inputs, surroundings) is not None:
             return None
         femmesh = Fem.FemMesh()  # here, as FreeCAD counts them
@@ -227,6 +238,7 @@ class MeshOperation:
     def _made(self, obj, inputs):
         """(Made, whether it was made just now)."""
         self.mesh_of(obj, "Source")
+        self._check_following(obj)
         surroundings = contents.surroundings_of(obj)
         prepared, self._prepared = self._prepared, None
         if prepared is not None and prepared.inputs == inputs and prepared.surroundings == surroundings:
@@ -237,6 +249,23 @@ class MeshOperation:
             self._check_names(obj, made.report)
             return made, False
         return self._compute(obj, inputs, surroundings, Fem.FemMesh()), True
+
+    def _inputs(self, obj):
+        """contents.inputs_of(), once the numbers are those of the geometry that they follow."""
+        was, self._is_following = self._is_following, True
+        try:
+            following.follow(obj)
+        except ValueError:  # see _check_following()
+            pass
+        finally:
+            self._is_following = was
+        return contents.inputs_of(obj)
+
+    @staticmethod
+    def _check_following(obj):
+        problem = following.problem_of(obj)
+        if problem:
+            raise ValueError(problem)
 
     @staticmethod
     def _remembered(obj, inputs, surroundings):

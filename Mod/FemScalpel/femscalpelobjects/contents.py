@@ -14,6 +14,7 @@ import FreeCAD
 import femmesh_bridge
 import femscalpel
 
+from .following import FOLLOW_PROPERTIES, problem_of
 from .geometry import shapes_of
 from .ours import is_ours
 
@@ -28,6 +29,7 @@ _ASIDE = {
     "Proxy",
     "Replaced",
     "ReplacedAdditions",
+    *FOLLOW_PROPERTIES,
 }
 #: Properties whose change may be one of what digest_of() tells.
 OF_CONTENTS = ("FemMesh", "Shape", "Placement")
@@ -46,7 +48,7 @@ def inputs_of(obj):
         for name in sorted(obj.PropertiesList)
         if name not in _ASIDE and obj.getGroupOfProperty(name) != "Result"
     }
-    return _digest(obj.Proxy.Type.encode(), repr(values).encode())
+    return _digest(obj.Proxy.Type.encode(), repr(values).encode(), problem_of(obj).encode())
 
 
 def surroundings_of(obj):

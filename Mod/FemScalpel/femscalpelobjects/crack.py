@@ -5,6 +5,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .patch_properties import PATCH_INPUTS, fronts_of, patch_of
 from .tool_properties import plane_of
 
@@ -20,6 +21,7 @@ class Crack(MeshOperation):
             "PlanePlacement",
             "The crack's plane: XY plane of this placement, z is the positive side",
         ),
+        *FOLLOW_INPUTS,
         *PATCH_INPUTS,
         *operator_options.inputs(
             GroupName=("Prefix of the new groups: NAME_P and NAME_N are the lips, NAME_FRONT the front", "CRACK")

@@ -5,6 +5,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .tool_properties import AXIS_INPUTS, shape_inputs, shape_of
 
 
@@ -16,6 +17,7 @@ class CurvedCrack(MeshOperation):
     INPUTS = (
         *shape_inputs("Sphere", without=("Plane",)),
         *AXIS_INPUTS,
+        *FOLLOW_INPUTS,
         *operator_options.inputs(
             GroupName=("Prefix of the new groups: NAME_P and NAME_N are the lips, P outside", "CRACK")
         ),

@@ -5,6 +5,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .tool_properties import direction_of, plane_of
 
 
@@ -15,6 +16,7 @@ class Cut(MeshOperation):
 
     INPUTS = (
         ("App::PropertyPlacement", "PlanePlacement", "The middle of the slot: XY plane of this placement"),
+        *FOLLOW_INPUTS,
         ("App::PropertyLength", "Width", "Of the slot", 1),
         (
             "App::PropertyBool",

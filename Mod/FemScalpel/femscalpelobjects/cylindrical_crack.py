@@ -5,6 +5,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .patch_properties import CYLINDER_PART_INPUTS, cylinder_part_of, part_fronts_of
 from .tool_properties import AXIS_INPUTS, direction_of
 
@@ -16,6 +17,7 @@ class CylindricalCrack(MeshOperation):
 
     INPUTS = (
         *AXIS_INPUTS,
+        *FOLLOW_INPUTS,
         *CYLINDER_PART_INPUTS,
         *operator_options.inputs(
             GroupName=(

@@ -5,6 +5,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .tool_properties import AXIS_INPUTS, direction_of
 
 
@@ -15,6 +16,7 @@ class Drill(MeshOperation):
 
     INPUTS = (
         *AXIS_INPUTS,
+        *FOLLOW_INPUTS,
         (
             "App::PropertyVectorList",
             "Positions",

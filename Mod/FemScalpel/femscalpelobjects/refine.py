@@ -5,6 +5,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .mesh_parts import nodes_of_long_edges
 from .tool_properties import AXIS_INPUTS, shape_inputs, shape_of
 
@@ -16,6 +17,7 @@ class Refine(MeshOperation):
 
     INPUTS = (
         *AXIS_INPUTS,
+        *FOLLOW_INPUTS,
         *shape_inputs("Cylinder"),
         ("App::PropertyLength", "Size", "Longest edge wanted at the tool", 1),
         ("App::PropertyLength", "Reach", "Size holds up to this distance from the tool"),

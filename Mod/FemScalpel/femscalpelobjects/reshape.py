@@ -7,6 +7,7 @@ import femscalpel
 
 from . import operator_options
 from .base import MeshOperation
+from .following import FOLLOW_INPUTS
 from .tool_properties import AXIS_INPUTS, shape_inputs, shape_of
 
 MOTIONS = ("Onto", "By", "Scale")
@@ -34,6 +35,7 @@ class Reshape(MeshOperation):
             MOTIONS[0],
         ),
         *AXIS_INPUTS,
+        *FOLLOW_INPUTS,
         *shape_inputs("Cylinder"),
         ("App::PropertyVector", "MoveBy", "The vector to move it by"),
         ("App::PropertyFloat", "ScaleFactor", "What distances from ScaleCentre are multiplied by", 1),

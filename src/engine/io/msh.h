@@ -12,8 +12,8 @@ namespace femscalpel {
 /// Writes a mesh as Gmsh's MSH 4.1, ASCII. Node and element numbers and coordinates are kept exactly.
 ///
 /// Element groups are physical groups of their name, one per dimension of their members; the tag is the same in all. As
-/// in Gmsh the elements of one entity have their physical groups in common, there is a discrete entity per dimension and
-/// set of groups, with all its tags; groups may overlap freely. Elements keep their order.
+/// in Gmsh the elements of one entity have their physical groups in common, there is a discrete entity per dimension
+/// and set of groups, with all its tags; groups may overlap freely. Elements keep their order.
 ///
 /// Node groups are physical groups of dimension 0, as Gmsh has it: over point elements that are added for them, one per
 /// node in a group, numbered above the largest element number. Of empty groups there is only the name; their dimension

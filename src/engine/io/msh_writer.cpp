@@ -44,8 +44,7 @@ constexpr GmshType gmsh_types[cell_type_count] = {
     {13, {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16}},
     {5, {0, 1, 2, 3, 4, 5, 6, 7}},
     {17, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14}},
-    {12, {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 16, 9,  17, 10,
-          18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26}},
+    {12, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26}},
 };
 
 template <class T>
@@ -181,7 +180,8 @@ private:
 
     void put_entities() {
         out_ += "$Entities\n";
-        for (int d = 0; d <= 3; ++d) append_value(out_, entities_[static_cast<std::size_t>(d)].size(), d < 3 ? ' ' : '\n');
+        for (int d = 0; d <= 3; ++d)
+            append_value(out_, entities_[static_cast<std::size_t>(d)].size(), d < 3 ? ' ' : '\n');
         for (int d = 0; d <= 3; ++d)
             for (const MshEntity& e : entities_[static_cast<std::size_t>(d)]) {
                 append_value(out_, e.tag);
@@ -240,8 +240,9 @@ private:
                 append_value(out_, block.ids[static_cast<std::size_t>(c)]);
                 const auto of = block.nodes(c);
                 for (std::size_t k = 0; k < nodes; ++k)
-                    append_value(out_, mesh_.node_ids[static_cast<std::size_t>(of[static_cast<std::size_t>(type.order[k])])],
-                        k + 1 < nodes ? ' ' : '\n');
+                    append_value(out_,
+                                 mesh_.node_ids[static_cast<std::size_t>(of[static_cast<std::size_t>(type.order[k])])],
+                                 k + 1 < nodes ? ' ' : '\n');
             }
         }
         out_ += points + "$EndElements\n";
@@ -251,8 +252,7 @@ private:
     std::size_t put_members(Index last, std::string& out) const {
         std::vector<std::vector<Index>> of(entities_[0].size());
         for (std::size_t n = 0; n < node_entities_.size(); ++n)
-            if (node_entities_[n] > 0)
-                of[static_cast<std::size_t>(node_entities_[n] - 1)].push_back(mesh_.node_ids[n]);
+            if (node_entities_[n] > 0) of[static_cast<std::size_t>(node_entities_[n] - 1)].push_back(mesh_.node_ids[n]);
         std::size_t blocks = 0;
         for (std::size_t e = 0; e < of.size(); ++e) {
             if (of[e].empty()) continue;

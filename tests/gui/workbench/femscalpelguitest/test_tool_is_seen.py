@@ -36,6 +36,20 @@ class ToolIsSeen(CrackTest):
             self.assertAlmostEqual(math.hypot(x / 1.3, y / 9), 1, places=5)
         screenshot("ellipse_seen")
 
+    def test_slot_down_to_the_point(self):
+        self.run_command("FemScalpel_Incision")
+        self.wait_for_preview()
+        self.assertAlmostEqual(sum(x for x, _, _ in pane()[:-1]), 0)
+        choose("slotEnd", "Point")
+        self.assertEqual(min(x for x, _, _ in pane()), 0)  # the bottom
+        self.assertGreater(max(x for x, _, _ in pane()), 1)
+        type_into("slotTurn", "30 deg")
+        turn = FreeCAD.Rotation(*shapes_in("FemScalpelHandles", coin.SoRotation)[0].rotation.getValue().getValue())
+        self.assertAlmostEqual(math.degrees(turn.Angle), 30, places=3)
+        screenshot("slot_seen")
+        choose("slotEnd", "Through")
+        self.assertAlmostEqual(sum(x for x, _, _ in pane()[:-1]), 0)
+
     def test_depth_has_an_end(self):
         self.run_command("FemScalpel_Drill")
         self.wait_for_preview()

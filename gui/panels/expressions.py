@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Expressions in the fields of panels: "=" in a field, or its f(x) icon.
+
+FreeCAD binds fields to properties of a document object; where there is none yet, a dialog asks for the expression.
+"""
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from femscalpelobjects.following import placement_property
+
+from ..translate import translate
+from . import fields
+
+#: Fields, and the paths of the properties that they are of.
+PATHS = {
+    **{f"origin{axis}": f"{{place}}.Base.{axis.lower()}" for axis in "XYZ"},
+    "radius": "Radius",
+    "filletRadius": "Radius",
+    "tubeRadius": "TubeRadius",
+    "halfAngle": "HalfAngle",
+    "patchRadius": "PatchRadius",
+    "patchSecondRadius": "PatchSecondRadius",
+    "partLow": "Low",
+    "partHigh": "High",
+    "partStart": "StartAngle",
+    "partEnd": "EndAngle",
+    "holeDepth": "Depth",
+    "slotWidth": "Width",
+    "edgeSize": "Size",
+    "reach": "Reach",
+    "scaleFactor": "ScaleFactor",
+    "mergeTolerance": "Tolerance",
+    "featureAngle": "FeatureAngle",
+    "refineSize": "RefineSize",
+}
+
+
+class Expressions:
+    """Binds the fields in some forms to the properties of `obj`. FreeCAD sets expressions at once, so they are put back
+    unless the panel takes them."""
+
+    def __init__(self, obj, forms):
+        self._obj, self._before, self._bindings = obj, _expressions_of(obj), []
+        was_touched = "Touched" in obj.State
+        place = placement_property(obj) if {"PlanePlacement", "AxisPlacement"} & set(obj.PropertiesList) else ""
+        for box in _boxes(forms):
+            path = PATHS[box.objectName()].format(place=place)
+            if path.split(".")[0] in obj.PropertiesList:
+                self._bindings.append(_bound(box, obj, path))
+        if "Touched" in obj.State and not was_touched:
+            obj.purgeTouched()
+        self._was_touched = was_touched
+
+    def changes(self):
+        """Expressions by path, None for one that is removed, as they differ from those at first."""
+        now = _expressions_of(self._obj)
+        return {
+            path: now.get(path) for path in sorted({*now, *self._before}) if now.get(path) != self._before.get(path)
+        }
+
+    def put_back(self):
+        """Sets the expressions there were at first."""
+        try:
+            changes = self.changes()
+        except ReferenceError:  # the document was closed
+            return
+        for path in changes:
+            self._obj.setExpression(path, self._before.get(path))
+        if changes and not self._was_touched and "Invalid" not in self._obj.State:
+            self._obj.purgeTouched()
+
+
+class NewExpressions(QtCore.QObject):
+    """As Expressions, of an object that is yet to be made of `source`: FreeCAD has no dialog for that, so "=" asks."""
+
+    def __init__(self, source, forms):
+        super().__init__()
+        self._source = source
+        for box in _boxes(forms):
+            box.installEventFilter(self)
+
+    def eventFilter(self, box, event):
+        if event.type() != QtCore.QEvent.KeyPress or event.key() != QtCore.Qt.Key_Equal:
+            return False
+        QtCore.QTimer.singleShot(0, lambda: self._ask(box))  # not from within the key's event
+        return True
+
+    def _ask(self, box):
+        title = translate("FemScalpel", "Expression")
+        label = translate("FemScalpel", "Such as Box.Length / 2. With nothing entered the field takes numbers again.")
+        text = box.property(fields.EXPRESSION) or ""
+        while True:
+            text, ok = QtGui.QInputDialog.getText(box, title, label, QtGui.QLineEdit.Normal, text)
+            if not ok:
+                return
+            try:
+                number = self._value(text, box) if text.strip() else None
+                break
+            except Exception as error:  # of many types: whatever evaluating meets
+                label = str(error)
+        box.setProperty(fields.EXPRESSION, "")
+        if number is not None:
+            box.setProperty("rawValue", number)  # which tells the panel
+            box.setProperty(fields.EXPRESSION, text.strip())
+        box.setReadOnly(number is not None)
+        if number is not None:
+            box.setToolTip(f"= {text.strip()}")
+        box.valueChanged.emit(box.property("rawValue"))
+
+    def _value(self, text, box):
+        found = self._source.evalExpression(text)
+        unit = FreeCAD.Units.Quantity(1, FreeCAD.Units.Unit()) if not box.property("unit") else None
+        wanted = unit.Unit if unit is not None else FreeCAD.Units.Quantity(f"1 {box.property('unit')}").Unit
+        if isinstance(found, FreeCAD.Units.Quantity):
+            if found.Unit not in (wanted, FreeCAD.Units.Unit()):
+                raise ValueError(
+                    translate("FemScalpel", "That is %1; it must be a number, or in %2.")
+                    .replace("%1", found.UserString)
+                    .replace("%2", box.property("unit") or "1")
+                )
+            found = found.Value
+        return float(found)
+
+    def take(self, obj, forms):
+        """Expressions by path, for `obj`."""
+        place = placement_property(obj)
+        texts = {PATHS[box.objectName()].format(place=place): box.property(fields.EXPRESSION) for box in _boxes(forms)}
+        return {path: text for path, text in texts.items() if text and path.split(".")[0] in obj.PropertiesList}
+
+    def put_back(self):
+        """Nothing was changed yet."""
+
+
+def _boxes(forms):
+    for form in forms:
+        for box in form.findChildren(QtGui.QAbstractSpinBox):
+            if box.objectName() in PATHS and box.inherits("Gui::QuantitySpinBox"):
+                yield box
+
+
+def _bound(box, obj, path):
+    binding = FreeCADGui.ExpressionBinding(box)
+    binding.bind(obj, path)
+    return binding
+
+
+def _expressions_of(obj):
+    return {path.lstrip("."): text for path, text in obj.ExpressionEngine}

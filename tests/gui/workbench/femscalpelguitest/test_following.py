@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Picked geometry stays linked; fields take expressions."""
+
+from unittest import mock
+
+import FreeCAD
+import FreeCADGui
+import Part
+from PySide import QtCore, QtGui
+
+import ObjectsFemScalpel
+
+from .gui_testing import *  # noqa: F403
+from .gui_testing import GuiTest, QTest
+from femscalpeltest.meshes import box_with_groups
+
+
+class Following(GuiTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = self.add_mesh(box_with_groups())
+        self.part = self.doc.addObject("Part::Box", "Box")
+        self.part.Length, self.part.Width, self.part.Height = 3.3, 2, 2
+        self.doc.recompute()
+        self.doc.clearUndos()
+
+    def open_panel(self, command="FemScalpel_Crack"):
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
+        self.run_command(command)
+        self.wait_for_preview()
+
+    def pick(self, button, *names):
+        click(button)
+        for name in names:
+            FreeCADGui.Selection.addSelection(self.doc.Name, "Box", name)
+            spin(0.1)
+
+    def crack_from_face(self):
+        self.open_panel()
+        self.pick("pickGeometry", "Face2")
+        self.wait_for_preview()
+        press_ok()
+        return self.doc.Crack
+
+    def x_of(self, obj):
+        return round(obj.PlanePlacement.Base.x, 9)
+
+    def test_plane_from_a_face(self):
+        self.open_panel()
+        self.assertFalse(is_shown("followed"))
+        self.pick("pickGeometry", "Face2")
+        self.assertEqual(widget("followed").text(), "from Box.Face2")
+        self.wait_for_preview()
+        screenshot("following_face")
+        press_ok()
+        crack = self.doc.Crack
+        self.assertEqual((crack.Follow, crack.FollowedName, self.x_of(crack)), ("Geometry", "Box.Face2", 3.3))
+        self.part.Length = 3.7
+        self.doc.recompute()
+        self.assertEqual((self.x_of(crack), crack.State), (3.7, ["Up-to-date"]))
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertEqual(widget("followed").text(), "from Box.Face2")
+        type_into("offset", "0.2 mm")  # in the geometry's axes
+        click("flip")
+        self.assertEqual(widget("followed").text(), "from Box.Face2")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((crack.Follow, self.x_of(crack)), ("Geometry", 3.9))
+        self.part.Length = 3.3
+        self.doc.recompute()
+        self.assertEqual(self.x_of(crack), 3.5)
+        self.assertAlmostEqual(crack.PlanePlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)).x, -1)
+
+    def test_by_hand(self):
+        crack = self.crack_from_face()
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        type_into("originX", "3.1 mm")
+        self.assertIn("No longer follows Box.Face2", widget("followed").text())
+        self.assertFalse(is_shown("unlink"))
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((crack.Follow, self.x_of(crack)), ("Numbers", 3.1))
+        self.part.Length = 3.7
+        self.doc.recompute()
+        self.assertEqual(self.x_of(crack), 3.1)
+
+    def test_unlink(self):
+        crack = self.crack_from_face()
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        click("unlink")
+        self.assertFalse(is_shown("followed"))
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((crack.Follow, self.x_of(crack)), ("Numbers", 3.3))
+        self.doc.undo()
+        self.assertEqual((crack.Follow, crack.FollowedName), ("Geometry", "Box.Face2"))
+        self.part.Length = 3.7
+        self.doc.recompute()
+        self.assertEqual(self.x_of(crack), 3.7)
+
+    def test_broken(self):
+        crack = self.crack_from_face()
+        self.doc.removeObject("Box")
+        self.doc.recompute()
+        self.assertIn("Invalid", crack.State)
+        crack.ViewObject.doubleClicked()
+        self.assertIn("Box.Face2, where this was picked", self.wait_for_message("geometryError"))
+        screenshot("following_broken")
+        click("unlink")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((crack.State, crack.Follow, self.x_of(crack)), (["Up-to-date"], "Numbers", 3.3))
+
+    def test_vertices(self):
+        self.open_panel()
+        choose("patch", "Whole")
+        self.pick("pickNodes", "Vertex5", "Vertex6", "Vertex7")
+        self.assertEqual(widget("followed").text(), "from Box.Vertex5, Box.Vertex6, Box.Vertex7")
+        self.wait_for_preview()
+        press_ok()
+        self.part.Length = 3.7
+        self.doc.recompute()
+        self.assertEqual(self.x_of(self.doc.Crack), 3.7)
+
+    def test_axis_and_radius(self):
+        rod = self.doc.addObject("Part::Cylinder", "Rod")
+        rod.Radius, rod.Height, rod.Placement.Base = 0.8, 9, FreeCAD.Vector(3, 2.5, -1)
+        self.doc.recompute()
+        self.open_panel("FemScalpel_Drill")
+        click("pickGeometry")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Rod", "Face1")
+        spin(0.1)
+        self.assertEqual(widget("followed").text(), "from Rod.Face1, size included")
+        self.wait_for_preview()
+        press_ok()
+        drill = self.doc.Drill
+        rod.Radius, rod.Placement.Base = 0.9, FreeCAD.Vector(3.2, 2.5, -1)
+        self.doc.recompute()
+        self.assertEqual((drill.Radius.Value, round(drill.AxisPlacement.Base.x, 9)), (0.9, 3.2))
+        drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        type_into("radius", "0.7 mm")
+        self.assertEqual(widget("followed").text(), "from Rod.Face1")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((drill.Radius.Value, drill.SizeFollows, drill.Follow), (0.7, False, "Geometry"))
+
+    def test_sketch_and_its_size(self):
+        sketch = self.doc.addObject("Sketcher::SketchObject", "Outline")
+        axes = FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(1, 0, 0), "XYZ")
+        sketch.Placement = FreeCAD.Placement(FreeCAD.Vector(3.3, 2, 2), axes)
+        corners = [FreeCAD.Vector(*xy, 0) for xy in ((-1.2, -1), (1.7, -0.8), (1.1, 0.9), (-0.3, 1.4))]
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            sketch.addGeometry(Part.LineSegment(a, b))
+        self.doc.recompute()
+        self.open_panel()
+        click("pickGeometry")
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Outline", "Edge1")
+        spin(0.1)
+        self.assertEqual(widget("followed").text(), "from Outline, size included")
+        click("flip")
+        self.assertEqual(widget("followed").text(), "from Outline, size included")
+        self.wait_for_preview()
+        press_ok()
+        crack = self.doc.Crack
+        for number in range(4):
+            sketch.delGeometry(0)
+        corners = [1.1 * corner for corner in corners]
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            sketch.addGeometry(Part.LineSegment(a, b))
+        self.doc.recompute()
+        self.assertEqual(crack.State, ["Up-to-date"])
+        for corner, local in zip(corners, crack.PatchCorners):
+            place = crack.PlanePlacement.multVec(local)
+            self.assertLess(place.distanceToPoint(FreeCAD.Vector(3.3, 2 + corner.x, 2 + corner.y)), 1e-9)
+
+    def enter_expression(self, name, text):
+        """Enters an expression by FreeCAD's own dialog."""
+        box = widget(name)
+        box.setFocus()
+        QTest.keyClick(box, QtCore.Qt.Key_Equal)
+        wait_until(lambda: is_shown("okBtn"), "the dialog of expressions")
+        dialog = widget("okBtn").window()
+        line = widget("expression", dialog)
+        line.setFocus()
+        QTest.keyClicks(line, text)
+        spin(0.2)
+        QTest.mouseClick(widget("okBtn", dialog), QtCore.Qt.LeftButton)
+        spin(0.2)
+
+    def enter_new_expression(self, name, *texts):
+        """Enters expressions in the panel's own dialog, of which all but the last are refused."""
+        left, labels = list(texts), []
+
+        def answer():
+            dialog = QtGui.QApplication.activeModalWidget()
+            if dialog is not None:
+                labels.append(dialog.labelText())
+                dialog.setTextValue(left.pop(0))
+                dialog.accept()
+
+        timer = QtCore.QTimer()
+        timer.timeout.connect(answer)
+        timer.start(100)
+        box = widget(name)
+        box.setFocus()
+        QTest.keyClick(box, QtCore.Qt.Key_Equal)
+        wait_until(lambda: not left, "the dialog")
+        timer.stop()
+        spin(0.2)
+        for label in labels[1:]:
+            self.assertIn("mm^2", label)
+
+    def drill(self):
+        self.open_panel("FemScalpel_Drill")
+        press_ok()
+        self.doc.clearUndos()
+        self.doc.Drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        return self.doc.Drill
+
+    def test_expression(self):
+        drill = self.drill()
+        old = drill.Radius.Value
+        self.enter_expression("radius", "Box.Length / 5")
+        self.enter_expression("originX", "Box.Length")
+        self.assertEqual((round(value("radius"), 9), value("originX")), (0.66, 3.3))
+        self.wait_for_preview()
+        screenshot("expression")
+        press_ok()
+        self.assertEqual(dict(drill.ExpressionEngine).keys(), {"Radius", ".AxisPlacement.Base.x"})
+        self.assertEqual((round(drill.Radius.Value, 9), drill.AxisPlacement.Base.x), (0.66, 3.3))
+        self.part.Length = 3.5
+        self.doc.recompute()
+        self.assertEqual((round(drill.Radius.Value, 9), drill.AxisPlacement.Base.x), (0.7, 3.5))
+        self.part.Length = 3.3
+        self.doc.recompute()
+        self.doc.undo()
+        self.assertEqual((drill.ExpressionEngine, drill.Radius.Value), ([], old))
+
+    def test_expression_of_a_new_object(self):
+        names = [o.Name for o in self.doc.Objects]
+        self.open_panel("FemScalpel_Drill")
+        self.enter_new_expression("radius", "Box.Length * Box.Length", "Box.Length / 5")
+        self.assertAlmostEqual(value("radius"), 0.66)
+        press_cancel()
+        self.assertEqual([o.Name for o in self.doc.Objects], names)
+        self.assertEqual(self.doc.UndoNames, [])
+        self.open_panel("FemScalpel_Drill")
+        self.enter_new_expression("radius", "Box.Length / 5")
+        self.assertAlmostEqual(value("radius"), 0.66)
+        type_into("radius", "2 mm")  # in vain
+        self.assertAlmostEqual(value("radius"), 0.66)
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual([o.Name for o in self.doc.Objects], [*names, "Drill"])
+        self.assertEqual(dict(self.doc.Drill.ExpressionEngine).keys(), {"Radius"})
+        self.part.Length = 3.5
+        self.doc.recompute()
+        self.assertAlmostEqual(self.doc.Drill.Radius.Value, 0.7)
+
+    def test_cancelled_expression(self):
+        drill = self.drill()
+        old = drill.Radius.Value
+        self.enter_expression("radius", "Box.Length / 5")
+        self.assertAlmostEqual(value("radius"), 0.66)
+        press_cancel()
+        self.assertEqual((drill.ExpressionEngine, drill.Radius.Value, drill.State), ([], old, ["Up-to-date"]))
+
+    def test_expression_ends_following(self):
+        crack = self.crack_from_face()
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.enter_expression("originX", "Box.Length - 0.2 mm")
+        self.assertIn("No longer follows", widget("followed").text())
+        self.assertFalse(widget("offset").isEnabled())
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((crack.Follow, self.x_of(crack)), ("Numbers", 3.1))
+
+    def test_macro(self):
+        lines, real = [], FreeCADGui.doCommand
+        with mock.patch.object(FreeCADGui, "doCommand", lambda line: (lines.append(line), real(line))):
+            self.crack_from_face()
+        self.doc.removeObject("Crack")
+        self.part.Length = 3.7
+        self.doc.recompute()
+        for line in lines:
+            exec(line, {"FreeCAD": FreeCAD, "ObjectsFemScalpel": ObjectsFemScalpel})
+        self.assertEqual((self.doc.Crack.Follow, self.x_of(self.doc.Crack)), ("Geometry", 3.7))
