@@ -350,12 +350,15 @@ def merge(
 
     Shells meet in lines: where the border of one is on the other (a T), where borders meet (an L), where they cross (an
     X); several pieces of an addition at once. Beams (line elements) end on shells or solids: a node of the mesh is
-    moved to where they do, or made there. On a solid they carry no moment, which the report says.
+    moved to where they do, or made there. On a solid they carry no moment, and shells along their border turn as about a
+    hinge: nodes of solids have no rotations. The report says so. Solids touch or overlap; what of the one is filled in
+    behind the contact has the nodes of the other's skin.
 
     Parameters
     ----------
     mesh : Mesh
-        The mesh that is added to: shells of triangles, linear or quadratic, where the two meet; anything elsewhere.
+        The mesh that is added to: triangles or tetrahedra, linear or quadratic, where the two meet; anything elsewhere.
+        Double nodes, as the lips of a crack, may not run across the line where they do.
     other : Mesh
         What is added. One of another order is brought to the mesh's. If both have a CalculiX deck, the addition's
         sections, materials, orientations and element types are taken over; the report names the cards that are not. An
@@ -372,7 +375,8 @@ def merge(
     prefix : str
         Of groups of the addition whose name the mesh has for others; the name and "_" when not given.
     join_groups : bool
-        Whether groups of one name and kind become one.
+        Whether groups of one name and kind become one. What a solver is told to do at a group of the mesh's nodes or
+        facets, as a support or a load, it does at the addition's then, too; the report names such groups.
     feature_angle, strict
         As for :func:`crack`.
     keep_side : (x, y, z), optional
