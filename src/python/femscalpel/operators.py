@@ -357,8 +357,8 @@ def merge(
     Parameters
     ----------
     mesh : Mesh
-        The mesh that is added to: triangles or tetrahedra, linear or quadratic, where the two meet; anything elsewhere.
-        Double nodes, as the lips of a crack, may not run across the line where they do.
+        The mesh that is added to: triangles or tetrahedra, linear or quadratic, where the two meet; anything
+        elsewhere. Double nodes, as the lips of a crack, may not run across the line where they do.
     other : Mesh
         What is added. One of another order is brought to the mesh's. If both have a CalculiX deck, the addition's
         sections, materials, orientations and element types are taken over; the report names the cards that are not. An
