@@ -77,7 +77,8 @@ class _WhatsThis(QtCore.QObject):
     looks for a page of the text's name in its wiki, by an add-on that is most often not there."""
 
     def eventFilter(self, receiver, event):
-        if event.type() != QtCore.QEvent.WhatsThisClicked:
+        # PySide 2 gives an object of another class where one was before at the same place in memory.
+        if not isinstance(event, QtCore.QEvent) or event.type() != QtCore.QEvent.WhatsThisClicked:
             return False
         page = page_of(event.href())
         if page is None:

@@ -77,9 +77,7 @@ class Followed:
 
     def _show(self, text):
         self._label.setText(text)
-        self._label.setStyleSheet(
-            fields.for_theme(f"color: {fields.ERROR};", self.row.parentWidget() or self.row) if self._broken else ""
-        )
+        self._label.setStyleSheet(f"QLabel {{ {fields.ERROR} padding: 3px; }}" if self._broken else "")
         self._unlink.setVisible(bool(self._name))
         self.row.setVisible(bool(text))
 

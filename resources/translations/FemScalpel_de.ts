@@ -1215,7 +1215,7 @@
     </message>
     <message>
       <source>Moved nodes</source>
-      <translation>Verschobene Knoten</translation>
+      <translation>Bewegte Knoten</translation>
     </message>
     <message>
       <source>New operations</source>
@@ -1867,7 +1867,7 @@
     </message>
     <message>
       <source>Moved nodes</source>
-      <translation>Verschobene Knoten</translation>
+      <translation>Bewegte Knoten</translation>
     </message>
     <message>
       <source>Nodes that change place</source>

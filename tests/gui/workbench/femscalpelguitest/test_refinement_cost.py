@@ -86,8 +86,8 @@ class RefinementCost(CrackTest):
         self.assertRegex(text, r"30.00.*elements \(\d+ [MG]B\)")
         self.assertFalse(ok_button().isEnabled())
         box = widget("refinementQuestion")
-        self.assertFalse(box.visibleRegion().isEmpty())  # it is not scrolled out of sight
-        self.assertEqual(box.visibleRegion().boundingRect().height(), box.height())
+        # It is not scrolled out of sight.
+        wait_until(lambda: box.visibleRegion().boundingRect().height() == box.height(), "the whole question")
         self.assertIn("question", widget("status").text())
         self.assertFalse(is_shown("resultError"))
         screenshot("refinement_question")
