@@ -351,8 +351,8 @@ def merge(
     Shells meet in lines: where the border of one is on the other (a T), where borders meet (an L), where they cross (an
     X); several pieces of an addition at once. Beams (line elements) end on shells or solids: a node of the mesh is
     moved to where they do, or made there. On a solid they carry no moment, and shells along their border turn as about
-    a hinge: nodes of solids have no rotations. The report says so. Solids touch or overlap; what of the one is filled in
-    behind the contact has the nodes of the other's skin.
+    a hinge: nodes of solids have no rotations. The report says so. Solids touch or overlap; what is filled in behind
+    the contact has the nodes of the other's skin.
 
     Parameters
     ----------
