@@ -49,7 +49,7 @@ class RefinementQuestion:
         self.hide()
 
     def ask(self, error):
-        """Asks about a TooMuch."""
+        """Asks about a TooMuch. Returns the widget that does."""
         self._error = error
         self._text.setText(
             translate(
@@ -66,6 +66,7 @@ class RefinementQuestion:
             )
         self._box.setEnabled(True)
         self._box.show()
+        return self._box
 
     def wait(self):
         """Takes no answer until it is asked again or hidden: something else was entered since."""

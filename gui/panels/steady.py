@@ -17,6 +17,7 @@ class Steady:
 
     def __init__(self, forms):
         self._forms, self._held, self._left = forms, None, 0
+        self._asking = None
 
     def hold(self):
         """To be called before messages come or go."""
@@ -30,6 +31,22 @@ class Steady:
         self._left = _LOOKS
         if not is_waiting:
             QtCore.QTimer.singleShot(0, self._put_back)
+
+    def show(self, question):
+        """Sees to it that a widget that asks something, if it is there in the end, is in sight whatever is held."""
+        self._asking = question
+        self.hold()
+        if self._held is None:
+            QtCore.QTimer.singleShot(_LOOKS * _BETWEEN, self._bring_into_sight)
+
+    def _bring_into_sight(self):
+        question, self._asking = self._asking, None
+        try:
+            area = self._area() if question is not None and question.isVisible() and self._forms else None
+        except RuntimeError:  # it is gone
+            return
+        if area is not None:
+            area.ensureWidgetVisible(question, 0, 0)
 
     def _put_back(self):
         if self._held is None:
@@ -47,6 +64,7 @@ class Steady:
             QtCore.QTimer.singleShot(_BETWEEN, self._put_back)
         else:
             self._held = None
+            self._bring_into_sight()
 
     def _of_ours(self, box):
         return box if box is not None and any(form.isAncestorOf(box) for form in self._forms) else None

@@ -258,7 +258,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if isinstance(error, TooMuch):
             self._clear_errors()
             self._no_result(translate("FemScalpel", "No preview yet: see the question above."))
-            self._question.ask(error)
+            self._steady.show(self._question.ask(error))
             return
         self._place_error(error)
         self._set_ok(ticket < self._ticket)  # what is entered now may be right

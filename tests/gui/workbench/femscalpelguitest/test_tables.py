@@ -162,7 +162,7 @@ class GroupTable(Folder, CrackTest):
 
     def test_extents_are_told(self):
         self.open_panel()
-        self.assertRegex(widget("status").text(), r"Crack of 10\.00 mm², front of 5\.00 mm")
+        wait_until(lambda: "Crack of 10.00 mm², front of 5.00 mm" in widget("status").text(), "the half plane's sizes")
         press_ok()
         bar = FreeCADGui.getMainWindow().statusBar().currentMessage()
         self.assertRegex(bar, r"^Crack: Crack of 10\.00 mm², front of 5\.00 mm")
