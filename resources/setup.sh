@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs the Debian packages of resources/debian-packages.txt that are missing. Needs root only if any is.
-#   resources/setup.sh [build] [demo] [test] [develop]
+#   resources/setup.sh [build] [demo] [test] [package] [wheel] [develop]
 # installs those of these sections, or of all without a section named. What this release of Debian lacks is left out,
 # and said.
 set -eu

@@ -22,7 +22,7 @@ most=60 # MB
         tools=build/wheel-tools-$tag
         [ -x "$tools/bin/auditwheel" ] || "$python" -m venv "$tools"
         "$tools/bin/pip" --quiet --disable-pip-version-check install -r resources/pypi-packages.txt
-        rm -rf "build/wheels/$tag"
+        rm -rf "build/wheels/$tag" build/wheels/*"-$tag-"*.whl
         CMAKE_PREFIX_PATH=$libraries CMAKE_GENERATOR=Ninja LD_LIBRARY_PATH=$libraries/lib \
             "$tools/bin/pip" --disable-pip-version-check wheel --no-build-isolation --no-deps -w "build/wheels/$tag" .
         PATH=$PWD/$tools/bin:$PATH LD_LIBRARY_PATH=$libraries/lib "$tools/bin/auditwheel" repair --strip \

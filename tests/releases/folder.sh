@@ -6,6 +6,20 @@
 logs=$folder/var/log/femscalpel
 say() { printf '%s: %s\n' "$release" "$*"; }
 
+fail() {
+    say "FAILED: $*"
+    exit 1
+}
+# Runs a step; where it fails, prints the end of its log, and ends. Sets $took.
+step() {
+    start=$(date +%s)
+    inside "$2" >"$logs/$1.log" 2>&1 || {
+        tail -n 15 "$logs/$1.log"
+        fail "$1, see $logs/$1.log"
+    }
+    took=$(($(date +%s) - start))
+}
+
 # Runs a command in the folder. /proc and /dev are mounted for it alone, and gone when it ends, however it ends.
 inside() {
     # shellcheck disable=SC2016

@@ -18,20 +18,6 @@ folder=$(realpath -m "${3:-/var/tmp/femscalpel-install-$release}")
 cd "$(dirname "$0")/../.."
 . tests/releases/folder.sh
 
-fail() {
-    say "FAILED: $*"
-    exit 1
-}
-# Runs a step; where it fails, prints the end of its log, and ends. Sets $took.
-step() {
-    start=$(date +%s)
-    inside "$2" >"$logs/$1.log" 2>&1 || {
-        tail -n 15 "$logs/$1.log"
-        fail "$1, see $logs/$1.log"
-    }
-    took=$(($(date +%s) - start))
-}
-
 make_folder
 step freecad 'apt-get -qq purge -y --autoremove freecad-femscalpel 2>/dev/null || true; apt-get -qq update
     apt-get -qq install -y --no-install-recommends freecad lintian'

@@ -24,17 +24,6 @@ folder=$(realpath -m "${1:-/var/tmp/femscalpel-wheel-$release}")
 cd "$(dirname "$0")/../.."
 . tests/releases/folder.sh
 
-# Runs a step; where it fails, prints the end of its log, and ends. Sets $took.
-step() {
-    start=$(date +%s)
-    inside "$2" >"$logs/$1.log" 2>&1 || {
-        tail -n 15 "$logs/$1.log"
-        say "FAILED: $1, see $logs/$1.log"
-        exit 1
-    }
-    took=$(($(date +%s) - start))
-}
-
 make_folder
 step python 'apt-get -qq update; apt-get -qq install -y --no-install-recommends python3-venv; rm -rf venv *.whl'
 cp "$wheel" tests/releases/wheel_check.py tests/python/shapes/plane.step \
@@ -64,8 +53,7 @@ step user 'python3 -m pip install --user --break-system-packages --no-deps ./fem
 step crack 'freecadcmd first_crack.py </dev/null'
 grep -q '^first crack: ' "$logs/crack.log" || {
     tail -n 15 "$logs/crack.log"
-    say "FAILED: the demo's mesh was not cracked"
-    exit 1
+    fail "the demo's mesh was not cracked"
 }
 version=$(inside 'dpkg-query -W -f "\${Version}" freecad')
 engine=$(inside 'ls .local/lib/*/site-packages | grep -m1 femscalpel-')

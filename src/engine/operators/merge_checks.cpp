@@ -267,8 +267,8 @@ void warn_of_joined_groups(const Mesh& mesh, const Mesh& addition, Report& repor
 void warn_of_hinge(Report& report) {
     report.warnings.emplace_back(
         "the addition's shells hold to the solid by its nodes, which have no rotations: they turn about the seam as "
-        "about "
-        "a hinge. Where they are welded on, add them as solid elements, or tie their rotations in the solver's input");
+        "about a hinge. Where they are welded on, add them as solid elements, or tie their rotations in the solver's "
+        "input");
 }
 
 void check_seam_edges(const Mesh& result, const std::string& added, const std::vector<std::array<Index, 2>>& edges) {
