@@ -7,6 +7,7 @@ import os
 import FreeCADGui
 from PySide import QtCore, QtGui
 
+from .event_filter import EventFilter
 from .translate import FOLDER, translate
 
 PAGES = os.path.join(FOLDER, "resources", "docs", "commands")
@@ -72,13 +73,12 @@ def _make(main):
     return dialog
 
 
-class _WhatsThis(QtCore.QObject):
+class _WhatsThis(EventFilter):
     """Event filter of FreeCAD's main window, which is told what was clicked at in What's This mode. FreeCAD itself
     looks for a page of the text's name in its wiki, by an add-on that is most often not there."""
 
-    def eventFilter(self, receiver, event):
-        # PySide 2 gives an object of another class where one was before at the same place in memory.
-        if not isinstance(event, QtCore.QEvent) or event.type() != QtCore.QEvent.WhatsThisClicked:
+    def filtered(self, receiver, event):
+        if event.type() != QtCore.QEvent.WhatsThisClicked:
             return False
         page = page_of(event.href())
         if page is None:

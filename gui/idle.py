@@ -8,6 +8,8 @@ objects away that are being computed.
 import FreeCAD
 from PySide import QtCore, QtGui
 
+from .event_filter import EventFilter
+
 _WAIT = 50  # milliseconds between two looks whether FreeCAD is idle
 
 _waiting = {}  # work by name of the document
@@ -60,7 +62,7 @@ def release_shortcuts():
     _holder.stop()
 
 
-class _Holder(QtCore.QObject):
+class _Holder(EventFilter):
     def __init__(self):
         super().__init__()
         self._document = None
@@ -78,7 +80,7 @@ class _Holder(QtCore.QObject):
         if self._held:
             QtCore.QTimer.singleShot(0, self._send)
 
-    def eventFilter(self, receiver, event):
+    def filtered(self, receiver, event):
         if event.type() != QtCore.QEvent.Shortcut:
             return False
         if not _is_computed(self._document):  # FreeCAD has not said that it ended

@@ -10,6 +10,7 @@ from PySide import QtCore, QtGui
 
 from femscalpelobjects.following import placement_property
 
+from ..event_filter import EventFilter
 from ..translate import translate
 from . import fields
 
@@ -72,7 +73,7 @@ class Expressions:
             self._obj.purgeTouched()
 
 
-class NewExpressions(QtCore.QObject):
+class NewExpressions(EventFilter):
     """As Expressions, of an object that is yet to be made of `source`: FreeCAD has no dialog for that, so "=" asks."""
 
     def __init__(self, source, forms):
@@ -81,7 +82,7 @@ class NewExpressions(QtCore.QObject):
         for box in _boxes(forms):
             box.installEventFilter(self)
 
-    def eventFilter(self, box, event):
+    def filtered(self, box, event):
         if event.type() != QtCore.QEvent.KeyPress or event.key() != QtCore.Qt.Key_Equal:
             return False
         QtCore.QTimer.singleShot(0, lambda: self._ask(box))  # not from within the key's event

@@ -3,11 +3,13 @@
 
 from PySide import QtCore, QtGui
 
+from ..event_filter import EventFilter
+
 _ENTER = (QtCore.Qt.Key_Return, QtCore.Qt.Key_Enter)
 _CHANGING = (QtCore.Qt.Key_Backspace, QtCore.Qt.Key_Delete, QtCore.Qt.Key_Up, QtCore.Qt.Key_Down)
 
 
-class FieldFilter(QtCore.QObject):
+class FieldFilter(EventFilter):
     """Event filter of the fields of some forms.
 
     The wheel changes a field that has the focus only; else it scrolls the panel. Enter in a field in which something
@@ -25,7 +27,7 @@ class FieldFilter(QtCore.QObject):
             for field in form.findChildren(QtGui.QLineEdit):
                 field.installEventFilter(self)
 
-    def eventFilter(self, receiver, event):
+    def filtered(self, receiver, event):
         if event.type() == QtCore.QEvent.Wheel:
             if not isinstance(receiver, QtGui.QLineEdit) and not receiver.hasFocus():
                 event.ignore()

@@ -4,9 +4,10 @@
 from PySide import QtCore, QtGui
 
 from .. import preferences
+from ..event_filter import EventFilter
 
 
-class Section(QtCore.QObject):
+class Section(EventFilter):
     """Rows of a grid under a header that folds them away; the user's choice is kept. A message in it unfolds it.
 
     Parameters
@@ -57,7 +58,7 @@ class Section(QtCore.QObject):
         self._header.setArrowType(QtCore.Qt.DownArrow if is_open else QtCore.Qt.RightArrow)
         self._content.setVisible(is_open)
 
-    def eventFilter(self, receiver, event):
+    def filtered(self, receiver, event):
         if event.type() == QtCore.QEvent.ShowToParent and receiver.objectName().endswith("Error"):
             self._header.setChecked(True)
         return False

@@ -7,6 +7,7 @@ import io
 from PySide import QtCore, QtGui
 
 from .. import saving
+from ..event_filter import EventFilter
 from ..translate import translate
 
 #: Role of what a cell is sorted by and saved as, where that is not its text.
@@ -24,7 +25,7 @@ def cell(text, value=None):
     return item
 
 
-class TableTools(QtCore.QObject):
+class TableTools(EventFilter):
     """A line over `table` with a filter and buttons. A click on a header sorts, another one the other way round; the
     first column has the names. `title`: what is saved, also the suggested file's name; `spare`: columns that are not
     shown where there is no room for all, the first one first. Columns without a header are patches of colour."""
@@ -151,7 +152,7 @@ class TableTools(QtCore.QObject):
         for row in range(self._table.rowCount()):
             self._table.setRowHidden(row, wanted not in self._table.item(row, 0).text().lower())
 
-    def eventFilter(self, receiver, event):
+    def filtered(self, receiver, event):
         if event.type() == QtCore.QEvent.Resize and receiver is not self._table:
             self.fit()
         elif event.type() == QtCore.QEvent.ShortcutOverride and event.matches(QtGui.QKeySequence.Copy):

@@ -7,6 +7,7 @@ from unittest import mock
 import FreeCADGui
 from PySide import QtCore, QtGui
 
+from femscalpelgui.event_filter import EventFilter
 from femscalpelgui.panels import tool_panel
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest, QTest
@@ -132,3 +133,26 @@ class Fields(GuiTest):
             wait_until(lambda: widget("status").text() == "Computing…", "word of what takes long")
             go.set()
             self.wait_for_preview()
+
+
+class EventFilters(GuiTest):
+    def test_mistaken_objects(self):
+        # PySide 2 at times passes what was at the same place in memory before.
+        seen = []
+
+        class Filter(EventFilter):
+            def filtered(self, receiver, event):
+                seen.append(event.type())
+                return True
+
+        button = QtGui.QPushButton()
+        look = Filter()
+        for receiver, event in (
+            (button, QtGui.QSpacerItem(1, 1)),
+            (QtGui.QSpacerItem(1, 1), QtCore.QEvent(QtCore.QEvent.Resize)),
+            (button, QtCore.QEvent(QtCore.QEvent.KeyPress)),
+        ):
+            self.assertFalse(look.eventFilter(receiver, event))
+        self.assertEqual(seen, [])
+        self.assertTrue(look.eventFilter(button, QtCore.QEvent(QtCore.QEvent.Resize)))
+        self.assertEqual(seen, [QtCore.QEvent.Resize])

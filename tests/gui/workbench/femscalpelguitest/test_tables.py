@@ -71,7 +71,7 @@ class GroupTable(Folder, CrackTest):
     def open_panel(self):
         super().open_panel()
         choose("patch", "HalfPlane")
-        wait_until(lambda: "front" in widget("status").text(), "a crack with a front")
+        wait_until(lambda: "front of" in widget("status").text(), "a crack with a front")
 
     def test_sorted_and_filtered(self):
         self.open_panel()
