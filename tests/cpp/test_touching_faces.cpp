@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cutting/outer_faces.h"
+#include "mesh/outer_faces.h"
 #include "mesh/near_boxes.h"
 #include "simple_meshes.h"
 

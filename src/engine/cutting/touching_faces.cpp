@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "cancel.h"
-#include "cutting/outer_faces.h"
+#include "mesh/outer_faces.h"
 #include "cutting/surface_line.h"
 #include "error.h"
 #include "mesh/near_boxes.h"

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "cutting/outer_faces.h"
+#include "mesh/outer_faces.h"
 #include "cutting/surface_line.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface_tree.h"

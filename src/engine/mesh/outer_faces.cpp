@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "cutting/outer_faces.h"
+#include "mesh/outer_faces.h"
 
 #include <algorithm>
 #include <map>
