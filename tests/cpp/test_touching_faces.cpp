@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/outer_faces.h"
 #include "mesh/near_boxes.h"
+#include "mesh/outer_faces.h"
 #include "simple_meshes.h"
 
 namespace femscalpel {

@@ -4,8 +4,8 @@
     PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 tests/python/merge_cases.py --cases 300
 
 Each kind: stiffeners on a flat and on a curved shell; plates, blocks, rods and tubes on and into the two boxes, and
-into the flanged cylinder; sleeves and parts of sleeves on a shaft; what overlaps and is flush with the mesh; all of
-these also in second order with --quadratic (solids). A result is checked: one part, conforming, positive volumes, a
+into the flanged cylinder; sleeves and parts of sleeves on a shaft; what overlaps and is flush with the mesh; shells of
+quadrangles, blocks of hexahedra and prisms; solids also in second order, and these, with --quadratic. A result is checked: one part, conforming, positive volumes, a
 seam without a gap. Printed: how many were refused, the smallest and usual quality, how many are poor (below 0.12 and
 below the worse of the two inputs), the largest change of any group's measure, and the seeds that failed a check; with
 --refused those that were refused, too.
@@ -19,8 +19,9 @@ import numpy as np
 
 import femscalpel as fs
 from campaign import case_arguments
-from merge_parts import block, check_conforming, corners, half_pipe, plate, rod, shell, triangles_of, tube, worst
+from merge_parts import block, check_conforming, half_pipe, plate, rod, shell, triangles_of, tube
 from meshes import quadratic
+from mixed_meshes import EDGES, grid, prisms_of, second_order_of_all, worst_of
 
 MESHES = pathlib.Path(__file__).resolve().parents[2] / "build" / "release" / "tests" / "meshes"
 
@@ -138,22 +139,84 @@ def flush(rng):
     return mesh, block(at + [size[0] / 2, size[1] / 2, 0], size, counts, "BOSS")
 
 
-KINDS = {f.__name__: f for f in (flat, curved, shell_on_boxes, on_boxes, into_boxes, into_cylinder, on_shaft, flush)}
+def of_quadrangles(mesh, rng):
+    """A shell of triangles on a grid as quadrangles; of half of them, at times."""
+    points, triangles = mesh.points, mesh.cells["triangle"]
+    pairs = triangles.reshape(-1, 2, 3)
+    quads = np.array([square_of(*pair) for pair in pairs])
+    kept = np.arange(len(quads)) % 2 == 1 if rng.integers(3) == 0 else np.zeros(len(quads), bool)
+    cells = {"quad": quads[~kept], "triangle": pairs[kept].reshape(-1, 3)}
+    name = next(iter(mesh.groups))
+    return fs.Mesh(points, cells, groups={name: ("element", np.arange(1, (~kept).sum() + 2 * kept.sum() + 1))})
+
+
+def square_of(first, second):
+    """The quadrangle of two triangles."""
+    (alone,) = set(second) - set(first)
+    k = next(k for k in range(3) if first[k] not in second)
+    return [first[k], first[(k + 1) % 3], alone, first[(k + 2) % 3]]
+
+
+def quadrangles(rng):
+    mesh, part = (flat, curved)[rng.integers(2)](rng)
+    return of_quadrangles(mesh, rng), part if rng.integers(2) else of_quadrangles(part, rng)
+
+
+def bricks(origin, size, edge, name, rng, frame=np.eye(3)):
+    """A block of hexahedra, of prisms, or of both."""
+    counts = np.maximum(2, np.round(np.array(size) / edge).astype(int))
+    points, hexahedra = grid(counts, 0.2)
+    points = (points / points.max(axis=0) - [0.5, 0.5, 0]) * size @ frame.T + origin
+    half, kind = counts[0] // 2 * counts[1] * counts[2], rng.integers(3)
+    cells = {"hexahedron": hexahedra} if kind == 0 else {"wedge": prisms_of(hexahedra)}
+    if kind == 2:
+        cells = {"hexahedron": hexahedra[:half], "wedge": prisms_of(hexahedra[half:])}
+    return fs.Mesh(points, cells, groups={name: ("element", np.arange(1, sum(map(len, cells.values())) + 1))})
+
+
+def on_bricks(rng):
+    """A block on a block, or into it."""
+    mesh, edge = bricks((10, 5, 0), (20, 10, 10), rng.uniform(1.2, 2), "CORE", rng), rng.uniform(0.6, 1.3)
+    deep = rng.choice([0, rng.uniform(0.5, 2)])
+    origin = np.array([rng.uniform(4, 16), rng.uniform(4, 6), 10 - deep])
+    size = edge * rng.uniform(2.5, 4, 3) + [0, 0, deep]
+    frame = turned(np.array([0, 0, 1.0]), rng)
+    if rng.integers(3) == 0:
+        return mesh, boss(origin, frame, edge, size[2], rng)
+    return mesh, bricks(origin, size, edge, "BOSS", rng, frame)
+
+
+def shell_on_bricks(rng):
+    mesh, part = shell_on_boxes(rng)
+    mesh = bricks((10, 5, 0), (20, 10, 10), rng.uniform(1, 2), "CORE", rng)
+    return mesh, of_quadrangles(part, rng) if rng.integers(2) else part
+
+
+KINDS = {
+    f.__name__: f
+    for f in (flat, curved, shell_on_boxes, on_boxes, into_boxes, into_cylinder, on_shaft, flush)
+    + (quadrangles, on_bricks, shell_on_bricks)
+}
 
 
 def in_one_line(mesh):
-    """Whether more than two triangles meet along as many edges as the seam has nodes, but for its ends."""
-    t = corners(mesh)
-    edges = np.sort(np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]), axis=1)
+    """Whether more than two shells meet along as many edges as the seam has nodes, but for its ends."""
+    cells = [
+        (c, EDGES[name.rstrip("0123456789")]) for name, c in mesh.cells.items() if name.startswith(("tri", "quad"))
+    ]
+    edges = np.sort(np.concatenate([np.asarray(c)[:, list(e)] for c, all_of in cells for e in all_of]), axis=1)
     shared = (np.unique(edges, axis=0, return_counts=True)[1] > 2).sum()
-    return shared >= len(mesh.groups["ADD_SEAM"]) - 2
+    corners = mesh.node_ids[np.unique(edges)]
+    return shared >= np.isin(mesh.groups["ADD_SEAM"].ids, corners).sum() - 2
 
 
 def one(kind, seed, second_order, **options):
     """(outcome, quality, the worse of the inputs' qualities, largest relative change of a group's measure)."""
     mesh, part = KINDS[kind](np.random.default_rng(seed))
-    if second_order and mesh.dimension == 3:
+    if second_order and set(mesh.cells) == {"tetra"}:
         mesh = quadratic(fs.Mesh(mesh.points, {"tetra": mesh.cells["tetra"]}))
+    elif second_order:
+        mesh = fs.Mesh(*second_order_of_all(mesh.points, mesh.cells))
     try:
         result = fs.merge(mesh, part, **options)
     except fs.Error as error:
@@ -168,7 +231,7 @@ def one(kind, seed, second_order, **options):
         for g in result.report.groups
         if g.measure_before > 0 and g.name != "BOSS"
     ]
-    return "", worst(result.mesh), min(worst(mesh), worst(part)), max(change, default=0)
+    return "", worst_of(result.mesh), min(worst_of(mesh), worst_of(part)), max(change, default=0)
 
 
 def main():

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Plates, rods and tubes to join, and what must hold of what becomes of them."""
 
+import collections
+import itertools
+
 import numpy as np
 
 import femscalpel as fs
 from meshes import grid_box, tetra_volumes
+from mixed_meshes import outer_faces, worst_of
 
 EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
 
@@ -112,9 +116,10 @@ def tube(origin, inner, outer, height, counts, name, first=0.0, angle=2 * np.pi)
 
 
 def corners(mesh):
-    """Corners of the elements of the mesh's dimension."""
-    kind = {2: "triangle", 3: "tetra"}[mesh.dimension]
-    return np.concatenate([c[:, : mesh.dimension + 1] for name, c in mesh.cells.items() if name.startswith(kind)])
+    """Corners of the elements of the mesh's dimension, by type."""
+    kinds = {2: {"triangle": 3, "quad": 4}, 3: {"tetra": 4, "pyramid": 5, "wedge": 6, "hexahedron": 8}}[mesh.dimension]
+    names = [(name, kinds.get(name.rstrip("0123456789"), 0)) for name in mesh.cells]
+    return [np.asarray(mesh.cells[name])[:, :count] for name, count in names if count]
 
 
 def areas(mesh):
@@ -131,25 +136,32 @@ def number_of_parts(mesh):
     elements = corners(mesh)
     parent = np.arange(mesh.node_count)
     while True:
-        least = parent[elements].min(axis=1)
         new = parent.copy()
-        np.minimum.at(new, elements.reshape(-1), np.repeat(least, elements.shape[1]))
+        for e in elements:
+            np.minimum.at(new, e.reshape(-1), np.repeat(new[e].min(axis=1), e.shape[1]))
         if (new == parent).all():
-            return len(np.unique(parent[np.unique(elements)]))
+            return len(np.unique(parent[np.unique(np.concatenate([e.reshape(-1) for e in elements]))]))
         parent = new
 
 
 def check_conforming(mesh):
-    """One part, no node twice, faces of two solids at most."""
+    """One part, no node twice; of solids a skin that is closed, and on which no faces lie on each other."""
     elements = corners(mesh)
     assert number_of_parts(mesh) == 1
-    used = mesh.points[np.unique(elements)]
+    used = mesh.points[np.unique(np.concatenate([e.reshape(-1) for e in elements]))]
     size = np.ptp(used, axis=0).max()
-    assert len(np.unique(np.round(used / (1e-9 * size)), axis=0)) == len(used)
+    assert len(np.unique(np.round(used / (1e-9 * size)), axis=0)) == len(used), "nodes twice"
+    assert worst_of(mesh) > 0, "a volume that is not positive"
     if mesh.dimension == 3:
-        assert tetra_volumes(mesh.points, elements).min() > 0
-        faces = np.sort(np.concatenate([np.delete(elements, k, axis=1) for k in range(4)]), axis=1)
-        assert np.unique(faces, axis=0, return_counts=True)[1].max() == 2
+        skin = outer_faces(mesh)
+        triangles = {face for face in skin if len(face) == 3}
+        assert not any(set(itertools.combinations(face, 3)) & triangles for face in skin if len(face) == 4), "no match"
+        edges = collections.Counter(edge for ring in skin.values() for edge in edges_of(ring))
+        assert all(count % 2 == 0 for count in edges.values()), "a skin that is open"
+
+
+def edges_of(ring):
+    return [tuple(sorted(pair)) for pair in zip(ring, [*ring[1:], ring[0]])]
 
 
 def check_untouched(before, after, far):

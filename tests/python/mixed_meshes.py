@@ -11,6 +11,7 @@ EDGES = {
     "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
     "hexahedron": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
     "wedge": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+    "pyramid": [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)],
     "triangle": [(0, 1), (1, 2), (2, 0)],
     "tetra": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
 }
@@ -78,18 +79,23 @@ def prisms_of(hexahedra):
     return np.concatenate([hexahedra[:, [0, 1, 2, 4, 5, 6]], hexahedra[:, [0, 2, 3, 4, 6, 7]]])
 
 
-def outer_area(mesh):
-    """Area of the faces that only one solid has, by their corners; an assertion fails where faces do not fit."""
-    count = collections.Counter()
+def outer_faces(mesh):
+    """Corners around each face that only one solid has, by the same in order; an assertion fails if one has three."""
+    count, around = collections.Counter(), {}
     for kind, cells in mesh.cells.items():
         for face in FACES.get(kind.rstrip("0123456789"), []):
-            for nodes in np.sort(np.asarray(cells)[:, list(face)], axis=1):
-                count[tuple(nodes)] += 1
+            rings = np.asarray(cells)[:, list(face)]
+            for ring, nodes in zip(rings.tolist(), map(tuple, np.sort(rings, axis=1).tolist())):
+                count[nodes] += 1
+                around[nodes] = ring
     assert max(count.values(), default=1) <= 2, "a face of three elements"
+    return {nodes: around[nodes] for nodes, times in count.items() if times == 1}
+
+
+def outer_area(mesh):
+    """Area of the faces that only one solid has, by their corners; an assertion fails where faces do not fit."""
     area = 0.0
-    for nodes, times in count.items():
-        if times == 2:
-            continue
+    for nodes in outer_faces(mesh):
         p = mesh.points[list(nodes)]
         if len(p) == 3:
             area += np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0])) / 2

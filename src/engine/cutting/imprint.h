@@ -53,6 +53,9 @@ public:
 
     std::span<const ImprintLine> lines() const { return lines_; }
 
+    /// Gives a line other known nodes: the mesh to be worked on is another.
+    void know(std::size_t line, std::vector<Index> known) { lines_[line].known = std::move(known); }
+
 private:
     std::vector<ImprintLine> lines_;
     bool exact_;

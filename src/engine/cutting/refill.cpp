@@ -14,6 +14,7 @@
 #include "cutting/cavity.h"
 #include "cutting/fill.h"
 #include "cutting/rebuild.h"
+#include "cutting/surface_line.h"
 #include "mesh/band_mesh.h"
 #include "mesh/crop.h"
 #include "mesh/middles.h"
@@ -76,6 +77,7 @@ public:
     }
 
     Refilled run() {
+        check_faces();
         find_taken();
         find_cavity();
         assemble(fill());
@@ -98,15 +100,16 @@ private:
     /// The type of the solid's tetrahedra that may be taken.
     static bool is_tetra(CellType type) { return traits(type).linear == CellType::tetra; }
 
-    void for_each_tetra(auto visit) const {
+    void for_each_solid(auto visit) const {
         for (const CellBlock& b : mesh_.blocks())
-            if (is_tetra(b.type))
-                for (Index c = 0; c < b.size(); ++c) visit(CellRef{b.type, c}, b.nodes(c));
+            if (traits(b.type).dimension == 3)
+                for (Index c = 0; c < b.size(); ++c)
+                    visit(CellRef{b.type, c}, b.nodes(c).first(static_cast<std::size_t>(traits(b.type).corners)));
     }
 
     Box box_of(std::span<const Index> nodes) const {
         Box box;
-        for (int k = 0; k < 4; ++k) box.extend(mesh_.points[nodes[k]]);
+        for (const Index n : nodes) box.extend(mesh_.points[n]);
         return box;
     }
 
@@ -139,19 +142,52 @@ private:
             return found->second;
         };
         SparseCheck check(64);
-        for_each_tetra([&](CellRef cell, std::span<const Index> nodes) {
+        for_each_solid([&](CellRef cell, std::span<const Index> nodes) {
             check();
             const Box box = box_of(nodes);
             if (!box.intersects(all) && !box.intersects(inside)) return;
-            bool take = std::any_of(nodes.begin(), nodes.begin() + 4,
-                                    [&](Index n) { return on_cover_.contains(n) || is_within(n); });
+            bool take = std::ranges::any_of(nodes, [&](Index n) { return on_cover_.contains(n) || is_within(n); });
             if (!take && box.intersects(all)) {
                 Meets meets{boxes, box};
                 Eigen::BVIntersect(tree, meets);
                 take = meets.found;
             }
+            if (take && !is_tetra(cell.type)) fail_to_replace(mesh_.points[nodes.front()]);
             if (take) taken_[static_cast<int>(cell.type)].push_back(cell.cell);
         });
+    }
+
+    /// Throws where faces are no tetrahedra's.
+    void check_faces() const {
+        check_faces(other_, cover_);
+        std::vector<SurfaceFace> own;
+        for (const FaceKey& key : covered_) own.push_back({key, false});
+        check_faces(mesh_, own);
+    }
+
+    static void check_faces(const Mesh& mesh, const std::vector<SurfaceFace>& faces) {
+        const auto is_other = [](const CellBlock& b) {
+            return b.size() > 0 && traits(b.type).dimension == 3 && !traits(b.type).simplex;
+        };
+        const auto other = std::ranges::find_if(mesh.blocks(), is_other);
+        if (other == mesh.blocks().end()) return;
+        std::set<FaceKey> left;
+        for (const SurfaceFace& f : faces) left.insert(face_key(f.nodes));
+        for (const CellBlock& b : mesh.blocks()) {
+            if (!is_tetra(b.type)) continue;
+            for (Index c = 0; c < b.size(); ++c) {
+                const auto n = b.nodes(c);
+                for (const auto& f : outward_faces) left.erase(face_key({n[f[0]], n[f[1]], n[f[2]]}));
+            }
+        }
+        if (!left.empty()) fail_to_replace(mesh.points[(*left.begin())[0]]);
+    }
+
+    [[noreturn]] static void fail_to_replace(const Vec3& at) {
+        throw QualityError("elements other than tetrahedra are where the two meet, as at " + point_text(at) +
+                               ", and could not be divided. Split them into tetrahedra first, or join the two with "
+                               "method='tie'",
+                           "other");
     }
 
     bool is_taken(CellRef cell) const {

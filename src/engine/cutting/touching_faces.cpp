@@ -10,10 +10,10 @@
 #include <tuple>
 
 #include "cancel.h"
-#include "mesh/outer_faces.h"
 #include "cutting/surface_line.h"
 #include "error.h"
 #include "mesh/near_boxes.h"
+#include "mesh/outer_faces.h"
 #include "mesh/surface_tree.h"
 #include "mesh/triangle_crossing.h"
 

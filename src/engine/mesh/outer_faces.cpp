@@ -4,31 +4,41 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <tuple>
 
 #include "cancel.h"
 
 namespace femscalpel {
 namespace {
 
-using Corners = std::array<Index, 4>;  // of a triangle the last is -1
+using FaceCorners = std::array<Index, 4>;  // of a triangle the last is -1
 
-Corners sorted(Corners corners) {
-    std::ranges::sort(corners);
-    return corners;
+/// FaceCorners of a face, without those that degenerate elements have twice; nothing where fewer than three are left.
+FaceCorners distinct(const FaceCorners& corners) {
+    FaceCorners out{-1, -1, -1, -1};
+    std::size_t count = 0;
+    for (const Index n : corners)
+        if (n >= 0 && std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count), n) ==
+                          out.begin() + static_cast<std::ptrdiff_t>(count))
+            out[count++] = n;
+    return out;
 }
 
-class Finder {
+class OuterFaceFinder {
 public:
-    Finder(const Mesh& mesh, const Eigen::AlignedBox3d& box) : mesh_(mesh), box_(box) {}
+    OuterFaceFinder(const Mesh& mesh, const Eigen::AlignedBox3d& box) : mesh_(mesh), box_(box) {}
 
     OuterFaces run() {
         find_faces();
-        std::ranges::stable_sort(faces_, {}, &Face::key);
+        // Those of solids come first of equal ones; on them, shells are none of their own.
+        std::ranges::sort(faces_, {}, [](const Face& f) {
+            return std::tuple(f.key, is_shell(f.facet), f.facet.type, f.facet.cell, f.facet.face);
+        });
         for (std::size_t k = 0, end = 0; k < faces_.size(); k = end) {
             std::size_t solids = 0;
-            for (end = k; end < faces_.size() && faces_[end].key == faces_[k].key; ++end) solids += !faces_[end].shell;
-            // Those of solids come first of equal ones; on them, shells are none of their own.
-            if (solids < 2) add(faces_[k]);
+            for (end = k; end < faces_.size() && faces_[end].key == faces_[k].key; ++end)
+                solids += is_shell(faces_[end].facet) ? 0 : 1;
+            if (solids < 2) add(faces_[k].facet);
         }
         find_edges();
         return std::move(out_);
@@ -36,10 +46,11 @@ public:
 
 private:
     struct Face {
-        Corners key, corners;
+        FaceCorners key;  // ascending
         Facet facet;
-        bool shell;
     };
+
+    static bool is_shell(const Facet& facet) { return traits(facet.type).dimension == 2; }
 
     bool reaches_in(std::span<const Index> corners) const {
         Eigen::AlignedBox3d own;
@@ -47,41 +58,48 @@ private:
         return own.intersects(box_);
     }
 
+    FaceCorners corners_of(const Facet& facet) const {
+        const CellTraits& t = traits(facet.type);
+        const auto n = mesh_.block(facet.type).nodes(facet.cell);
+        if (is_shell(facet)) return distinct({n[0], n[1], n[2], t.corners == 4 ? n[3] : -1});
+        FaceCorners out;
+        std::ranges::transform(t.faces[facet.face - 1], out.begin(), [&](int k) { return k < 0 ? -1 : n[k]; });
+        return t.simplex ? out : distinct(out);
+    }
+
     void find_faces() {
         SparseCheck check(1 << 12);
-        for (const int dimension : {3, 2})
-            for (const CellBlock& b : mesh_.blocks()) {
-                const CellTraits& t = traits(b.type);
-                if (t.dimension != dimension) continue;
-                for (Index c = 0; c < b.size(); ++c) {
-                    check();
-                    const auto n = b.nodes(c).first(static_cast<std::size_t>(t.corners));
-                    if (!reaches_in(n)) continue;
-                    if (dimension == 2) {
-                        const Corners own{n[0], n[1], n[2], t.corners == 4 ? n[3] : -1};
-                        faces_.push_back({sorted(own), own, {b.type, 2, 0, c}, true});
-                    }
-                    for (std::size_t f = 0; f < t.faces.size(); ++f) {
-                        Corners own;
-                        std::ranges::transform(t.faces[f], own.begin(), [&](int k) { return k < 0 ? -1 : n[k]; });
-                        faces_.push_back({sorted(own), own, {b.type, static_cast<std::int8_t>(f + 1), 0, c}, false});
-                    }
-                }
+        const auto add_face = [&](const Facet& facet) {
+            FaceCorners key = corners_of(facet);
+            if (key[2] < 0) return;
+            std::ranges::sort(key);
+            faces_.push_back({key, facet});
+        };
+        for (const CellBlock& b : mesh_.blocks()) {
+            const CellTraits& t = traits(b.type);
+            if (t.dimension < 2) continue;
+            for (Index c = 0; c < b.size(); ++c) {
+                check();
+                if (!reaches_in(b.nodes(c).first(static_cast<std::size_t>(t.corners)))) continue;
+                if (t.dimension == 2) add_face({b.type, 2, 0, c});
+                for (std::size_t f = 0; f < t.faces.size(); ++f)
+                    add_face({b.type, static_cast<std::int8_t>(f + 1), 0, c});
             }
+        }
     }
 
-    void add(const Face& face) {
-        Corners n = face.corners;
+    void add(const Facet& facet) {
+        FaceCorners n = corners_of(facet);
         if (!reaches_in({n.data(), n[3] < 0 ? 3U : 4U})) return;
-        if (!face.shell) turn_outwards(n, face.facet);
-        out_.triangles.push_back({{n[0], n[1], n[2]}, face.shell});
-        out_.owners.push_back(face.facet);
+        if (!is_shell(facet)) turn_outwards(n, facet);
+        out_.triangles.push_back({{n[0], n[1], n[2]}, is_shell(facet)});
+        out_.owners.push_back(facet);
         if (n[3] < 0) return;
-        out_.triangles.push_back({{n[0], n[2], n[3]}, face.shell});
-        out_.owners.push_back(face.facet);
+        out_.triangles.push_back({{n[0], n[2], n[3]}, is_shell(facet)});
+        out_.owners.push_back(facet);
     }
 
-    void turn_outwards(Corners& n, const Facet& facet) const {
+    void turn_outwards(FaceCorners& n, const Facet& facet) const {
         const auto nodes =
             mesh_.block(facet.type).nodes(facet.cell).first(static_cast<std::size_t>(traits(facet.type).corners));
         Vec3 middle = Vec3::Zero();
@@ -93,6 +111,7 @@ private:
 
     /// Edges of the shells that are left.
     void find_edges() {
+        if (std::ranges::none_of(out_.triangles, &SurfaceFace::shell)) return;
         std::map<std::pair<Index, Index>, int> count;
         const auto key = [](const OuterFaces::Edge& e) { return std::pair(std::minmax(e.nodes[0], e.nodes[1])); };
         for (std::size_t t = 0; t < out_.triangles.size(); ++t) {
@@ -129,6 +148,6 @@ private:
 
 }  // namespace
 
-OuterFaces outer_faces(const Mesh& mesh, const Eigen::AlignedBox3d& box) { return Finder(mesh, box).run(); }
+OuterFaces outer_faces(const Mesh& mesh, const Eigen::AlignedBox3d& box) { return OuterFaceFinder(mesh, box).run(); }
 
 }  // namespace femscalpel

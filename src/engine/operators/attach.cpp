@@ -9,8 +9,8 @@
 #include <sstream>
 #include <utility>
 
-#include "mesh/outer_faces.h"
 #include "cutting/surface_line.h"
+#include "mesh/outer_faces.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface_tree.h"
 #include "operators/merge_report.h"

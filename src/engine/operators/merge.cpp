@@ -28,13 +28,14 @@
 #include "operators/driver.h"
 #include "operators/joint.h"
 #include "operators/merge_checks.h"
+#include "operators/merge_refining.h"
 #include "operators/merge_report.h"
-#include "operators/refine_first.h"
 #include "operators/sections.h"
+#include "operators/simplify_at_meeting.h"
+#include "operators/simplify_first.h"
 #include "operators/tie.h"
 #include "operators/trim.h"
 #include "operators/unite.h"
-#include "tools/ribbon.h"
 
 namespace femscalpel {
 namespace {
@@ -50,76 +51,8 @@ constexpr double part_of_inputs = 0.1;
 /// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing or
 /// to poor elements. The last is for lines that lie on each other as polygons of one circle do: finer edges part them.
 constexpr double coarser[] = {2.5, 1.1, 0.3};
-/// And no longer than this part of a closed line.
-constexpr double of_length = 0.12;
-
-/// The meshes, refined where the other is much finer.
-class Refining {
-public:
-    Refining(const Mesh& mesh, const Mesh& addition, const OperatorOptions& options)
-        : meshes_{&mesh, &addition}, options_(options) {
-        // Elements are divided to fit each other.
-        options_.skin = nullptr;
-    }
-
-    /// `longer`: how many times longer than the other's edges may be.
-    void run(const std::vector<MeetingLine>& meeting, double longer) {
-        for (const std::size_t m : {0U, 1U}) {
-            std::vector<std::unique_ptr<Ribbon>> ribbons;
-            std::vector<RefineZone> zones;
-            for (const MeetingLine& line : meeting) {
-                double sum = 0;
-                for (const MeetingLine::Point& p : line.points) sum += p.size[1 - m];
-                ribbons.push_back(ribbon_of(line, m));
-                const Ribbon& ribbon = *ribbons.back();
-                zones.push_back({[&ribbon](const Vec3& x) {
-                                     return std::hypot(ribbon.distance(x), std::max(0.0, ribbon.beyond(x)));
-                                 },
-                                 std::min(longer * sum / static_cast<double>(line.points.size()),
-                                          ribbon.closed() ? of_length * ribbon.length() : HUGE_VAL)});
-            }
-            refined_[m] = refine_first(*meshes_[m], zones, options_);
-        }
-    }
-
-    bool any() const { return is_refined(0) || is_refined(1); }
-    const Mesh& mesh(std::size_t m) const { return is_refined(m) ? refined_[m]->mesh : *meshes_[m]; }
-
-    /// Adds what was done to mesh m to a report on what was done then.
-    void join(std::size_t m, Report& report) const {
-        if (!refined_[m]) return;
-        const Report& first = refined_[m]->report;
-        report.warnings.insert(report.warnings.begin(), first.warnings.begin(), first.warnings.end());
-        for (std::string& warning : report.warnings) speak_of_meshes(warning, m);
-        if (!is_refined(m)) return;
-        report.refinement = refined_[m]->summary;
-        report.nodes_added += first.nodes_added;
-        report.nodes_split += first.nodes_split;
-        report.elements_added += first.elements_added;
-    }
-
-private:
-    /// There is no tool here, nor an option to refine.
-    static void speak_of_meshes(std::string& warning, std::size_t m) {
-        const std::string tool = "the tool is finer than the mesh", option = " elements. refine=";
-        const std::size_t end = warning.find(option);
-        if (!warning.starts_with(tool) || end == std::string::npos) return;
-        const std::string finer =
-            m == 0 ? "the addition is finer than the mesh" : "the mesh is finer than the addition";
-        warning = finer + warning.substr(tool.size(), end + 9 - tool.size());
-        if (const std::size_t near = warning.find("near the tool"); near != std::string::npos)
-            warning.replace(near, 13, "where they meet");
-    }
-
-    bool is_refined(std::size_t m) const { return refined_[m] && !refined_[m]->tried_in_vain; }
-
-    std::array<const Mesh*, 2> meshes_;
-    OperatorOptions options_;
-    std::array<std::optional<Refined>, 2> refined_;
-};
 
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
-    check_other_elements(mesh, addition);
     check_within(mesh, addition);
     throw ToolError(
         "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
@@ -196,6 +129,7 @@ Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Me
     describe_joined(input, addition, result, added, out);
     out.nodes_added += joint.mesh(1).node_count() - shared;
     out.elements_added += joint.mesh(1).cell_count();
+    for (const auto& [type, count] : other.converted) out.converted[type] += count;
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
     return out;
 }
@@ -312,7 +246,7 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
 
 /// An attempt, and what it is made of.
 struct Joined {
-    std::unique_ptr<Refining> refined;
+    std::unique_ptr<MergeRefining> refined;
     std::unique_ptr<Joint> joint;
     United united;
 
@@ -330,11 +264,11 @@ struct Joined {
 
 /// One attempt, with elements at the line no more than `longer` times as long as the other's.
 Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double longer, const MergeOptions& options,
-                 const Prepared& known) {
+                 const Knowledge& known) {
     Joined out;
-    out.refined = std::make_unique<Refining>(mesh, addition, options);
-    Refining& refined = *out.refined;
-    refined.run(meeting.lines, longer);
+    out.refined = std::make_unique<MergeRefining>(mesh, addition, options);
+    MergeRefining& refined = *out.refined;
+    refined.run(meeting.lines, longer, known);
     // Smaller elements do not make what is off a curved surface nearer.
     if (refined.any())
         meeting = find_meeting(refined.mesh(0), refined.mesh(1),
@@ -343,7 +277,7 @@ Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double
     lines.reserve(meeting.lines.size());
     for (const MeetingLine& line : meeting.lines) lines.push_back(line_of(line, refined.mesh(0)));
     out.joint = std::make_unique<Joint>(refined.mesh(0), refined.mesh(1), std::move(lines), options);
-    out.joint->run(&refined.mesh(0) == &mesh ? known : Prepared{});
+    out.joint->run(&refined.mesh(0) == &mesh ? known[0] : Prepared{});
     check_cancelled();
     for (const std::size_t m : {0U, 1U}) refined.join(m, out.joint->report(m));
     const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
@@ -353,7 +287,7 @@ Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double
 
 /// Where elements of different sizes meet badly, tries again with smaller ones.
 Joined join(const Mesh& mesh, const Mesh& addition, const Meeting& meeting, const MergeOptions& options,
-            const Prepared& known) {
+            const Knowledge& known) {
     std::optional<Joined> best;
     std::exception_ptr first;
     for (const double longer : coarser) {
@@ -368,6 +302,29 @@ Joined join(const Mesh& mesh, const Mesh& addition, const Meeting& meeting, cons
     if (!best) std::rethrow_exception(first);
     return std::move(*best);
 }
+
+/// The two with simplices alone where they meet.
+struct Simplices {
+    std::array<const Mesh*, 2> mesh;
+    std::array<std::optional<Refined>, 2> converted;
+    Knowledge known;
+    Meeting meeting;
+
+    Simplices(const Mesh& first, const Mesh& addition, Meeting met, const MergeOptions& options,
+              const Prepared& known_of_first)
+        : mesh{&first, &addition}, known{known_of_first, {}}, meeting(std::move(met)) {
+        const std::size_t fitted = options.keep_addition ? 0 : 1;
+        for (const std::size_t m : {0U, 1U})
+            converted[m] =
+                simplify_at_meeting(*mesh[m], m == 0 ? addition : first, meeting.lines, m == fitted, options, known[m]);
+        for (const std::size_t m : {0U, 1U})
+            if (converted[m]) {
+                mesh[m] = &converted[m]->mesh;
+                known[m] = {};
+            }
+        if (converted[0] || converted[1]) meeting = find_meeting(*mesh[0], *mesh[1], options.tolerance);
+    }
+};
 
 /// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
 std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
@@ -386,25 +343,36 @@ std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
     return out;
 }
 
-/// Throws QualityError where more than two tetrahedra have a face at the seam: a mesh that only looks right.
+/// Throws QualityError where more than two solids have a face at the seam, or half a quadrangle is another's face: a
+/// mesh that only looks right.
 void check_seam(const Mesh& mesh, const std::vector<Index>& seam) {
     const auto at_seam = [&](Index n) { return std::ranges::binary_search(seam, n); };
-    std::map<std::array<Index, 3>, int> faces;
+    const auto fail = [&](Index node) {
+        throw QualityError("the two solids cannot be joined at " + point_text(mesh.points[node]) +
+                               ": they would overlap there. Move the addition a little",
+                           "other");
+    };
+    std::map<FaceKey, int> faces;
+    std::vector<std::array<Index, 4>> quadrangles;
     for (const CellBlock& b : mesh.blocks()) {
-        if (traits(b.type).linear != CellType::tetra) continue;
+        const CellTraits& t = traits(b.type);
+        if (t.dimension != 3) continue;
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
-            if (std::none_of(n.begin(), n.begin() + 4, at_seam)) continue;
-            for (const auto& f : outward_faces) {
-                std::array<Index, 3> key{n[f[0]], n[f[1]], n[f[2]]};
-                std::ranges::sort(key);
-                if (++faces[key] > 2)
-                    throw QualityError("the two solids cannot be joined at " + point_text(mesh.points[key[0]]) +
-                                           ": they would overlap there. Move the addition a little",
-                                       "other");
+            if (std::none_of(n.begin(), n.begin() + t.corners, at_seam)) continue;
+            for (const auto& f : t.faces) {
+                if (f[3] >= 0) {
+                    quadrangles.push_back({n[f[0]], n[f[1]], n[f[2]], n[f[3]]});
+                    continue;
+                }
+                const FaceKey key = face_key({n[f[0]], n[f[1]], n[f[2]]});
+                if (++faces[key] > 2) fail(key[0]);
             }
         }
     }
+    for (const auto& q : quadrangles)
+        for (std::size_t k = 0; k < 4; ++k)
+            if (faces.contains(face_key({q[k], q[(k + 1) % 4], q[(k + 2) % 4]}))) fail(q[k]);
 }
 
 }  // namespace
@@ -428,11 +396,14 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
         return out;
     }
     check_itself(addition);
-    const Meeting meeting = find_meeting(mesh, addition, options.tolerance);
+    Meeting meeting = find_meeting(mesh, addition, options.tolerance);
     if (meeting.lines.empty()) fail_apart(mesh, addition);
     if (addition.dimension() == 2) check_overlap(mesh, addition);
     const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
-    Joined joined = join(mesh, addition, meeting, options, known);
+    const Simplices simple(mesh, addition, std::move(meeting), options, known);
+    Joined joined = join(*simple.mesh[0], *simple.mesh[1], simple.meeting, options, simple.known);
+    for (const std::size_t m : {0U, 1U})
+        if (simple.converted[m]) add_conversion(*simple.converted[m], options.strict, joined.joint->report(m));
     United& united = joined.united;
     Result out;
     out.mesh = std::move(united.mesh);

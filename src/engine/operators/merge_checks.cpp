@@ -201,30 +201,6 @@ void check_pieces(const Mesh& result, const std::string& name) {
                             "other");
 }
 
-void check_other_elements(const Mesh& mesh, const Mesh& addition) {
-    for (const auto& [own, other, parameter] :
-         {std::tuple(&mesh, &addition, "mesh"), std::tuple(&addition, &mesh, "other")}) {
-        const Box there = box_around(*other);
-        const Box around = grown(there, close * there.diagonal().norm());
-        for (const CellBlock& b : own->blocks()) {
-            const CellTraits& t = traits(b.type);
-            if (t.simplex || t.dimension < 2) continue;
-            for (Index c = 0; c < b.size(); ++c) {
-                Box box;
-                for (const Index n : b.nodes(c)) box.extend(own->points[n]);
-                if (!box.intersects(around)) continue;
-                throw UnsupportedElementError(
-                    "no triangles or tetrahedra of the two meet; where they are near each other, " +
-                        std::string(own == &mesh ? "the mesh" : "the addition") + " has elements of type " +
-                        std::string(t.name) + " (" + std::to_string(b.ids[c]) +
-                        ", ...), which cannot be given new nodes. Split these into triangles or tetrahedra first, or "
-                        "join the two with method='tie'",
-                    parameter);
-            }
-        }
-    }
-}
-
 void warn_of_buried(const Mesh& result, const std::string& added, Report& report) {
     const std::set<FaceKey> between = faces_between(result, *result.find_group(added, GroupKind::element));
     if (between.empty()) return;

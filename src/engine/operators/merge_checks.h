@@ -24,10 +24,6 @@ void check_pieces(const Mesh& result, const std::string& name);
 /// Throws ToolError when one of two meshes that do not meet is inside the other.
 void check_within(const Mesh& mesh, const Mesh& addition);
 
-/// Throws UnsupportedElementError when elements that are no simplices are near the other mesh, by the boxes around
-/// them: of two meshes that do not meet otherwise, these may be why.
-void check_other_elements(const Mesh& mesh, const Mesh& addition);
-
 /// Warns of groups that have faces between the elements of the group `added` and others, which were on the skin.
 void warn_of_buried(const Mesh& result, const std::string& added, Report& report);
 

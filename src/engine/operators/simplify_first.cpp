@@ -23,11 +23,6 @@ constexpr int spare_rings = 2;
 /// So often what is to be converted grows where pyramids come out poor.
 constexpr int rounds_for_pyramids = 4;
 
-bool has_simplices_alone(const Mesh& mesh) {
-    return std::ranges::all_of(mesh.blocks(),
-                               [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
-}
-
 /// Level >= 0 at the nodes around which there have to be simplices alone.
 std::vector<std::int8_t> levels_to_work_on(const Mesh& mesh, std::span<const Blade> blades,
                                            std::span<const RefineZone> zones, const OperatorOptions& options,
@@ -94,6 +89,11 @@ Report report_of(const Mesh& before, const FamilyTotals& totals, const Simplifie
 }
 
 }  // namespace
+
+bool has_simplices_alone(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.blocks(),
+                               [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
+}
 
 std::optional<Refined> simplify_first(const Mesh& mesh, std::span<const Blade> blades,
                                       std::span<const RefineZone> zones, const OperatorOptions& options,

@@ -15,6 +15,9 @@
 
 namespace femscalpel {
 
+/// Whether a mesh has no elements but points, segments, triangles and tetrahedra.
+bool has_simplices_alone(const Mesh& mesh);
+
 /// Makes simplices (simplify()) of what else is where an operation will work: in the band around `blades`, and where
 /// the mesh would be refined first for `zones`. Nothing, when there is nothing else. `known` is what is known of
 /// `mesh`. Throws what locate(), simplify() and carry_deck() do.

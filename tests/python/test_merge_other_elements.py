@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What meets has quadrangles, hexahedra, prisms, pyramids: they become triangles and tetrahedra there, and nowhere
+else."""
+
+import numpy as np
+import pytest
+
+import femscalpel as fs
+from merge_cases import KINDS, in_one_line, of_quadrangles
+from merge_parts import block, check_conforming, check_untouched, pipe, plate, rod
+from mixed_meshes import grid, prisms_of, second_order_of_all, worst_of
+
+
+def bricks(origin, size, counts, kind, name):
+    """A block of hexahedra or prisms, with its elements in a group."""
+    points, cells = grid(counts)
+    if kind == "wedge":
+        cells = prisms_of(cells)
+    points = points / counts * size + origin
+    return fs.Mesh(points, {kind: cells}, groups={name: ("element", np.arange(1, len(cells) + 1))})
+
+
+def measures_kept(result, names):
+    records = {g.name: g for g in result.report.groups}
+    return all(records[n].measure_after == pytest.approx(records[n].measure_before, rel=1e-9) for n in names)
+
+
+def measure_of(mesh, group):
+    members = mesh.groups[group, "element"].ids
+    return sum(v[np.isin(mesh.cell_ids[k], members)].sum() for k, v in fs.measure(mesh).items())
+
+
+@pytest.mark.parametrize("second_order", [False, True])
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("kind", ["quadrangles", "on_bricks", "shell_on_bricks"])
+def test_random_placements(kind, seed, second_order):
+    mesh, part = KINDS[kind](np.random.default_rng(seed + 1000))
+    if second_order:
+        mesh = fs.Mesh(*second_order_of_all(mesh.points, mesh.cells), groups=groups_of(mesh))
+    result = fs.merge(mesh, part)
+    result.mesh.validate()
+    check_conforming(result.mesh)
+    # On curved shells of second order, whose chords the addition meets, wedges come out poorer.
+    least = 0.05 if second_order and "PIPE" in mesh.groups else 0.12
+    assert worst_of(result.mesh) > min(least, 0.9 * worst_of(part))
+    assert result.report.converted
+    if kind == "quadrangles":
+        assert in_one_line(result.mesh)
+    if kind != "quadrangles" or "FLOOR" in mesh.groups:
+        assert measures_kept(result, set(mesh.groups) & {"CORE", "FLOOR"})
+
+
+def groups_of(mesh):
+    return {name: (g.kind, g.ids) for name, g in mesh.groups.items()}
+
+
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+@pytest.mark.parametrize("kinds", [("hexahedron", "wedge"), ("wedge", "hexahedron"), ("hexahedron", "hexahedron")])
+def test_bricks_into_bricks(kinds, keep):
+    box = bricks((0, 0, 0), (6, 5, 4), (14, 12, 10), kinds[0], "BOX")
+    box.add_group("FIX", "node", box.node_ids[box.points[:, 2] == 0])
+    part = bricks((1.9, 1.6, 3.4), (2.2, 1.7, 2.1), (4, 3, 4), kinds[1], "BOSS")
+    result = fs.merge(box, part, name="B", keep=keep)
+    check_conforming(result.mesh)
+    total = sum(v.sum() for v in fs.measure(result.mesh).values())
+    assert total == pytest.approx(120 + 2.2 * 1.7 * 1.5, rel=1e-9)
+    kept = ("BOX", 120) if keep == "mesh" else ("BOSS", 2.2 * 1.7 * 2.1)
+    assert measure_of(result.mesh, kept[0]) == pytest.approx(kept[1], rel=1e-9)
+    check_untouched(box, result.mesh, lambda x: x[:, 2] < 1.3)
+    assert set(result.mesh.groups["FIX"].ids) == set(box.groups["FIX"].ids)
+    left = len(result.mesh.cells[kinds[0]])
+    assert left > len(box.cells[kinds[0]]) / 4
+    assert result.report.converted[kinds[0]] + left >= len(box.cells[kinds[0]])
+
+
+def test_a_plate_on_hexahedra_and_one_of_quadrangles_round_a_pipe():
+    box = bricks((0, 0, 0), (6, 5, 4), (12, 10, 8), "hexahedron", "BOX")
+    fin = of_quadrangles(plate((1.2, 1.3, 4), (3.3, 2, 0), (0, 0.3, 2), (6, 2), "FIN"), np.random.default_rng(2))
+    mesh = fs.merge(box, fin).mesh
+    check_conforming(mesh)
+    shells = np.unique(np.concatenate([c.ravel() for k, c in mesh.cells.items() if k.startswith(("tri", "quad"))]))
+    solids = np.unique(np.concatenate([c.ravel() for k, c in mesh.cells.items() if k not in ("triangle", "quad")]))
+    assert set(mesh.node_ids[np.intersect1d(shells, solids)]) == set(mesh.groups["ADD_SEAM"].ids)
+
+    ring = of_quadrangles(pipe((3.1, 2.4, -1), 1.1, 3, (16, 8), "RING"), np.random.default_rng(2))
+    floor = of_quadrangles(plate((0, 0, 0), (6, 0, 0), (0, 5, 0), (12, 10), "FLOOR"), np.random.default_rng(2))
+    result = fs.merge(floor, ring)
+    check_conforming(result.mesh)
+    assert in_one_line(result.mesh)
+    assert measures_kept(result, ["FLOOR"])
+
+
+def test_what_is_far_finer_refines_what_was_divided():
+    box = bricks((0, 0, 0), (8, 8, 8), (4, 4, 4), "hexahedron", "BOX")
+    result = fs.merge(box, rod((4, 4, 8), 0.6, 1, (4, 6), "PIN"))
+    check_conforming(result.mesh)
+    assert result.report.refinement is not None
+    assert measures_kept(result, ["BOX"])
+    assert worst_of(result.mesh) > 0.12
+
+
+def test_a_deck_of_hexahedra_is_carried(tmp_path):
+    box = bricks((0, 0, 0), (6, 5, 4), (12, 10, 8), "hexahedron", "BOX")
+    path = tmp_path / "box.inp"
+    fs.write(box, path)
+    with path.open("a") as deck:
+        deck.write("*MATERIAL, NAME=S\n*ELASTIC\n210000., .3\n*SOLID SECTION, ELSET=BOX, MATERIAL=S\n")
+        deck.write("*STEP\n*STATIC\n*DLOAD\nBOX, GRAV, 9.81, 0., 0., -1.\n*END STEP\n")
+    text = path.read_text().replace("TYPE=C3D8\n", "TYPE=C3D8I\n").replace("TYPE=C3D8,", "TYPE=C3D8I,")
+    path.write_text(text)
+    result = fs.merge(fs.read(path), block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "BOSS"))
+    fs.write(result.mesh, tmp_path / "out.inp")
+    out = (tmp_path / "out.inp").read_text()
+    assert "TYPE=C3D8I" in out and "TYPE=C3D4" in out and "BOX, GRAV" in out
+    assert any("stiffer in bending" in w for w in result.report.warnings)
+    again = fs.read(tmp_path / "out.inp")
+    assert sum(len(c) for c in again.cells.values()) == sum(len(c) for c in result.mesh.cells.values())
