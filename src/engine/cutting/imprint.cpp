@@ -106,7 +106,8 @@ private:
         std::array<int, 3> nodes = n;
         std::ranges::sort(nodes, {}, [&](int v) { return (at(v) - foot).norm(); });
         const double nearest = (at(nodes[0]) - foot).norm();
-        const double close = std::max({10 * f_.tolerance, d_.rounding, 2 * (foot - x).norm(), 1e-6 * edge});
+        const double close =
+            std::max({10 * f_.tolerance, d_.rounding, 2 * (foot - x).norm(), 1e-6 * edge, 1.5 * sag(n)});
         if (nearest <= close) {
             if (exact_) band_.nodes[nodes[0]].at = x;
             return nodes[0];
@@ -140,6 +141,16 @@ private:
             return nodes[0];
         }
         return -1;
+    }
+
+    /// How far the surface of second-order elements is off a face.
+    double sag(const std::array<int, 3>& n) const {
+        double out = 0;
+        for (std::size_t k = 0; k < 3 && !band_.mid_nodes.empty(); ++k) {
+            const int a = n[k], b = n[(k + 1) % 3];
+            out = std::max(out, (mid_side(d_, a, b).at - (at(a) + at(b)) / 2).norm());
+        }
+        return out;
     }
 
     /// Halves edges that a bent line dips through without crossing; true if there was one.
