@@ -7,7 +7,6 @@ import pytest
 import femscalpel as fs
 import merge_cases
 from meshes import grid_box, quadratic, tetra_volumes
-import merge_cases
 from merge_parts import (
     EDGES,
     areas,
@@ -428,3 +427,16 @@ def test_what_is_flush_is_in_one_of_the_two(keep):
     names = ("BASE", "PART")
     sizes = [next(g.measure_after for g in fs.merge(base, part, keep=keep).report.groups if g.name == n) for n in names]
     assert sizes == pytest.approx([256, 4] if keep == "mesh" else [252, 8], rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", [1, 3, 7, 10, 15, 18, 25, 28, 34, 39])
+def test_a_curved_shell_of_second_order(seed):
+    """Fins along it, and rings whose chords are others, touch the skin itself, which is off its own chords."""
+    mesh, part = merge_cases.KINDS["curved"](np.random.default_rng(seed))
+    mesh = merge_cases.with_middles(mesh)
+    result = fs.merge(mesh, part)
+    check_conforming(result.mesh)
+    assert merge_cases.in_one_line(result.mesh)
+    assert worst(result.mesh) > 0.12
+    seam = result.mesh.points[np.isin(result.mesh.node_ids, result.mesh.groups["ADD_SEAM"].ids)]
+    assert np.abs(np.linalg.norm(seam[:, 1:], axis=1) - 5).max() < 2e-3

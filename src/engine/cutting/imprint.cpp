@@ -69,6 +69,8 @@ public:
         for (std::size_t k = 0; k + (ribbon_.closed() ? 0 : 1) < nodes.size(); ++k) {
             const int a = nodes[k], b = nodes[(k + 1) % nodes.size()];
             if (band_.cut_edges.find({a, b}) < 0) band_.cut_edges.add({a, b}, tag_);
+            // The nodes are where those of another mesh are, off the curve that the edge is on.
+            if (exact_ && !band_.mid_nodes.empty()) d_.mids.straighten(a, b);
         }
         return at_stop_;
     }

@@ -26,8 +26,7 @@ void speak_of_meshes(std::string& warning, std::size_t m) {
     const std::string tool = "the tool is finer than the mesh", option = " elements. refine=";
     const std::size_t end = warning.find(option);
     if (!warning.starts_with(tool) || end == std::string::npos) return;
-    const std::string finer =
-        m == 0 ? "the addition is finer than the mesh" : "the mesh is finer than the addition";
+    const std::string finer = m == 0 ? "the addition is finer than the mesh" : "the mesh is finer than the addition";
     warning = finer + warning.substr(tool.size(), end + 9 - tool.size());
     if (const std::size_t near = warning.find("near the tool"); near != std::string::npos)
         warning.replace(near, 13, "where they meet");
@@ -50,11 +49,10 @@ void MergeRefining::run(const std::vector<MeetingLine>& meeting, double longer, 
             for (const MeetingLine::Point& p : line.points) sum += p.size[1 - m];
             ribbons.push_back(ribbon_of(line, m));
             const Ribbon& ribbon = *ribbons.back();
-            zones.push_back({[&ribbon](const Vec3& x) {
-                                 return std::hypot(ribbon.distance(x), std::max(0.0, ribbon.beyond(x)));
-                             },
-                             std::min(longer * sum / static_cast<double>(line.points.size()),
-                                      ribbon.closed() ? of_length * ribbon.length() : HUGE_VAL)});
+            zones.push_back(
+                {[&ribbon](const Vec3& x) { return std::hypot(ribbon.distance(x), std::max(0.0, ribbon.beyond(x))); },
+                 std::min(longer * sum / static_cast<double>(line.points.size()),
+                          ribbon.closed() ? of_length * ribbon.length() : HUGE_VAL)});
         }
         const Mesh& mesh = *meshes_[m];
         std::optional<Refined> simple = simplify(mesh, zones, known[m]);
