@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What cannot be merged is refused for the true reason, and what one should know of a merge is said."""
 
+import re
+
 import numpy as np
 import pytest
 
 import femscalpel as fs
+from merge_cases import KINDS
 from merge_parts import block, plate, rod, shell, solid, worst
 from meshes import grid_box, quadratic
 from test_tie import face_areas, hexahedra
@@ -87,7 +90,7 @@ def test_other_elements_close_to_the_seam():
     ids=["edge on edge", "a rod that lies on a face"],
 )
 def test_solids_that_touch_in_a_line(addition):
-    with pytest.raises(fs.QualityError, match="touch over an area, not in a line") as caught:
+    with pytest.raises(fs.QualityError, match="touch in a line or a point alone") as caught:
         fs.merge(box(), addition)
     assert caught.value.parameter == "other"
 
@@ -364,3 +367,21 @@ def test_no_element_of_hardly_a_volume_is_filled_in():
         assert "where the two meet" in str(error) or "cannot be joined" in str(error)
     else:
         assert worst(result.mesh) > 0.02
+
+
+@pytest.mark.parametrize("within", [fs.Disk((3.1, 2.6, 4), 1.4), None], ids=["a crack that ends inside", "two parts"])
+def test_a_solid_across_a_crack(within):
+    mesh = grid_box((12, 10, 8), (6.0, 5.0, 4.0))
+    cracked = fs.crack(mesh, fs.Plane((3.1, 2.5, 2), (1, 0, 0.1)), within=within).mesh
+    with pytest.raises(fs.QualityError, match="double nodes, .*lips") as caught:
+        fs.merge(cracked, block((3, 2.6, 4), (2.2, 1.7, 1.5), (3, 3, 2), "A"))
+    at = np.array(re.search(r"at \(([^)]*)\)", str(caught.value)).group(1).split(), float)
+    assert abs(fs.Plane((3.1, 2.5, 2), (1, 0, 0.1)).distance(at)) < 1e-3
+
+
+def test_the_end_of_a_rib_beside_a_border_is_no_crack():
+    mesh, part = KINDS["quadrangles"](np.random.default_rng(92))
+    try:
+        fs.merge(mesh, part)
+    except fs.Error as error:
+        assert "double nodes" not in str(error)

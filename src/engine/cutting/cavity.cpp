@@ -15,10 +15,12 @@
 namespace femscalpel {
 namespace {
 
-[[noreturn]] void refuse(const char* what, const Vec3& at) {
+[[noreturn]] void refuse(const char* why, const Vec3& at) { throw CavityError(why, at); }
+
+std::string text_of(const char* why, const Vec3& at) {
     std::ostringstream message;
-    message << "no volume to be filled: " << what << " near (" << at.transpose() << ")";
-    throw CavityError(message.str());
+    message << "no volume to be filled: " << why << " near (" << at.transpose() << ")";
+    return message.str();
 }
 
 /// The same for all rotations of a triangle.
@@ -131,8 +133,11 @@ double enclosed_volume(std::span<const Vec3> points, std::span<const Triangle> t
     return -volume;
 }
 
+CavityError::CavityError(const char* why_not, const Vec3& where)
+    : QualityError(text_of(why_not, where)), why(why_not), at(where) {}
+
 void check_cavity(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-    if (triangles.empty()) throw CavityError("no volume to be filled: no triangles");
+    if (triangles.empty()) refuse("no triangles", points.empty() ? Vec3(Vec3::Zero()) : points.front());
     check_closed(points, triangles);
     if (!(enclosed_volume(points, triangles) > 0))
         refuse("triangles that look inwards or enclose nothing", centre(points, triangles[0]));

@@ -29,7 +29,11 @@ double enclosed_volume(std::span<const Vec3> points, std::span<const Triangle> t
 /// Triangles do not bound a volume that could be filled.
 class CavityError : public QualityError {
 public:
-    using QualityError::QualityError;
+    /// `why`, such as "an open edge", and where.
+    CavityError(const char* why, const Vec3& at);
+
+    const char* const why;
+    const Vec3 at;
 };
 
 /// Throws CavityError that names the place where triangles do not bound a volume: an edge that is not run through as

@@ -2,7 +2,9 @@
 #include "cutting/checks.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "cancel.h"
@@ -103,6 +105,16 @@ void check_input_shape(Workpiece& f, const Mesh& mesh) {
     if (!poor.empty())
         f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) +
                              " element(s) with mean ratio below 0.1 near the tool (" + name_them(poor) + ")");
+}
+
+std::optional<Vec3> double_nodes(const Mesh& mesh, const Eigen::AlignedBox3d& box, const Vec3& near) {
+    std::set<std::array<double, 3>> places;
+    std::optional<Vec3> out;
+    for (const Vec3& x : mesh.points)
+        if (box.contains(x) && !places.insert({x[0], x[1], x[2]}).second &&
+            (!out || (x - near).norm() < (*out - near).norm()))
+            out = x;
+    return out;
 }
 
 void check_skin(Workpiece& f) {

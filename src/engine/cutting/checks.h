@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <Eigen/Geometry>
+#include <optional>
+
 #include "cutting/workpiece.h"
 
 namespace femscalpel {
@@ -13,6 +16,9 @@ void check_extent(const Mesh& mesh);
 /// ones that are folded where solvers integrate; counts poor ones (mean ratio below 0.1) as a warning. Elements that
 /// are folded at a corner only are mended, see folded_input.h.
 void check_input_shape(Workpiece& workpiece, const Mesh& mesh);
+
+/// A place in the box where a mesh has two nodes, as crack lips and contacts do: the nearest to `near`.
+std::optional<Vec3> double_nodes(const Mesh& mesh, const Eigen::AlignedBox3d& box, const Vec3& near);
 
 /// With the shape of the skin given: throws ToolError when no face of the skin in the band lies on it, counts those
 /// that do not as a warning.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <unsupported/Eigen/BVH>
@@ -12,12 +13,14 @@
 
 #include "cancel.h"
 #include "cutting/cavity.h"
+#include "cutting/checks.h"
 #include "cutting/fill.h"
 #include "cutting/rebuild.h"
 #include "cutting/surface_line.h"
 #include "mesh/band_mesh.h"
 #include "mesh/crop.h"
 #include "mesh/middles.h"
+#include "mesh/near_boxes.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
@@ -28,21 +31,6 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 /// Tetrahedra as near to the other's skin as this, in its edges, are taken out, so that there is room for good ones.
 constexpr double room = 0.6;
-
-/// For Eigen's BVIntersect: whether any of the boxes meets one.
-struct Meets {
-    const std::vector<Box>& boxes;
-    const Box& box;
-    bool found = false;
-
-    // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVIntersect() calls them.
-    bool intersectVolume(const Box& b) const { return b.intersects(box); }
-    bool intersectObject(int k) {
-        found = found || boxes[k].intersects(box);
-        return found;
-    }
-    // NOLINTEND(readability-identifier-naming)
-};
 
 /// For Eigen's BVMinimize: the point nearest to a place.
 struct Nearest {
@@ -90,11 +78,30 @@ private:
         try {
             return fill_cavity(points_, triangles_);
         } catch (const CavityError& error) {
-            throw QualityError(std::string("the two solids cannot be joined (") + error.what() +
-                                   "): they have to touch over an area, not in a line, or to overlap. Move the "
-                                   "addition, or leave that part of it out",
-                               "other");
+            fail(error);
         }
+    }
+
+    [[noreturn]] void fail(const CavityError& error) const {
+        const std::string cannot = "the two solids cannot be joined";
+        if (cover_.empty())
+            throw QualityError(cannot +
+                                   ": they touch in a line or a point alone. They have to touch over an area, or to "
+                                   "overlap. Move the addition, or leave that part of it out",
+                               "other");
+        const Box there = box_around(other_).intersection(box_around(mesh_));
+        for (const Mesh* mesh : {&mesh_, &other_})
+            if (const std::optional<Vec3> at = double_nodes(*mesh, there, error.at))
+                throw QualityError(cannot +
+                                       ": double nodes, of a crack's lips or a contact, are where the two meet, as at " +
+                                       point_text(*at) +
+                                       ". Join the two before it is cracked, or move the addition off the double nodes",
+                                   "other");
+        throw QualityError(cannot + ": near " + point_text(error.at) + " their skins leave no volume between them (" +
+                               error.why +
+                               "), as where they run along each other at a small angle. Move the addition a little, or "
+                               "refine both there first",
+                           "other");
     }
 
     /// The type of the solid's tetrahedra that may be taken.
@@ -116,8 +123,6 @@ private:
     /// Tetrahedra that have a node on the covered skin or inside the other, or come near the part of the other's skin.
     void find_taken() {
         std::vector<Box> boxes;
-        std::vector<int> objects;
-        Box all;
         for (const SurfaceFace& f : cover_) {
             Box box;
             double size = 0;
@@ -125,12 +130,9 @@ private:
                 box.extend(other_.points[f.nodes[k]]);
                 size += (other_.points[f.nodes[k]] - other_.points[f.nodes[(k + 1) % 3]]).norm() / 3;
             }
-            objects.push_back(static_cast<int>(boxes.size()));
             boxes.push_back(grown(box, room * size));
-            all.extend(boxes.back());
         }
-        Eigen::KdBVH<double, 3, int> tree;
-        tree.init(objects.begin(), objects.end(), boxes.begin(), boxes.end());
+        const BoxTree cover(std::move(boxes));
         const Box inside = box_around(other_).intersection(box_around(mesh_));
         const std::vector<SurfaceFace> skin = surface_near(other_, grown(inside, 0.1 * inside.diagonal().norm()));
         const SurfaceTree other(other_, skin);
@@ -145,13 +147,9 @@ private:
         for_each_solid([&](CellRef cell, std::span<const Index> nodes) {
             check();
             const Box box = box_of(nodes);
-            if (!box.intersects(all) && !box.intersects(inside)) return;
+            if (!box.intersects(cover.all()) && !box.intersects(inside)) return;
             bool take = std::ranges::any_of(nodes, [&](Index n) { return on_cover_.contains(n) || is_within(n); });
-            if (!take && box.intersects(all)) {
-                Meets meets{boxes, box};
-                Eigen::BVIntersect(tree, meets);
-                take = meets.found;
-            }
+            take = take || cover.meets(box);
             if (take && !is_tetra(cell.type)) fail_to_replace(mesh_.points[nodes.front()]);
             if (take) taken_[static_cast<int>(cell.type)].push_back(cell.cell);
         });

@@ -25,6 +25,10 @@ void check_joined(const Deformable& d, int a, int b) {
         return is_surface_face(d, s) && std::ranges::find(band.skin[s], b) != band.skin[s].end();
     });
     if (joined) return;
+    if (band.nodes[a].at == band.nodes[b].at)
+        throw QualityError("the seam runs across double nodes, of a crack's lips or a contact, at " +
+                           point_text(band.nodes[a].at) +
+                           ": join the two before it is cracked, or move the addition off the double nodes");
     throw QualityError("the seam cannot be made edges between " + point_text(band.nodes[a].at) + " and " +
                        point_text(band.nodes[b].at) +
                        ": the mesh is too coarse there, or something there holds its nodes. Refine the mesh there "

@@ -33,7 +33,36 @@ Eigen::KdBVH<double, 3, int> tree_of(const std::vector<Box>& boxes) {
     return {objects.begin(), objects.end(), boxes.begin(), boxes.end()};
 }
 
+/// For Eigen's BVIntersect: whether any of the boxes meets one.
+struct Meets {
+    const std::vector<Eigen::AlignedBox3d>& boxes;
+    const Eigen::AlignedBox3d& box;
+    bool found = false;
+
+    // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVIntersect() calls them.
+    bool intersectVolume(const Eigen::AlignedBox3d& b) const { return b.intersects(box); }
+    bool intersectObject(int k) {
+        found = found || boxes[k].intersects(box);
+        return found;
+    }
+    // NOLINTEND(readability-identifier-naming)
+};
+
 }  // namespace
+
+BoxTree::BoxTree(std::vector<Eigen::AlignedBox3d> boxes) : boxes_(std::move(boxes)) {
+    std::vector<int> objects(boxes_.size());
+    std::iota(objects.begin(), objects.end(), 0);
+    tree_.init(objects.begin(), objects.end(), boxes_.begin(), boxes_.end());
+    for (const Eigen::AlignedBox3d& b : boxes_) all_.extend(b);
+}
+
+bool BoxTree::meets(const Eigen::AlignedBox3d& box) const {
+    if (!all_.intersects(box)) return false;
+    Meets meets{boxes_, box};
+    Eigen::BVIntersect(tree_, meets);
+    return meets.found;
+}
 
 std::vector<std::pair<int, int>> near_boxes(const std::vector<Box>& first, const std::vector<Box>& second) {
     if (first.empty() || second.empty()) return {};

@@ -207,11 +207,13 @@ void warn_of_buried(const Mesh& result, const std::string& added, Report& report
     const Counts buried = faces_in_groups(result, [&](const FaceKey& key) { return between.contains(key); });
     if (buried.empty()) return;
     const Counts all = faces_in_groups(result, [](const FaceKey&) { return true; });
+    std::string names;
     for (const auto& [group, faces] : buried)
-        report.warnings.push_back(std::to_string(faces) + " of the " + std::to_string(all.at(group)) + " faces of '" +
-                                  result.groups[group].name +
-                                  "' are inside now, between the mesh and the addition: what a solver is told to do "
-                                  "there, as a pressure, it still does. Take them out of the group if it should not");
+        names += (names.empty() ? "'" : ", '") + result.groups[group].name + "' (" + std::to_string(faces) + " of " +
+                 std::to_string(all.at(group)) + ")";
+    report.warnings.push_back("faces of " + names +
+                              " are inside now, between the mesh and the addition: what a solver is told to do there, "
+                              "as a pressure, it still does. Take them out of the groups if it should not");
 }
 
 void warn_of_joined_groups(const Mesh& mesh, const Mesh& addition, Report& report) {
@@ -261,13 +263,17 @@ void check_seam_edges(const Mesh& result, const std::string& added, const std::v
                     at->second[result.families.contains(b.families[c], group) ? 1 : 0] = true;
         }
     }
+    const auto is_double = [&](Index node) { return std::ranges::count(result.points, result.points[node]) > 1; };
     for (const auto& [a, b] : edges)
         if (const auto& [mesh, addition] = found.at(mesh_edge_key(a, b)); !mesh || !addition)
             throw QualityError(
                 "the seam is no edge of " + std::string(mesh ? "the addition" : "the mesh") + " between " +
                     point_text(result.points[a]) + " and " + point_text(result.points[b]) +
-                    ": it crosses double nodes there, the lips of a crack or a contact, and the two would "
-                    "come apart. Join them before it is cracked, or end the addition there",
+                    (is_double(a) || is_double(b)
+                         ? ": it crosses double nodes there, the lips of a crack or a contact, and the two would "
+                           "come apart. Join them before it is cracked, or end the addition there"
+                         : ", and the two would come apart there: the mesh is too coarse for where the addition ends. "
+                           "Refine both there first, or move the addition a little"),
                 "other");
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "operators/simplify_at_meeting.h"
 
-#include <array>
-#include <numeric>
-#include <unsupported/Eigen/BVH>
+#include <utility>
 #include <vector>
 
 #include "cutting/locate.h"
+#include "mesh/near_boxes.h"
 #include "mesh/outer_faces.h"
 #include "mesh/stopwatch.h"
 #include "operators/simplify_first.h"
@@ -23,44 +22,6 @@ constexpr double near_line = 0.25;
 constexpr double room = 0.5;
 /// Rings around lines that may be relaxed, unless the option `transition` says it.
 constexpr int usual_rings = 2;
-
-/// Some boxes, to ask whether one meets any of them.
-class BoxTree {
-public:
-    explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
-        std::vector<int> objects(boxes_.size());
-        std::iota(objects.begin(), objects.end(), 0);
-        tree_.init(objects.begin(), objects.end(), boxes_.begin(), boxes_.end());
-        for (const Box& b : boxes_) all_.extend(b);
-    }
-
-    bool meets(const Box& box) const {
-        if (!all_.intersects(box)) return false;
-        Query query{boxes_, box};
-        Eigen::BVIntersect(tree_, query);
-        return query.found;
-    }
-
-private:
-    /// For Eigen's BVIntersect.
-    struct Query {
-        const std::vector<Box>& boxes;
-        const Box& box;
-        bool found = false;
-
-        // NOLINTBEGIN(readability-identifier-naming): so Eigen's BVIntersect() calls them.
-        bool intersectVolume(const Box& b) const { return b.intersects(box); }
-        bool intersectObject(int k) {
-            found = found || boxes[k].intersects(box);
-            return found;
-        }
-        // NOLINTEND(readability-identifier-naming)
-    };
-
-    std::vector<Box> boxes_;
-    Eigen::KdBVH<double, 3, int> tree_;
-    Box all_;
-};
 
 Box box_of(const Mesh& mesh, const CellBlock& block, Index cell) {
     Box out;
