@@ -28,6 +28,8 @@ constexpr double crossing_tolerance = 1e-3;
 constexpr double steep = 0.3;
 /// The same for flat faces, along a whole edge.
 constexpr double shallow = 0.1;
+/// Faces whose surface is no farther off them, in their edges, are flat, but for rounding.
+constexpr double straight = 1e-5;
 /// Where borders cross, the one may seem to go on along the other for so many times as much as it may be off.
 constexpr double overshoot = 2.5;
 /// Cosine of the angle from which on a border does not run along another.
@@ -251,8 +253,8 @@ private:
     bool rises(const Edge& edge, double start, double end, const SurfaceTree::Foot& first,
                const SurfaceTree::Foot& last, double length) const {
         const SurfaceTree& other = *trees_[1 - edge.mesh];
-        if (given_ || first.piece < 0 || last.piece < 0 || other.sag(first.piece) > 0 || other.sag(last.piece) > 0)
-            return false;
+        const auto is_curved = [&](int face) { return other.sag(face) > straight * other.size(face); };
+        if (given_ || first.piece < 0 || last.piece < 0 || is_curved(first.piece) || is_curved(last.piece)) return false;
         const double before = (edge.at(start) - first.at).dot(other.normal(first.piece)),
                      after = (edge.at(end) - last.at).dot(other.normal(last.piece));
         return std::abs(after - before) > shallow * length;
