@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
-from merge_cases import KINDS
+from merge_cases import KINDS, in_one_line
 from merge_parts import block, plate, rod, shell, solid, worst
 from meshes import grid_box, quadratic
 from test_tie import face_areas, hexahedra
@@ -369,7 +369,7 @@ def test_no_element_of_hardly_a_volume_is_filled_in():
         assert worst(result.mesh) > 0.02
 
 
-@pytest.mark.parametrize("within", [fs.Disk((3.1, 2.6, 4), 1.4), None], ids=["a crack that ends inside", "two parts"])
+@pytest.mark.parametrize("within", [fs.Disk((2.9, 2.5, 4), 1.4), None], ids=["a crack that ends inside", "two parts"])
 def test_a_solid_across_a_crack(within):
     mesh = grid_box((12, 10, 8), (6.0, 5.0, 4.0))
     cracked = fs.crack(mesh, fs.Plane((3.1, 2.5, 2), (1, 0, 0.1)), within=within).mesh
@@ -379,9 +379,24 @@ def test_a_solid_across_a_crack(within):
     assert abs(fs.Plane((3.1, 2.5, 2), (1, 0, 0.1)).distance(at)) < 1e-3
 
 
-def test_the_end_of_a_rib_beside_a_border_is_no_crack():
-    mesh, part = KINDS["quadrangles"](np.random.default_rng(92))
-    try:
-        fs.merge(mesh, part)
-    except fs.Error as error:
-        assert "double nodes" not in str(error)
+@pytest.mark.parametrize(
+    "angle, at", [(0.6, (4, 7.2)), (0.6, (6.3, 6.9)), (2.5, (3.3, 1.1)), (2.5, (5.2, 6.5)), (1.2, (4, 7.2))]
+)
+@pytest.mark.parametrize("tilt", [0, -0.2, 0.3])
+def test_a_rib_that_hangs_over_the_border(angle, at, tilt):
+    floor = plate((0, 0, 0), (10, 0, 0), (0, 8, 0), (12, 10), "FLOOR")
+    along = np.array([np.cos(angle), np.sin(angle), 0])
+    up = np.array([-np.sin(angle) * np.sin(tilt), np.cos(angle) * np.sin(tilt), np.cos(tilt)])
+    hanging = plate(np.array([*at, 0]) - 4 * along, 8 * along, 3 * up, (17, 5), "RIB")
+    result = fs.merge(floor, hanging)
+    assert in_one_line(result.mesh)
+    # Nodes of the rib that are nearer to the border than a tenth of an edge go there.
+    assert fs.measure(result.mesh)["triangle"].sum() == pytest.approx(80 + 24, rel=1e-4)
+    (of_floor,) = (g for g in result.report.groups if g.name == "FLOOR")
+    assert of_floor.measure_after == pytest.approx(80, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", [92, 272])
+def test_a_rib_that_ends_beside_the_border(seed):
+    result = fs.merge(*KINDS["quadrangles"](np.random.default_rng(seed)))
+    assert in_one_line(result.mesh)

@@ -106,6 +106,20 @@ def test_a_deck_of_hexahedra_is_carried(tmp_path):
     fs.write(result.mesh, tmp_path / "out.inp")
     out = (tmp_path / "out.inp").read_text()
     assert "TYPE=C3D8I" in out and "TYPE=C3D4" in out and "BOX, GRAV" in out
-    assert any("stiffer in bending" in w for w in result.report.warnings)
+    assert sum("stiffer in bending" in w for w in result.report.warnings) == 1
+    assert set(result.report.converted) == {"hexahedron"}
     again = fs.read(tmp_path / "out.inp")
     assert sum(len(c) for c in again.cells.values()) == sum(len(c) for c in result.mesh.cells.values())
+
+
+def test_quadrangles_of_first_order_in_a_deck_are_warned_of(tmp_path):
+    floor = of_quadrangles(plate((0, 0, 0), (6, 0, 0), (0, 5, 0), (12, 10), "FLOOR"), np.random.default_rng(2))
+    path = tmp_path / "floor.inp"
+    fs.write(floor, path)
+    with path.open("a") as deck:
+        deck.write("*MATERIAL, NAME=S\n*ELASTIC\n210000., .3\n*SHELL SECTION, ELSET=FLOOR, MATERIAL=S\n.1\n")
+    text = "first-order quadrangles near the tool became first-order triangles (S4 to S3"
+    rib = plate((1.2, 1.3, 0), (3.3, 2, 0), (0, 0.3, 2), (6, 2), "FIN")
+    assert any(text in w for w in fs.merge(fs.read(path), rib).report.warnings)
+    assert any(text in w for w in fs.crack(fs.read(path), fs.Plane((3.1, 2, 0), (1, 0.2, 0))).report.warnings)
+    assert not any(text in w for w in fs.merge(floor, rib).report.warnings)

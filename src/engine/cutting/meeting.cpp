@@ -254,7 +254,8 @@ private:
                const SurfaceTree::Foot& last, double length) const {
         const SurfaceTree& other = *trees_[1 - edge.mesh];
         const auto is_curved = [&](int face) { return other.sag(face) > straight * other.size(face); };
-        if (given_ || first.piece < 0 || last.piece < 0 || is_curved(first.piece) || is_curved(last.piece)) return false;
+        if (given_ || first.piece < 0 || last.piece < 0 || is_curved(first.piece) || is_curved(last.piece))
+            return false;
         const double before = (edge.at(start) - first.at).dot(other.normal(first.piece)),
                      after = (edge.at(end) - last.at).dot(other.normal(last.piece));
         return std::abs(after - before) > shallow * length;

@@ -92,11 +92,11 @@ private:
         const Box there = box_around(other_).intersection(box_around(mesh_));
         for (const Mesh* mesh : {&mesh_, &other_})
             if (const std::optional<Vec3> at = double_nodes(*mesh, there, error.at))
-                throw QualityError(cannot +
-                                       ": double nodes, of a crack's lips or a contact, are where the two meet, as at " +
-                                       point_text(*at) +
-                                       ". Join the two before it is cracked, or move the addition off the double nodes",
-                                   "other");
+                throw QualityError(
+                    cannot + ": double nodes, of a crack's lips or a contact, are where the two meet, as at " +
+                        point_text(*at) +
+                        ". Join the two before it is cracked, or move the addition off the double nodes",
+                    "other");
         throw QualityError(cannot + ": near " + point_text(error.at) + " their skins leave no volume between them (" +
                                error.why +
                                "), as where they run along each other at a small angle. Move the addition a little, or "

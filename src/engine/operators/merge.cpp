@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "cancel.h"
@@ -120,6 +121,13 @@ void check_names(const Mesh& mesh, const Mesh& addition, const std::string& name
     }
 }
 
+Index count_of(const Mesh& mesh, std::string_view type) {
+    Index out = 0;
+    for (const CellBlock& b : mesh.blocks())
+        if (traits(b.type).name == type) out += b.size();
+    return out;
+}
+
 /// The report on the mesh, with what the addition brings.
 Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Mesh& result, const std::string& added,
                  Index shared) {
@@ -130,7 +138,11 @@ Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Me
     out.nodes_added += joint.mesh(1).node_count() - shared;
     out.elements_added += joint.mesh(1).cell_count();
     for (const auto& [type, count] : other.converted) out.converted[type] += count;
+    // Pyramids may have been made by the first of several conversions.
+    for (auto& [type, count] : out.converted) count = std::min(count, count_of(input, type) + count_of(addition, type));
+    std::erase_if(out.converted, [](const auto& entry) { return entry.second == 0; });
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
+    join_warnings_about_stiffness(out.warnings);
     return out;
 }
 

@@ -59,14 +59,23 @@ constexpr std::string_view stiff_tetrahedra =
     " first-order hexahedra, prisms or pyramids near the tool became first-order tetrahedra, which are stiffer in "
     "bending";
 
+std::string stiffness_warning(Index count) {
+    return std::to_string(count) + std::string(stiff_tetrahedra) +
+           "; meshes of second order have no such weakness, nor has the option second_order with a CalculiX deck";
+}
+
 /// What solvers make of it.
-std::vector<std::string> warnings_about(const Simplified& simplified) {
+std::vector<std::string> warnings_about(const Mesh& before, const Simplified& simplified) {
+    std::vector<std::string> out;
     Index stiff = 0;
     for (const CellType type : {CellType::hexahedron, CellType::wedge, CellType::pyramid})
         stiff += simplified.converted[static_cast<int>(type)];
-    if (stiff == 0) return {};
-    return {std::to_string(stiff) + std::string(stiff_tetrahedra) +
-            "; meshes of second order have no such weakness, nor has the option second_order with a CalculiX deck"};
+    if (stiff > 0) out.push_back(stiffness_warning(stiff));
+    if (const Index quads = simplified.converted[static_cast<int>(CellType::quad)]; quads > 0 && solver_input(before))
+        out.push_back(std::to_string(quads) +
+                      " first-order quadrangles near the tool became first-order triangles (S4 to S3, CPS4 to CPS3), "
+                      "which are far stiffer in bending in CalculiX; those of second order (S8R to S6) are not");
+    return out;
 }
 
 Report report_of(const Mesh& before, const FamilyTotals& totals, const Simplified& simplified) {
@@ -84,7 +93,7 @@ Report report_of(const Mesh& before, const FamilyTotals& totals, const Simplifie
     for (const CellTraits& t : all_cell_types())
         if (const Index count = simplified.converted[static_cast<int>(t.type)]; count > 0)
             report.converted[std::string(t.name)] = count;
-    report.warnings = warnings_about(simplified);
+    report.warnings = warnings_about(before, simplified);
     return report;
 }
 
@@ -148,6 +157,15 @@ Refined with_parts(const Mesh& mesh, Simplified simplified, const DeckMarks& mar
 }
 
 bool is_about_stiffness(const std::string& warning) { return warning.find(stiff_tetrahedra) != std::string::npos; }
+
+void join_warnings_about_stiffness(std::vector<std::string>& warnings) {
+    Index count = 0;
+    for (const std::string& w : warnings)
+        if (is_about_stiffness(w)) count += std::stoll(w.substr(w.find_first_of("0123456789")));
+    if (count == 0) return;
+    std::erase_if(warnings, is_about_stiffness);
+    warnings.push_back(stiffness_warning(count));
+}
 
 void add_conversion(const Refined& converted, bool strict, Report& report) {
     const Report& first = converted.report;

@@ -38,6 +38,9 @@ Refined with_parts(const Mesh& mesh, Simplified parts, const DeckMarks& marks, c
 /// Whether a warning of a conversion says that first-order tetrahedra are stiff.
 bool is_about_stiffness(const std::string& warning);
 
+/// Makes one of such warnings, which several conversions gave.
+void join_warnings_about_stiffness(std::vector<std::string>& warnings);
+
 /// Makes the report of what was done to what a conversion made one of both.
 void add_conversion(const Refined& converted, bool strict, Report& report);
 

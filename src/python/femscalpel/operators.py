@@ -357,8 +357,9 @@ def merge(
     Parameters
     ----------
     mesh : Mesh
-        The mesh that is added to: triangles or tetrahedra, linear or quadratic, where the two meet; anything
-        elsewhere. Double nodes, as the lips of a crack, may not run across the line where they do.
+        The mesh that is added to, shells or solids, linear or quadratic. Quadrangles, prisms, pyramids and hexahedra
+        become triangles and tetrahedra where the two meet (``report.converted``). Double nodes, as the lips of a
+        crack, may not run across the line where they do.
     other : Mesh
         What is added. One of another order is brought to the mesh's. If both have a CalculiX deck, the addition's
         sections, materials, orientations and element types are taken over; the report names the cards that are not. An
@@ -398,7 +399,8 @@ def merge(
         The name is bad or taken, or the two do not meet: one is inside the other, a piece of the addition is apart, or
         the addition crosses itself.
     UnsupportedElementError
-        Quadrangles or other elements that are no simplices are where the two meet.
+        A quadrangle, prism, pyramid or hexahedron where the two meet has so poor a shape that no sound triangles or
+        tetrahedra can be made of it.
     QualityError
         No valid mesh can be made this way: the message says where.
 
