@@ -10,6 +10,7 @@ from PySide import QtCore, QtGui
 
 import femscalpel_parts
 
+from . import qt
 from .translate import QT_TRANSLATE_NOOP, icon, translate
 
 NAME = "FemScalpel_WhatIsMissing"
@@ -33,7 +34,7 @@ def show():
     copy = box.addButton(translate("FemScalpel", "Copy the command"), QtGui.QMessageBox.ActionRole)
     copy.setObjectName("copyCommand")
     box.addButton(QtGui.QMessageBox.Ok)
-    (getattr(box, "exec_", None) or box.exec)()  # Qt 5 has the one, Qt 6 the other
+    qt.run(box)
     if box.clickedButton() is copy:
         QtGui.QApplication.clipboard().setText(missing.command)
 

@@ -4,6 +4,7 @@
 Screenshots go to the folder FEMSCALPEL_SCREENSHOTS, if that is set.
 """
 
+import functools
 import importlib
 import os
 import re
@@ -291,15 +292,35 @@ def report_view():
     return view.toPlainText() if view else ""
 
 
+def resize_panel(width):
+    """Gives the dock with the task panel a width in pixels."""
+    window = FreeCADGui.getMainWindow()
+    # FreeCAD 1.0 has the task panel beside the tree, not in one dock with it.
+    panel = window.findChild(QtGui.QDockWidget, "Combo View") or window.findChild(QtGui.QDockWidget, "Tasks")
+    window.resizeDocks([panel], [width], QtCore.Qt.Horizontal)
+
+
+@functools.lru_cache(maxsize=None)
+def without_start_page():
+    """Lets FreeCAD come to rest without its Start page, once: tests run before that is made, and FreeCAD 1.1 crashes
+    where it is closed before it is complete. The user's settings stay as they are."""
+    settings = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Start")
+    was = settings.GetBool("ShowOnStartup", True)
+    settings.SetBool("ShowOnStartup", False)
+    try:
+        spin(0.5)
+    finally:
+        settings.SetBool("ShowOnStartup", was)
+
+
 class GuiTest(unittest.TestCase):
     """A document with a window; afterwards no panel may be open and the report view must be free of errors."""
 
     def setUp(self):
         FreeCADGui.activateWorkbench("FemScalpelWorkbench")
         window = FreeCADGui.getMainWindow()
-        # FreeCAD 1.0 has the task panel beside the tree, not in one dock with it.
-        panel = window.findChild(QtGui.QDockWidget, "Combo View") or window.findChild(QtGui.QDockWidget, "Tasks")
-        window.resizeDocks([panel], [330], QtCore.Qt.Horizontal)
+        without_start_page()
+        resize_panel(330)
         self.reported = len(report_view())
         window.findChild(QtGui.QDockWidget, "Report view").hide()
         window.findChild(QtGui.QMdiArea).closeAllSubWindows()  # the Start page

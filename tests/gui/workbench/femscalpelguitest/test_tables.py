@@ -103,8 +103,7 @@ class GroupTable(Folder, CrackTest):
         table, last = widget("groups"), widget("groups").columnCount() - 1
         widths = []
         for width in (330, 640):
-            panel = FreeCADGui.getMainWindow().findChild(QtGui.QDockWidget, "Combo View")
-            FreeCADGui.getMainWindow().resizeDocks([panel], [width], QtCore.Qt.Horizontal)
+            resize_panel(width)
             spin(0.1)
             shown = [number for number in range(last + 1) if not table.isColumnHidden(number)]
             for number in shown[1:]:
