@@ -302,13 +302,15 @@ def resize_panel(width):
 
 @functools.lru_cache(maxsize=None)
 def without_start_page():
-    """Lets FreeCAD come to rest without its Start page, once: tests run before that is made, and FreeCAD 1.1 crashes
-    where it is closed before it is complete. The user's settings stay as they are."""
+    """Lets FreeCAD come to rest, once, so that the Start page can be closed: FreeCAD 1.1 crashes where that is gone two
+    seconds after it was made. It is not made from now on; the user's settings stay as they are."""
     settings = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Start")
     was = settings.GetBool("ShowOnStartup", True)
     settings.SetBool("ShowOnStartup", False)
     try:
         spin(0.5)
+        if FreeCADGui.getMainWindow().findChild(QtCore.QObject, "StartView"):
+            spin(2.5)
     finally:
         settings.SetBool("ShowOnStartup", was)
 
