@@ -2,8 +2,8 @@
 """Tells of documents whose objects of FemScalpel have lost what they are: they keep their mesh, but do not recompute.
 
 FreeCAD saves with each object which Python class it is of. It loses that where the class cannot be loaded when the
-document is opened: without FemScalpel, and from FreeCAD 1.0 on also where FemScalpel is on Python's path, but not among
-FreeCAD's add-ons, and no script has imported it yet.
+document is opened: without FemScalpel, and where FreeCAD does not permit to load it, as FemScalpel is on Python's path,
+but not among FreeCAD's add-ons, and no script has imported it yet.
 """
 
 import FreeCAD
@@ -23,7 +23,10 @@ def watch():
     _observers.append(
         Opened(
             lambda document: _tell(
-                document, "because it was saved where it had been opened without FemScalpel. Open a copy saved before."
+                document,
+                "because it was saved where it had been opened without FemScalpel, or because FreeCAD did not permit to "
+                "load them now, which it says above: then give freecad -M an absolute path. Close it without saving, "
+                "and open it again, or a copy saved before.",
             )
         )
     )

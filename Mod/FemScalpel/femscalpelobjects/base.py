@@ -180,9 +180,7 @@ class MeshOperation:
         source = obj.Source
         for name in _GEOMETRY_LINKS:
             linked = (
-                source is not None
-                and name in source.PropertiesList
-                and source.getTypeIdOfProperty(name) in _LINK_TYPES
+                source is not None and name in source.PropertiesList and source.getTypeIdOfProperty(name) in _LINK_TYPES
             )
             if linked and name not in obj.PropertiesList:
                 obj.addProperty("App::PropertyLink", name, "FEM Mesh", "Geometry the source mesh is made from", OUTPUT)

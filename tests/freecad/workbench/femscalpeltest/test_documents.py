@@ -66,11 +66,12 @@ class Documents(DocumentTest):
         with mock.patch.object(FreeCAD, "Console") as console:
             self.reopen()
         ((text,),) = (call.args for call in console.PrintWarning.call_args_list)
-        self.assertRegex(text, r"Document .*: its objects of FemScalpel \(Crack\) have lost what they are .*saved where")
+        self.assertRegex(text, r"Document .*: its objects of FemScalpel \(Crack\) have lost what they are .*was saved")
 
     def test_opened_before_femscalpel_was_imported(self):
         self.crack.Proxy = None
-        with mock.patch.object(FreeCAD, "Console") as console, mock.patch.object(femscalpel_documents, "_observers", []):
+        fresh = mock.patch.object(femscalpel_documents, "_observers", [])
+        with mock.patch.object(FreeCAD, "Console") as console, fresh:
             femscalpel_documents.watch()
             femscalpel_documents.watch()
             FreeCAD.removeDocumentObserver(femscalpel_documents._observers[0])
@@ -97,5 +98,5 @@ class Documents(DocumentTest):
         said = done.stdout + done.stderr
         first, second = (line for line in said.splitlines() if line.startswith("proxy:"))
         self.assertIn("Crack", second)
-        # FreeCAD 1.x does not import what is no add-on.
+        # FreeCAD does not import what is no add-on, from some release on.
         self.assertEqual("it was opened while FreeCAD did not know FemScalpel" in said, first == "proxy: None", said)

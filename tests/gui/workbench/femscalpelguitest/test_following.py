@@ -17,8 +17,8 @@ from femscalpeltest.meshes import box_with_groups
 
 def expression_dialog():
     """FreeCAD's own dialog for an expression; None while it is not to be seen."""
-    shown = [w for w in QtGui.QApplication.topLevelWidgets() if w.objectName() == "DlgExpressionInput" and w.isVisible()]
-    return shown[0] if shown else None
+    dialogs = (w for w in QtGui.QApplication.topLevelWidgets() if w.objectName() == "DlgExpressionInput")
+    return next((dialog for dialog in dialogs if dialog.isVisible()), None)
 
 
 class Following(GuiTest):
