@@ -13,7 +13,8 @@ _observers = []  # kept, as FreeCAD holds no reference
 
 def lost_objects(document):
     """The objects of a document that were FemScalpel's."""
-    return [o for o in document.Objects if "NodeSetCounts" in o.PropertiesList and getattr(o, "Proxy", None) is None]
+    made = (o for o in document.Objects if "NodeSetCounts" in o.PropertiesList)
+    return [o for o in made if getattr(o, "Proxy", None) is None]
 
 
 def watch():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Saves a document with FemScalpel's objects, or opens documents that other releases of FreeCAD have saved, looks at
-all of their objects, recomputes them and writes the solver's deck. Run by 'freecadcmd document.py -M WORKBENCH', with an
+all of their objects, recomputes them and writes the solver's deck. Run by 'freecadcmd document.py -M WORKBENCH', an
 absolute path; what it does is in the environment:
 
     SAVE=document.FCStd           makes and saves it

@@ -293,8 +293,8 @@ def report_view():
 
 
 def resize_panel(width):
-    """Gives the dock with the task panel a width in pixels; False where it has none of its own, as in FreeCAD 1.1, which
-    lays the panel over the 3-D view."""
+    """Gives the dock with the task panel a width in pixels; False where it has none of its own: FreeCAD 1.1 lays the
+    panel over the 3-D view."""
     window = FreeCADGui.getMainWindow()
     # FreeCAD 1.0 has the task panel beside the tree, not in one dock with it.
     panel = window.findChild(QtGui.QDockWidget, "Combo View") or window.findChild(QtGui.QDockWidget, "Tasks")
