@@ -25,9 +25,9 @@ def watch():
         Opened(
             lambda document: _tell(
                 document,
-                "because it was saved where it had been opened without FemScalpel, or because FreeCAD did not permit "
-                "to load them now, which it says above: then give freecad -M an absolute path. Close it without saving, "
-                "and open it again, or a copy saved before.",
+                "because it was saved where it had been opened without FemScalpel, or because FreeCAD did not "
+                "permit to load them now, which it says above: then give freecad -M an absolute path. Close it "
+                "without saving, and open it again, or a copy saved before.",
             )
         )
     )
