@@ -8,8 +8,10 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
+import femscalpel_documents
 import femscalpel_parts
 
+from . import qt
 from .translate import QT_TRANSLATE_NOOP, icon, translate
 
 NAME = "FemScalpel_WhatIsMissing"
@@ -33,7 +35,7 @@ def show():
     copy = box.addButton(translate("FemScalpel", "Copy the command"), QtGui.QMessageBox.ActionRole)
     copy.setObjectName("copyCommand")
     box.addButton(QtGui.QMessageBox.Ok)
-    (getattr(box, "exec_", None) or box.exec)()  # Qt 5 has the one, Qt 6 the other
+    qt.run(box)
     if box.clickedButton() is copy:
         QtGui.QApplication.clipboard().setText(missing.command)
 
@@ -70,25 +72,23 @@ def register():
     return [NAME], [NAME]
 
 
-class _Documents:
-    """Warns of documents with objects that cannot work, and lose what they are when such a document is saved."""
-
-    def slotFinishRestoreDocument(self, document):
-        made = [o.Label for o in document.Objects if "NodeSetCounts" in o.PropertiesList]
-        if made:
-            FreeCAD.Console.PrintWarning(
-                translate(
-                    "FemScalpel",
-                    "Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is "
-                    "missing, nor after the document was saved without it. Close it without saving.",
-                )
-                .replace("%1", document.Label)
-                .replace("%2", ", ".join(made))
-                + "\n"
+def _warn(document):
+    """Of objects that cannot work, and lose what they are when the document is saved."""
+    made = [o.Label for o in document.Objects if "NodeSetCounts" in o.PropertiesList]
+    if made:
+        FreeCAD.Console.PrintWarning(
+            translate(
+                "FemScalpel",
+                "Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is "
+                "missing, nor after the document was saved without it. Close it without saving.",
             )
+            .replace("%1", document.Label)
+            .replace("%2", ", ".join(made))
+            + "\n"
+        )
 
 
 def watch_documents():
     """From now on warns when a document is opened whose objects need the engine."""
-    _observers.append(_Documents())
+    _observers.append(femscalpel_documents.Opened(_warn))
     FreeCAD.addDocumentObserver(_observers[-1])

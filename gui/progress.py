@@ -8,6 +8,7 @@ from PySide import QtCore, QtGui
 
 import femscalpel
 
+from . import qt
 from .translate import translate
 
 #: Seconds after which a dialog comes up that says what is done; for less it would flicker.
@@ -67,7 +68,7 @@ class Progress:
                 flags = QtCore.QEventLoop.AllEvents
                 if self._dialog is None:
                     flags = QtCore.QEventLoop.ExcludeUserInputEvents
-                getattr(loop, "exec_", getattr(loop, "exec", None))(flags)
+                qt.run(loop, flags)
         finally:
             timer.stop()
         return not self.cancelled

@@ -12,4 +12,7 @@ if femscalpel_parts.missing():
     if FreeCAD.ConfigGet("RunMode") != "Gui":
         FreeCAD.Console.PrintWarning(femscalpel_parts.missing().text() + "\n")
 else:
+    import femscalpel_documents
+
+    femscalpel_documents.watch()
     FreeCAD.__unit_test__ += ["TestFemScalpelApp"]

@@ -13,6 +13,7 @@ import FreeCAD
 
 import femmesh_bridge
 import femscalpel
+import femscalpel_documents
 from femscalpel.signatures import takes
 from femscalpelobjects import following, operator_options, tool_properties
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
@@ -27,6 +28,8 @@ from femscalpelobjects.group_names import rename_group
 from femscalpelobjects.make_material import makeFillet, makeMerge, makeReshape  # noqa: F401
 from femscalpelobjects.making import check_source, make, make_along_tool, placement_of
 from femscalpelobjects.refine import Refine
+
+femscalpel_documents.watch()  # FreeCAD's Init.py has done so, but not where this is on Python's path only
 
 
 @takes(

@@ -4,6 +4,7 @@
 import FreeCADGui
 from PySide import QtGui
 
+from .. import qt
 from ..translate import form, icon, translate
 from ..view.group_scene import GroupScene
 from . import fields
@@ -32,7 +33,7 @@ class InspectionPanel(ViewPanel):
         raise NotImplementedError
 
     def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Close | QtGui.QDialogButtonBox.Help)
+        return qt.number(QtGui.QDialogButtonBox.Close | QtGui.QDialogButtonBox.Help)
 
     def not_loaded(self, error):
         fields.show_error(self.panel.error, str(error))

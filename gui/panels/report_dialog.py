@@ -31,7 +31,7 @@ def show_report(name, text, data):
     shown.setLineWrapMode(QtGui.QPlainTextEdit.NoWrap)
     font = shown.font()
     font.setFamily("monospace")
-    font.setStyleHint(font.Monospace)
+    font.setStyleHint(QtGui.QFont.Monospace)
     shown.setFont(font)
     shown.setPlainText(text)
     buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Close)

@@ -10,6 +10,7 @@ from femscalpelobjects import contents
 from femscalpelobjects.following import follows
 from femscalpelobjects.ours import is_ours, made_of
 
+from .. import qt
 from ..macro import record_import
 from ..progress import Progress, Steps
 from ..translate import translate
@@ -34,7 +35,7 @@ class WithOk:
     _given_up = False  # whether the user has cancelled the preview of what is entered
 
     def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel | QtGui.QDialogButtonBox.Help)
+        return qt.number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel | QtGui.QDialogButtonBox.Help)
 
     def _set_ok(self, enabled):
         if enabled != self._ok:

@@ -60,6 +60,8 @@ _EMPTY = {"App::PropertyStringList": [], "App::PropertyMap": {}, "App::PropertyS
 _NO_RESULTS = {name: _EMPTY.get(kind, 0) for kind, name, _ in _RESULTS}
 # The link to the geometry that FreeCAD's solver writers look for on a mesh object: Part up to 0.21, Shape from 1.0.
 _GEOMETRY_LINKS = ("Part", "Shape")
+# Other meshes have a Shape that is geometry itself. The latter in 1.x, where a document of 0.20 is opened.
+_LINK_TYPES = ("App::PropertyLink", "App::PropertyLinkGlobal")
 
 
 class MeshOperation:
@@ -159,6 +161,7 @@ class MeshOperation:
 
     def onDocumentRestored(self, obj):
         self.add_properties(obj)
+        self._link_geometry(obj)  # FreeCAD renames the source's link in documents of another release
 
     def onChanged(self, obj, prop):
         # While a document loads, a link may be set before what it points to is complete.
@@ -177,9 +180,7 @@ class MeshOperation:
         source = obj.Source
         for name in _GEOMETRY_LINKS:
             linked = (
-                source is not None
-                and name in source.PropertiesList
-                and source.getTypeIdOfProperty(name) == "App::PropertyLink"
+                source is not None and name in source.PropertiesList and source.getTypeIdOfProperty(name) in _LINK_TYPES
             )
             if linked and name not in obj.PropertiesList:
                 obj.addProperty("App::PropertyLink", name, "FEM Mesh", "Geometry the source mesh is made from", OUTPUT)

@@ -18,8 +18,9 @@ from .following import FOLLOW_PROPERTIES, problem_of
 from .geometry import shapes_of
 from .ours import is_ours
 
-# Properties that are no inputs.
+# Properties that are no inputs; the first is FreeCAD's own, from 1.0 on, and changes with the mesh.
 _ASIDE = {
+    "_ElementMapVersion",
     "FemMesh",
     "Label",
     "Label2",

@@ -4,6 +4,7 @@
 Screenshots go to the folder FEMSCALPEL_SCREENSHOTS, if that is set.
 """
 
+import functools
 import importlib
 import os
 import re
@@ -291,15 +292,41 @@ def report_view():
     return view.toPlainText() if view else ""
 
 
+def resize_panel(width):
+    """Gives the dock with the task panel a width in pixels; False where it has none of its own: FreeCAD 1.1 lays the
+    panel over the 3-D view."""
+    window = FreeCADGui.getMainWindow()
+    # FreeCAD 1.0 has the task panel beside the tree, not in one dock with it.
+    panel = window.findChild(QtGui.QDockWidget, "Combo View") or window.findChild(QtGui.QDockWidget, "Tasks")
+    if window.dockWidgetArea(panel) == QtCore.Qt.NoDockWidgetArea:
+        return False
+    window.resizeDocks([panel], [width], QtCore.Qt.Horizontal)
+    return True
+
+
+@functools.lru_cache(maxsize=None)
+def without_start_page():
+    """Lets FreeCAD come to rest, once, so that the Start page can be closed: FreeCAD 1.1 crashes where that is gone two
+    seconds after it was made. It is not made from now on; the user's settings stay as they are."""
+    settings = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Start")
+    was = settings.GetBool("ShowOnStartup", True)
+    settings.SetBool("ShowOnStartup", False)
+    try:
+        spin(0.5)
+        if FreeCADGui.getMainWindow().findChild(QtCore.QObject, "StartView"):
+            spin(2.5)
+    finally:
+        settings.SetBool("ShowOnStartup", was)
+
+
 class GuiTest(unittest.TestCase):
     """A document with a window; afterwards no panel may be open and the report view must be free of errors."""
 
     def setUp(self):
         FreeCADGui.activateWorkbench("FemScalpelWorkbench")
         window = FreeCADGui.getMainWindow()
-        # FreeCAD 1.0 has the task panel beside the tree, not in one dock with it.
-        panel = window.findChild(QtGui.QDockWidget, "Combo View") or window.findChild(QtGui.QDockWidget, "Tasks")
-        window.resizeDocks([panel], [330], QtCore.Qt.Horizontal)
+        without_start_page()
+        resize_panel(330)
         self.reported = len(report_view())
         window.findChild(QtGui.QDockWidget, "Report view").hide()
         window.findChild(QtGui.QMdiArea).closeAllSubWindows()  # the Start page

@@ -15,6 +15,12 @@ from .gui_testing import GuiTest, QTest
 from femscalpeltest.meshes import box_with_groups
 
 
+def expression_dialog():
+    """FreeCAD's own dialog for an expression; None while it is not to be seen."""
+    dialogs = (w for w in QtGui.QApplication.topLevelWidgets() if w.objectName() == "DlgExpressionInput")
+    return next((dialog for dialog in dialogs if dialog.isVisible()), None)
+
+
 class Following(GuiTest):
     def setUp(self):
         super().setUp()
@@ -183,13 +189,16 @@ class Following(GuiTest):
         box = widget(name)
         box.setFocus()
         QTest.keyClick(box, QtCore.Qt.Key_Equal)
-        wait_until(lambda: is_shown("okBtn"), "the dialog of expressions")
-        dialog = widget("okBtn").window()
+        wait_until(expression_dialog, "the dialog of expressions")
+        dialog = expression_dialog()
         line = widget("expression", dialog)
         line.setFocus()
         QTest.keyClicks(line, text)
         spin(0.2)
-        QTest.mouseClick(widget("okBtn", dialog), QtCore.Qt.LeftButton)
+        # FreeCAD 1.1 has a box of buttons in place of one of its own name.
+        box = dialog.findChild(QtGui.QDialogButtonBox)
+        ok = box.button(QtGui.QDialogButtonBox.Ok) if box else widget("okBtn", dialog)
+        QTest.mouseClick(ok, QtCore.Qt.LeftButton)
         spin(0.2)
 
     def enter_new_expression(self, name, *texts):

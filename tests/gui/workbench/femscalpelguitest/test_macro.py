@@ -48,6 +48,15 @@ class Macro(GuiTest):
         timer.start(100)
         FreeCADGui.runCommand("Std_DlgMacroRecord")
         timer.stop()
+        self.is_recording = True
+        self.addCleanup(self.stop_recording)  # a test that failed meanwhile must not leave the next one a dialog
+
+    def stop_recording(self):
+        if self.is_recording:
+            self.is_recording = False
+            # FreeCAD 1.0 has one command that starts and stops.
+            stop = "Std_MacroStopRecord"
+            self.run_command(stop if FreeCADGui.Command.get(stop) else "Std_DlgMacroRecord")
 
     def test_session_replayed_without_window(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -121,10 +130,7 @@ class Macro(GuiTest):
             type_into("offset", "0.3333")
             self.wait_for_preview()
             press_ok()
-            # FreeCAD 1.0 has one command that starts and stops.
-            self.run_command(
-                "Std_MacroStopRecord" if FreeCADGui.Command.get("Std_MacroStopRecord") else "Std_DlgMacroRecord"
-            )
+            self.stop_recording()
 
             here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
             self.assertEqual(set(here), {"Mesh", "Crack", "CylindricalCrack", "Drill", "Incision", "Refine"})
@@ -171,7 +177,7 @@ class Macro(GuiTest):
             choose("keep", "addition")
             self.wait_for_preview()
             press_ok()
-            self.run_command("Std_MacroStopRecord")
+            self.stop_recording()
             here = json.loads(json.dumps({o.Name: content_of(o) for o in self.doc.Objects}))
             self.assertEqual(set(here), {"Mesh", "Boss", "Merge", "Fillet", "Reshape"})
             text = self.replayed(folder, macro, path, here)

@@ -50,6 +50,7 @@ class RightMesh(GuiTest):
     def named(self, command="Crack"):
         """The mesh that the panel names which a command opens."""
         self.run_command("FemScalpel_" + command)
+        wait_until(lambda: is_shown("meshName"), "the name of the mesh")
         text = widget("meshName").text()
         press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
         return text
