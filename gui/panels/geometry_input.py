@@ -116,6 +116,10 @@ class GeometryInput(PanelInput):
         self.handles = self._make_handles(view)
         self.handles.set_pose(self.origin(), self.rotation(), self.radius())
 
+    def show_grips(self, on):
+        if self.handles is not None:
+            self.handles.show_grips(on)
+
     def _make_handles(self, view):
         raise NotImplementedError
 

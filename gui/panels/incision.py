@@ -22,7 +22,7 @@ class IncisionPanel(PlanePanel):
 
     def add_inputs(self):
         self.slot = self.insert_form("incision.ui")
-        self._width = fields.Number(self.slot.slotWidth, self.update, self.geometry.size / 50)
+        self._width = fields.Number(self.slot.slotWidth, self._choose, self.geometry.size / 50)
         self._kept = None  # the bottom of the document object, as a placement
         for text, data in (
             (translate("FemScalpel", "Through the whole part"), "Through"),
@@ -45,9 +45,9 @@ class IncisionPanel(PlanePanel):
         for box in (self.slot.turnLabel, self.slot.slotTurn):
             box.setVisible(self._end() == "Point")
         if self._end() == "Point":
-            self.geometry.show_part(False, None, self._turn, self._outline)
+            self.geometry.show_part(False, None, self._turn, self._outline, self._width)
         else:
-            self.geometry.show_part(False, None, None)
+            self.geometry.show_part(False, None, None, None, self._width)
         self.update()
 
     def _outline(self):

@@ -3,7 +3,7 @@
 
 from ..translate import translate
 from ..view import picking
-from ..view.handles import PlaneHandles
+from ..view.plane_handles import PlaneHandles
 from . import fields
 from .geometry_input import GeometryInput
 
@@ -17,6 +17,7 @@ class PlaneInput(GeometryInput):
     def __init__(self, source_object):
         self._offset = self._part_radius = None
         self._part_movable, self._part_turn, self._outline = False, None, None
+        self._slot_width = None
         super().__init__(source_object)
         self._offset = fields.Number(self.form.offset, self._tell, step=fields.round_step(self.size / 100))
         self.form.flip.clicked.connect(self._flip)
@@ -37,22 +38,23 @@ class PlaneInput(GeometryInput):
     def _flip(self):
         self.set_pose(self.origin(), self.direction().negative(), follows=True)
 
-    def show_part(self, movable, radius, turn, outline=None):
+    def show_part(self, movable, radius, turn, outline=None, width=None):
         """Says what handles a part of the plane has: `movable` ones; on its border, with the field of its `radius`, if
-        any. `turn` says by how many degrees it is turned about the normal; outline() are its corners (x, y) then, None
-        those of the whole plane."""
+        any. `turn` says by how many degrees it is turned about the normal, None where that does not matter; outline()
+        are its corners (x, y) then, None those of the whole plane. `width` is the field of a slot's."""
         self._part_movable, self._part_radius, self._part_turn = movable, radius, turn
-        self._outline = outline
+        self._outline, self._slot_width = outline, width
         if self.handles is not None:
             self._turn_handles(self.handles)
             self.handles.set_pose(self.origin(), self.rotation(), self.radius())
 
     def _turn_handles(self, handles):
-        handles.show_part(self._part_movable, self._part_turn.value if self._part_turn is not None else 0.0)
+        handles.show_part(self._part_movable, self._part_turn.value if self._part_turn is not None else None)
         self._draw_outline(handles)
 
     def _draw_outline(self, handles):
-        handles.show_outline(self._outline() if self._outline is not None else None)
+        width = self._slot_width.value if self._slot_width is not None else 0.0
+        handles.show_outline(self._outline() if self._outline is not None else None, width)
 
     def _tell(self, from_handle=False):
         self.form.offset.setEnabled(not self.is_fixed())
@@ -87,4 +89,4 @@ class PlaneInput(GeometryInput):
 
     def close(self):
         super().close()
-        self._offset = self._part_radius = self._part_turn = self._outline = None
+        self._offset = self._part_radius = self._part_turn = self._outline = self._slot_width = None

@@ -26,6 +26,10 @@ from .with_ok import WithOk
 from .with_options import OPTION_ERRORS, WithOptions
 
 
+#: Property of the label that says what the preview is, see ToolPanel._say_settled().
+SETTLED = "femscalpelSettled"
+
+
 class ToolPanel(WithOptions, WithOk, ViewPanel):
     """Asks for one operation on the mesh of `source_object`, or edits the object `edited`.
 
@@ -192,6 +196,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.geometry.show_error(problem)
         if problem:
             self._ticket = self._settled = 0
+            self._say_settled()
             self._no_result(translate("FemScalpel", "No preview."))
             return
         self._given_up, self._cost = False, None
@@ -200,6 +205,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             operate, source = self.operation(tool, self.entered()), self.source
         except (femscalpel.Error, ValueError, TypeError) as error:
             self._ticket = self._settled = 0
+            self._say_settled()
             self._place_error(error)
             return
         surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
@@ -208,11 +214,16 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole, guard))
         self._set_ok(True)
         ticket = self._ticket
+        self._say_settled()
         if self.shown is None:
             self._clear_errors()
             self._say_computing(ticket)
         else:
             QtCore.QTimer.singleShot(400, lambda: self._say_computing(ticket))
+
+    def _say_settled(self):
+        """Notes at what is said whether it is about what is entered now, for what drives the window from outside."""
+        self.result.status.setProperty(SETTLED, not self._is_waiting())
 
     def _is_waiting(self):
         return not self._closed and self._settled < self._ticket
@@ -236,6 +247,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, value) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._say_settled()
         self._steady.hold()
         self._clear_errors()
         self._set_ok(True)
@@ -254,6 +266,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._say_settled()
         self._steady.hold()
         if isinstance(error, TooMuch):
             self._clear_errors()
@@ -366,6 +379,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._closed:
             return
         self._meshes.pickable(self.pickable() if on else ())
+        self.geometry.show_grips(not on)
         self._hide_parts(not on)
         switch = self.scene.root
         graph = self.view.getSceneGraph()

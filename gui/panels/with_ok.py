@@ -138,6 +138,7 @@ class WithOk:
             return
         self.worker.cancel()
         self._ticket = self._settled = 0
+        self._say_settled()
         self._given_up = True
         self._status(translate("FemScalpel", "Cancelled. OK, or a change, computes again."))
 

@@ -44,7 +44,7 @@ class FaceCrack(GuiTest):
         self.assertEqual(faces_drawn("FemScalpelRest"), 12 + 2 * 14)
         self.assertEqual(faces_drawn("FemScalpelGhost"), 54)
         self.assertEqual(lines_drawn("FemScalpelOutline"), 14)
-        self.assertEqual(points_drawn("FemScalpelMoved"), 0)
+        self.assertEqual(moved_drawn(), 0)
         np.testing.assert_array_equal(widget("histogram").after, whole.quality.after.histogram)
         names = [widget("groups").item(row, 0).text() for row in range(widget("groups").rowCount())]
         self.assertCountEqual(names, [g.name for g in whole.groups])
