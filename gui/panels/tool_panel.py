@@ -15,6 +15,7 @@ from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
 from . import fields, group_table
 from .expressions import Expressions, NewExpressions
+from .foresight import WithForesight
 from .histogram import Histogram
 from .legend import Legend, entries_of
 from .placements import as_text
@@ -30,7 +31,7 @@ from .with_options import OPTION_ERRORS, WithOptions
 SETTLED = "femscalpelSettled"
 
 
-class ToolPanel(WithOptions, WithOk, ViewPanel):
+class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
     """Asks for one operation on the mesh of `source_object`, or edits the object `edited`.
 
     Nothing is put into the document before OK; OK does everything in one transaction, by Gui.doCommand.
@@ -189,6 +190,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._closed or self.source is None:
             return
         self._steady.hold()
+        self._end_foresight()
         if self.geometry.followed is not None:
             targets = self.geometry.targets()
             self.geometry.followed.say_size(bool(targets) and self.size_is_of(axes_of(targets)))
@@ -261,6 +263,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self._light_up()
         self._summary = summary(report) + self._pieces(value.parting)
         self._status(self._summary)
+        self._foresee_soon()
 
     def failed(self, ticket, error):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
@@ -389,6 +392,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             graph.addChild(switch)
 
     def clear_view(self):
+        self._end_foresight()
         if self.expressions is not None:
             self.expressions.put_back()
         self.geometry.close()

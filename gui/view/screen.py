@@ -17,7 +17,9 @@ class Screen:
 
     def pixel(self, point):
         """The length in the model of one pixel of the screen at a point."""
-        camera, shorter = self._camera, min(self.width, self.height)  # Coin fits the camera's height to the shorter side
+        camera, shorter = self._camera, min(
+            self.width, self.height
+        )  # Coin fits the camera's height to the shorter side
         if camera.isOfType(coin.SoOrthographicCamera.getClassTypeId()):
             return camera.height.getValue() / shorter
         right, up, back = self._axes()

@@ -50,7 +50,11 @@ def head_of_arc(radius, end, sense, height=0.0):
     or smaller ones."""
     back = end - sense * 9
     return np.concatenate(
-        [arc(0.92 * radius, back, back, height)[:1], arc(radius, end, end, height)[:1], arc(1.08 * radius, back, back, height)[:1]]
+        [
+            arc(0.92 * radius, back, back, height)[:1],
+            arc(radius, end, end, height)[:1],
+            arc(1.08 * radius, back, back, height)[:1],
+        ]
     )
 
 
