@@ -149,6 +149,12 @@ class CrackPanel(PlanePanel):
         """The plane, its x axis turned as entered."""
         return turned(self.geometry.placement(), self._turn.value)
 
+    def turn(self):
+        return self._turn.value
+
+    def enter_turn(self, degrees):
+        self._turn.set(degrees)
+
     def _within(self):
         placement = self.placement()
         along = placement.Rotation.multVec(X)

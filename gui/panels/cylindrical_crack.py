@@ -41,6 +41,12 @@ class CylindricalCrackPanel(CylinderPanel):
         """The axis, its x axis where the angles are measured from."""
         return turned(self.geometry.placement(), self._turn.value)
 
+    def turn(self):
+        return self._turn.value
+
+    def enter_turn(self, degrees):
+        self._turn.set(degrees)
+
     def _within(self):
         if not self.part.bounded.isChecked():
             return None

@@ -38,6 +38,12 @@ class IncisionPanel(PlanePanel):
         self.options.method.setCurrentIndex(self.options.method.findData("snap"))
         self.options.method.setEnabled(False)
 
+    def turn(self):
+        return self._turn.value
+
+    def enter_turn(self, degrees):
+        self._turn.set(degrees)
+
     def _end(self):
         return self.slot.slotEnd.currentData()
 
@@ -54,6 +60,11 @@ class IncisionPanel(PlanePanel):
         """Corners (x, y) of the half of the middle plane in which the slot is, as far as it is drawn."""
         half = 0.36 * self.geometry.size
         return [(0, -half), (half, -half), (half, half), (0, half)]
+
+    def placement(self):
+        # So that an expression for the turn takes the bottom along, see following.follow().
+        plane = self.geometry.placement()
+        return turned(plane, self._turn.value) if self._turn.has_expression and self._end() == "Point" else plane
 
     def _bottom_placement(self):
         """Placement whose z axis points from the bottom into the material that stays; None without a bottom."""
@@ -100,6 +111,9 @@ class IncisionPanel(PlanePanel):
     def arguments(self):
         arguments = {**super().arguments(), "width": repr(self._width.value)}
         bottom = self._bottom_placement()
+        if self._turn.has_expression:
+            del arguments["origin"], arguments["normal"]
+            arguments = {"placement": self.placement_text(), **arguments}
         if bottom is not None:
             arguments["bottom"] = as_text(bottom)
         del arguments["method"]

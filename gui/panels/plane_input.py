@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Input of a plane."""
 
+import FreeCAD
+
 from ..translate import translate
 from ..view import picking
 from ..view.plane_handles import PlaneHandles
@@ -19,7 +21,7 @@ class PlaneInput(GeometryInput):
         self._part_movable, self._part_turn, self._outline = False, None, None
         self._slot_width = None
         super().__init__(source_object)
-        self._offset = fields.Number(self.form.offset, self._tell, step=fields.round_step(self.size / 100))
+        self._offset = fields.Number(self.form.offset, self._offset_typed, step=fields.round_step(self.size / 100))
         self.form.flip.clicked.connect(self._flip)
 
     def origin(self):
@@ -28,11 +30,28 @@ class PlaneInput(GeometryInput):
             return self.base()
         return self.base() + direction.normalize() * self._offset.value
 
+    def _offset_typed(self):
+        if self._offset.has_expression:  # else it is one from what is followed
+            self.followed.end_by_hand()
+        self._tell()
+
+    def is_expressed(self):
+        return super().is_expressed() or (self._offset is not None and self._offset.has_expression)
+
+    def read_expressed(self, obj):
+        super().read_expressed(obj)
+        self._offset.set(obj.Offset.Value)
+
+    def expressed(self, turn):
+        return {**super().expressed(turn), "Offset": repr(self._offset.value)}
+
     def set_pose(self, origin, direction, radius=None, from_handle=False, follows=False):
         if not follows and self._is_elsewhere(origin, direction):
             self.followed.end_by_hand()
         if self._offset is not None:
             self._offset.set(0)
+            if self._offset.has_expression and direction.Length > 0 and not self.is_fixed():
+                origin = origin - FreeCAD.Vector(direction).normalize() * self._offset.value
         super().set_pose(origin, direction, radius, from_handle, follows=True)
 
     def _flip(self):

@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 import femscalpel
+from femscalpelobjects import following
 from femscalpelobjects.geometry import geometry_of
 from femscalpelobjects.picked_geometry import axes_of
 
@@ -68,6 +69,9 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self.read(edited)
             if self.geometry.followed is not None:
                 self.geometry.followed.read(edited)
+                if following.is_expressed(edited):
+                    self.geometry.read_expressed(edited)
+                    self.enter_turn(edited.Turn.Value)
         self.expressions = Expressions(edited, self.form) if edited else NewExpressions(source_object, self.form)
         self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
@@ -134,6 +138,19 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         offset = axes_of(targets).placement.inverse().multiply(self.placement())
         parts = ", ".join(f"({self._text_of(part)}, {name!r})" for part, name in targets)
         return f"ObjectsFemScalpel.followGeometry({text}, [{parts}], {as_text(offset)})"
+
+    def turn(self):
+        """By how many degrees the tool is turned about its direction."""
+        return 0.0
+
+    def enter_turn(self, degrees):
+        """Enters that."""
+
+    def expressed_lines(self, text, paths):
+        """Lines that give the object `text` what says its placement if expressions for some of these paths do."""
+        if not {path.split(".")[0] for path in paths} & set(following.EXPRESSED):
+            return []
+        return [f"{text}.{name} = {value}" for name, value in self.geometry.expressed(self.turn()).items()]
 
     def placement_text(self):
         """The placement as exact Python text."""

@@ -231,10 +231,9 @@ class WithOk:
         label = self._free_label(obj)
         if label != obj.Label:
             FreeCADGui.doCommand(f"{self._text_of(obj)}.Label = {label!r}")
-        lines = [self.following_text(self._text_of(obj))]
-        lines += [
-            f"{self._text_of(obj)}.setExpression{pair!r}" for pair in self.expressions.take(obj, self.form).items()
-        ]
+        expressions, text = self.expressions.take(obj, self.form), self._text_of(obj)
+        lines = [self.following_text(text), *self.expressed_lines(text, expressions)]
+        lines += [f"{text}.setExpression{pair!r}" for pair in expressions.items()]
         for line in filter(None, lines):
             FreeCADGui.doCommand(line)
         self._remember_source()
@@ -269,6 +268,7 @@ class WithOk:
         text = self._text_of(self.edited)
         lines = [f"{text}.{name} = {value}" for name, value in self.settings().items()]
         lines += filter(None, [self.following_text(text)])
+        lines += self.expressed_lines(text, self.expressions.now())
         lines += [f"{text}.setExpression{pair!r}" for pair in self.expressions.changes().items()]
         self.expressions.put_back()
         return lines

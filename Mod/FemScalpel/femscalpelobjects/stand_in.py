@@ -31,6 +31,7 @@ class StandIn:
             "ViewObject": None,
             "Proxy": None,
             "State": [],
+            "ExpressionEngine": [],
             "_kinds": {},
             "_values": {},
             "_choices": {},

@@ -16,7 +16,15 @@ from .mesh_content import content_of
 from femscalpeltest.meshes import grid_box
 from .test_crack_panel import long_box
 
-_RESULTS = ("NodesAdded", "NodesDoubled", "NodesMoved", "MinimumQuality", "MaxDisplacement", "Warnings", "NodeSetCounts")
+_RESULTS = (
+    "NodesAdded",
+    "NodesDoubled",
+    "NodesMoved",
+    "MinimumQuality",
+    "MaxDisplacement",
+    "Warnings",
+    "NodeSetCounts",
+)
 
 
 class Foresight(GuiTest):
@@ -97,7 +105,13 @@ class Foresight(GuiTest):
             type_into(name, text)
 
     def part_of_a_cylinder(self):
-        numbers = (("normalX", "0"), ("normalZ", "1"), ("radius", "1.4 mm"), ("partStart", "20 deg"), ("partEnd", "150"))
+        numbers = (
+            ("normalX", "0"),
+            ("normalZ", "1"),
+            ("radius", "1.4 mm"),
+            ("partStart", "20 deg"),
+            ("partEnd", "150"),
+        )
         click("bounded")
         for name, text in numbers:
             type_into(name, text)
