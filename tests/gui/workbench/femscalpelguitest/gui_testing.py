@@ -137,6 +137,11 @@ def is_settled():
     return is_shown("status") and widget("status").property("femscalpelSettled") is not False
 
 
+def is_ready():
+    """Whether the panel has read its mesh, and says what is about what is entered now."""
+    return is_settled() and widget("status").text() and "…" not in widget("status").text()
+
+
 def press_button(*choices):
     """Clicks OK, Cancel or Close of the task panel, whichever is there."""
     boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]

@@ -27,7 +27,7 @@ KINDS = {
 class CurvedTest(CylinderTest):
     def open_panel(self, name="FemScalpel_CurvedCrack"):
         self.run_command(name)
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def enter(self, kind):
         choose("toolShape", kind)

@@ -21,7 +21,7 @@ from .test_crack_panel import traces
 class FaceCrack(GuiTest):
     def open_panel(self):
         self.run_command("FemScalpel_FaceCrack")
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def test_made_edited_undone(self):
         mesh = self.add_mesh(mesh_of("hexahedron"))

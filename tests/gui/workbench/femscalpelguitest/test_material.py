@@ -34,7 +34,7 @@ class MaterialTest(GuiTest):
 
     def open_panel(self, name):
         self.run_command(name)
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def shown(self, report):
         """Waits for the preview of what a report tells."""

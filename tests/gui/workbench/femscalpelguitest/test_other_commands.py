@@ -119,7 +119,7 @@ class CylindricalCrack(CylinderTest):
         np.testing.assert_allclose([value("normalX"), value("normalY"), value("normalZ")], (0, 0, 1), atol=0.006)
 
     def wait_for_preview_or_message(self):
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def test_handles(self):
         self.run_command("FemScalpel_CylindricalCrack")
@@ -166,7 +166,7 @@ class Patches(CylinderTest):
         type_into("patchRadius", "1.6 mm")
         type_into("patchSecondRadius", "0.9 mm")
         type_into("patchTurn", "90 deg")
-        wait_until(lambda: re.match(r"\d+ ", widget("status").text()), "the preview")
+        self.wait_for_preview()
         screenshot("crack_ellipse")
         press_ok()
         crack = self.doc.Crack
