@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One worker thread with one slot: work that was overtaken by newer work is never started."""
 
+import math
 import threading
 import time
 from collections import deque
@@ -17,6 +18,8 @@ PATIENCE = 1.0
 class LatestWins(QtCore.QObject):
     """Runs functions off the GUI thread, one at a time; of those that wait, only the newest, for which one that takes
     long is cancelled.
+
+    Work that gives way is cancelled by any that is newer.
 
     Calls finished(ticket, value) or failed(ticket, error) on the GUI thread. `ticket` is what request() returned.
     """
@@ -36,12 +39,12 @@ class LatestWins(QtCore.QObject):
         self._thread = threading.Thread(target=self._work, name="FemScalpel preview", daemon=True)
         self._thread.start()
 
-    def request(self, function):
+    def request(self, function, gives_way=False):
         """Has `function` called without arguments as soon as the thread is free. Returns its ticket, a growing
         number."""
         with self._wake:
             self._last += 1
-            self._waiting = (self._last, function)
+            self._waiting = (self._last, function, gives_way)
             if self._running and time.monotonic() - self._running[1] > PATIENCE:
                 self._running[0].cancel()
             self._wake.notify()
@@ -80,10 +83,10 @@ class LatestWins(QtCore.QObject):
                     self._wake.wait()
                 if self._closed:
                     return
-                ticket, function = self._waiting
+                ticket, function, gives_way = self._waiting
                 self._waiting = None
                 token = femscalpel.CancelToken()
-                self._running = (token, time.monotonic())
+                self._running = (token, -math.inf if gives_way else time.monotonic())
             try:
                 with token:
                     outcome = self._finished, ticket, function()

@@ -115,13 +115,16 @@ class Steps:
     """Hears of the steps of a computation on its own thread: the `progress` of MeshOperation.begin(). Raises
     femscalpel.Cancelled there once the Progress is cancelled."""
 
-    def __init__(self, progress):
-        self._progress = progress
+    def __init__(self, progress=None):
+        #: None while nobody waits for it.
+        self.progress = progress
+        #: Whether it is to end, whoever waits.
+        self.given_up = False
         self._step = ("operate", None)
 
     def __call__(self, step, fraction=None):
         self._step = (step, fraction)
-        if self._progress.cancelled:
+        if self.given_up or (self.progress is not None and self.progress.cancelled):
             raise femscalpel.Cancelled("cancelled")
 
     def say(self):
@@ -133,4 +136,4 @@ class Steps:
             "shape": translate("FemScalpel", "Putting nodes onto the geometry…"),
             "femmesh": translate("FemScalpel", "Writing the mesh for FreeCAD…"),
         }
-        self._progress.say(texts[step], fraction)
+        self.progress.say(texts[step], fraction)

@@ -3,7 +3,7 @@
 
 from ..translate import translate
 from ..view import picking
-from ..view.handles import AxisHandles
+from ..view.axis_handles import AxisHandles
 from . import fields
 from .geometry_input import GeometryInput
 
@@ -16,7 +16,7 @@ class AxisInput(GeometryInput):
     EDGES_OF_SKETCHES = True
 
     def __init__(self, source_object):
-        self._radius = self._depth = None
+        self._radius = self._depth = self._part = None
         super().__init__(source_object)
         step = fields.round_step(self.size / 50)
         self._radius = fields.Number(self.form.radius, self._tell, fields.round_step(self.size / 10), step)
@@ -41,9 +41,16 @@ class AxisInput(GeometryInput):
             self.handles.show_depth(depth)
             self.handles.set_pose(self.origin(), self.rotation(), self.radius())
 
+    def show_part(self, part):
+        """Says what part of the cylinder is meant, see AxisHandles.show_part()."""
+        self._part = part
+        if self.handles is not None:
+            self.handles.show_part(part)
+
     def _make_handles(self, view):
         handles = AxisHandles(view, self.size, self._dragged)
         handles.show_depth(self._depth)
+        handles.show_part(self._part)
         return handles
 
     def _ask_geometry(self):

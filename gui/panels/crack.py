@@ -83,7 +83,8 @@ class CrackPanel(PlanePanel):
         """The part has other numbers: its handles follow, and the preview."""
         shown = self._patch()
         radius = self._radius if shown in ("Disk", "Ellipse") else None
-        self.geometry.show_part(shown != "Whole", radius, self._turn, self._outline)
+        turn = self._turn if shown in TURNED else None
+        self.geometry.show_part(shown != "Whole", radius, turn, self._outline)
         self.update()
 
     def _outline(self):
@@ -147,6 +148,12 @@ class CrackPanel(PlanePanel):
     def placement(self):
         """The plane, its x axis turned as entered."""
         return turned(self.geometry.placement(), self._turn.value)
+
+    def turn(self):
+        return self._turn.value
+
+    def enter_turn(self, degrees):
+        self._turn.set(degrees)
 
     def _within(self):
         placement = self.placement()

@@ -30,9 +30,22 @@ class CylindricalCrackPanel(CylinderPanel):
             box.setEnabled(on)
         self.update()
 
+    def update(self):
+        if not self._closed and self.source is not None:
+            ends = (self._low, self._high, self._start, self._end, self._turn)
+            bounded = self.part.bounded.isChecked()
+            self.geometry.show_part(tuple(number.value for number in ends) if bounded else None)
+        super().update()
+
     def placement(self):
         """The axis, its x axis where the angles are measured from."""
         return turned(self.geometry.placement(), self._turn.value)
+
+    def turn(self):
+        return self._turn.value
+
+    def enter_turn(self, degrees):
+        self._turn.set(degrees)
 
     def _within(self):
         if not self.part.bounded.isChecked():

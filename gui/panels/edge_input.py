@@ -56,6 +56,7 @@ class EdgeInput(PanelInput):
         ) or translate("FemScalpel", "%1 picked places").replace("%1", str(len(self._points)))
         self.form.edge.setItemText(0, text)
         self.form.clearEdges.setEnabled(bool(self._points))
+        self.form.stays.setVisible(bool(self._points) and self.form.edge.currentData() is None)
         if self.marks is not None:
             self.marks.mark([tuple(p) for p in self._points] if self.form.edge.currentData() is None else [])
 

@@ -4,6 +4,8 @@
 FreeCAD binds fields to properties of a document object; where there is none yet, a dialog asks for the expression.
 """
 
+import itertools
+
 import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
@@ -13,9 +15,18 @@ from femscalpelobjects.following import placement_property
 from ..event_filter import EventFilter
 from ..translate import translate
 from . import fields
+from .view_panel import abort_transaction
+
+# How the names of the steps begin that FreeCAD makes for an expression.
+_STEP = "Set expression"
 
 #: Fields, and the paths of the properties that they are of.
 PATHS = {
+    **{f"normal{axis}": f"Direction.{axis.lower()}" for axis in "XYZ"},
+    **{f"vector{axis}": f"{{vector}}.{axis.lower()}" for axis in "XYZ"},
+    "offset": "Offset",
+    "patchTurn": "Turn",
+    "slotTurn": "Turn",
     **{f"origin{axis}": f"{{place}}.Base.{axis.lower()}" for axis in "XYZ"},
     "radius": "Radius",
     "filletRadius": "Radius",
@@ -45,14 +56,18 @@ class Expressions:
     def __init__(self, obj, forms):
         self._obj, self._before, self._bindings = obj, _expressions_of(obj), []
         was_touched = "Touched" in obj.State
-        place = placement_property(obj) if {"PlanePlacement", "AxisPlacement"} & set(obj.PropertiesList) else ""
+        self._steps = obj.Document.UndoCount
         for box in _boxes(forms):
-            path = PATHS[box.objectName()].format(place=place)
+            path = _path(box, obj)
             if path.split(".")[0] in obj.PropertiesList:
                 self._bindings.append(_bound(box, obj, path))
         if "Touched" in obj.State and not was_touched:
             obj.purgeTouched()
         self._was_touched = was_touched
+
+    def now(self):
+        """Expressions by path."""
+        return _expressions_of(self._obj)
 
     def changes(self):
         """Expressions by path, None for one that is removed, as they differ from those at first."""
@@ -62,8 +77,9 @@ class Expressions:
         }
 
     def put_back(self):
-        """Sets the expressions there were at first."""
+        """Sets the expressions there were at first, and takes back the steps to undo that FreeCAD has made."""
         try:
+            self._undo()
             changes = self.changes()
         except ReferenceError:  # the document was closed
             return
@@ -71,6 +87,20 @@ class Expressions:
             self._obj.setExpression(path, self._before.get(path))
         if changes and not self._was_touched and "Invalid" not in self._obj.State:
             self._obj.purgeTouched()
+
+    def _undo(self):
+        document = self._obj.Document
+        names = document.UndoNames[: max(0, document.UndoCount - self._steps)]
+        own = list(itertools.takewhile(lambda name: name.startswith(_STEP), names))
+        for _ in own:
+            document.undo()
+        if own:
+            # They are not to be redone; FreeCAD forgets them with the first change in a new transaction.
+            document.openTransaction(_STEP)
+            self._obj.Label2 += " "
+            abort_transaction(document)
+            if not self._was_touched and "Invalid" not in self._obj.State:
+                self._obj.purgeTouched()
 
 
 class NewExpressions(EventFilter):
@@ -126,8 +156,7 @@ class NewExpressions(EventFilter):
 
     def take(self, obj, forms):
         """Expressions by path, for `obj`."""
-        place = placement_property(obj)
-        texts = {PATHS[box.objectName()].format(place=place): box.property(fields.EXPRESSION) for box in _boxes(forms)}
+        texts = {_path(box, obj): box.property(fields.EXPRESSION) for box in _boxes(forms)}
         return {path: text for path, text in texts.items() if text and path.split(".")[0] in obj.PropertiesList}
 
     def put_back(self):
@@ -139,6 +168,13 @@ def _boxes(forms):
         for box in form.findChildren(QtGui.QAbstractSpinBox):
             if box.objectName() in PATHS and box.inherits("Gui::QuantitySpinBox"):
                 yield box
+
+
+def _path(box, obj):
+    """The path of the property of `obj` that a field is of."""
+    place = placement_property(obj) if {"PlanePlacement", "AxisPlacement"} & set(obj.PropertiesList) else ""
+    vector = {"By": "MoveBy", "Scale": "ScaleCentre"}.get(getattr(obj, "Motion", None), "none")
+    return PATHS[box.objectName()].format(place=place, vector=vector)
 
 
 def _bound(box, obj, path):

@@ -53,7 +53,7 @@ class GeometryInput(PanelInput):
         return FreeCAD.Vector(*(field.value for field in self._direction))
 
     def _typed(self):
-        if self.is_fixed() or self._is_elsewhere(*self._told):  # a field that is left tells, too
+        if self.is_expressed() or self._is_elsewhere(*self._told):  # a field that is left tells, too
             self.followed.end_by_hand()
         self._tell()
 
@@ -68,6 +68,22 @@ class GeometryInput(PanelInput):
             self._set_radius(radius)
         self._tell(from_handle)
 
+    def is_expressed(self):
+        """Whether an expression says any number of the position."""
+        return self.is_fixed() or any(field.has_expression for field in self._direction)
+
+    def read_expressed(self, obj):
+        """Enters what a document object holds of which expressions say the direction."""
+        self.set_pose(obj.Origin, FreeCAD.Vector(obj.Direction), follows=True)
+
+    def expressed(self, turn):
+        """Properties of such an object as Python text by name; `turn` in degrees."""
+        return {
+            "Direction": f"FreeCAD.Vector{tuple(self.direction())!r}",
+            "Origin": f"FreeCAD.Vector{tuple(self.base())!r}",
+            "Turn": repr(float(turn)),
+        }
+
     def is_fixed(self):
         """Whether an expression says a coordinate of the point."""
         return any(field.has_expression for field in self._point)
@@ -80,7 +96,7 @@ class GeometryInput(PanelInput):
 
     def targets(self):
         """The geometry that the position follows, as following.targets_of()."""
-        return [] if self.is_fixed() else self.followed.targets
+        return [] if self.is_expressed() else self.followed.targets
 
     def _set_radius(self, radius):
         pass
@@ -115,6 +131,10 @@ class GeometryInput(PanelInput):
         """Puts the handles into a 3-D view."""
         self.handles = self._make_handles(view)
         self.handles.set_pose(self.origin(), self.rotation(), self.radius())
+
+    def show_grips(self, on):
+        if self.handles is not None:
+            self.handles.show_grips(on)
 
     def _make_handles(self, view):
         raise NotImplementedError
@@ -170,7 +190,7 @@ class GeometryInput(PanelInput):
         """Enters what was picked."""
         self.set_pose(picked.origin, picked.direction.normalize(), picked.radius)
         self.picked.emit(picked)
-        self.followed.start(() if self.is_fixed() else picked.targets)
+        self.followed.start(() if self.is_expressed() else picked.targets)
         self._tell()  # that it follows, when all is entered
 
     def _from_nodes(self, points):

@@ -22,7 +22,7 @@ class IncisionPanel(PlanePanel):
 
     def add_inputs(self):
         self.slot = self.insert_form("incision.ui")
-        self._width = fields.Number(self.slot.slotWidth, self.update, self.geometry.size / 50)
+        self._width = fields.Number(self.slot.slotWidth, self._choose, self.geometry.size / 50)
         self._kept = None  # the bottom of the document object, as a placement
         for text, data in (
             (translate("FemScalpel", "Through the whole part"), "Through"),
@@ -38,6 +38,12 @@ class IncisionPanel(PlanePanel):
         self.options.method.setCurrentIndex(self.options.method.findData("snap"))
         self.options.method.setEnabled(False)
 
+    def turn(self):
+        return self._turn.value
+
+    def enter_turn(self, degrees):
+        self._turn.set(degrees)
+
     def _end(self):
         return self.slot.slotEnd.currentData()
 
@@ -45,15 +51,20 @@ class IncisionPanel(PlanePanel):
         for box in (self.slot.turnLabel, self.slot.slotTurn):
             box.setVisible(self._end() == "Point")
         if self._end() == "Point":
-            self.geometry.show_part(False, None, self._turn, self._outline)
+            self.geometry.show_part(False, None, self._turn, self._outline, self._width)
         else:
-            self.geometry.show_part(False, None, None)
+            self.geometry.show_part(False, None, None, None, self._width)
         self.update()
 
     def _outline(self):
         """Corners (x, y) of the half of the middle plane in which the slot is, as far as it is drawn."""
         half = 0.36 * self.geometry.size
         return [(0, -half), (half, -half), (half, half), (0, half)]
+
+    def placement(self):
+        # So that an expression for the turn takes the bottom along, see following.follow().
+        plane = self.geometry.placement()
+        return turned(plane, self._turn.value) if self._turn.has_expression and self._end() == "Point" else plane
 
     def _bottom_placement(self):
         """Placement whose z axis points from the bottom into the material that stays; None without a bottom."""
@@ -100,6 +111,9 @@ class IncisionPanel(PlanePanel):
     def arguments(self):
         arguments = {**super().arguments(), "width": repr(self._width.value)}
         bottom = self._bottom_placement()
+        if self._turn.has_expression:
+            del arguments["origin"], arguments["normal"]
+            arguments = {"placement": self.placement_text(), **arguments}
         if bottom is not None:
             arguments["bottom"] = as_text(bottom)
         del arguments["method"]

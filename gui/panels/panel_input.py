@@ -54,6 +54,9 @@ class PanelInput(QtCore.QObject):
     def add_handles(self, view):
         """Puts what can be seen of it into a 3-D view."""
 
+    def show_grips(self, on):
+        """Whether what is seen in the 3-D view can be grabbed."""
+
     # Picking.
 
     def _connect_buttons(self):

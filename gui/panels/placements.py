@@ -47,6 +47,11 @@ class Turn:
         """The angle."""
         return self._field.value if self._field is not None else self._value
 
+    @property
+    def has_expression(self):
+        """Whether an expression says the angle."""
+        return self._field is not None and self._field.has_expression
+
     def set(self, degrees):
         """Enters an angle without telling anyone."""
         if self._field is not None:

@@ -25,6 +25,11 @@ def cell(text, value=None):
     return item
 
 
+def _header(table, column):
+    """The text of a header. By the model: PySide 2 at times takes an item for what was at the same place in memory."""
+    return str(table.model().headerData(column, QtCore.Qt.Horizontal) or "")
+
+
 class TableTools(EventFilter):
     """A line over `table` with a filter and buttons. A click on a header sorts, another one the other way round; the
     first column has the names. `title`: what is saved, also the suggested file's name; `spare`: columns that are not
@@ -33,7 +38,7 @@ class TableTools(EventFilter):
     def __init__(self, table, title, spare=()):
         super().__init__(table)
         self._table, self._title, self._spare, self._order = table, title, spare, None
-        headers = (table.horizontalHeaderItem(column).text() for column in range(table.columnCount()))
+        headers = (_header(table, column) for column in range(table.columnCount()))
         self._unnamed = [column for column, text in enumerate(headers) if not text]
         self.filter = QtGui.QLineEdit()
         self.filter.setObjectName("filter")
@@ -106,7 +111,7 @@ class TableTools(EventFilter):
         """The header and the rows that are shown, as lists of texts and numbers."""
         table, header = self._table, self._table.verticalHeader()
         columns = [k for k in range(table.columnCount()) if k not in self._unnamed]
-        lines = [[table.horizontalHeaderItem(k).text() for k in columns]]
+        lines = [[_header(table, k) for k in columns]]
         for row in map(header.logicalIndex, range(table.rowCount())):
             if not table.isRowHidden(row):
                 lines.append([_value(table.item(row, k)) for k in columns])

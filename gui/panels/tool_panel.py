@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 import femscalpel
+from femscalpelobjects import following
 from femscalpelobjects.geometry import geometry_of
 from femscalpelobjects.picked_geometry import axes_of
 
@@ -15,6 +16,7 @@ from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
 from . import fields, group_table
 from .expressions import Expressions, NewExpressions
+from .foresight import WithForesight
 from .histogram import Histogram
 from .legend import Legend, entries_of
 from .placements import as_text
@@ -26,7 +28,11 @@ from .with_ok import WithOk
 from .with_options import OPTION_ERRORS, WithOptions
 
 
-class ToolPanel(WithOptions, WithOk, ViewPanel):
+#: Property of the label that says what the preview is, see ToolPanel._say_settled().
+SETTLED = "femscalpelSettled"
+
+
+class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
     """Asks for one operation on the mesh of `source_object`, or edits the object `edited`.
 
     Nothing is put into the document before OK; OK does everything in one transaction, by Gui.doCommand.
@@ -63,6 +69,9 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             self.read(edited)
             if self.geometry.followed is not None:
                 self.geometry.followed.read(edited)
+                if following.is_expressed(edited):
+                    self.geometry.read_expressed(edited)
+                    self.enter_turn(edited.Turn.Value)
         self.expressions = Expressions(edited, self.form) if edited else NewExpressions(source_object, self.form)
         self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
@@ -130,6 +139,19 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         parts = ", ".join(f"({self._text_of(part)}, {name!r})" for part, name in targets)
         return f"ObjectsFemScalpel.followGeometry({text}, [{parts}], {as_text(offset)})"
 
+    def turn(self):
+        """By how many degrees the tool is turned about its direction."""
+        return 0.0
+
+    def enter_turn(self, degrees):
+        """Enters that."""
+
+    def expressed_lines(self, text, paths):
+        """Lines that give the object `text` what says its placement if expressions for some of these paths do."""
+        if not {path.split(".")[0] for path in paths} & set(following.EXPRESSED):
+            return []
+        return [f"{text}.{name} = {value}" for name, value in self.geometry.expressed(self.turn()).items()]
+
     def placement_text(self):
         """The placement as exact Python text."""
         return as_text(self.placement())
@@ -185,6 +207,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._closed or self.source is None:
             return
         self._steady.hold()
+        self._end_foresight()
         if self.geometry.followed is not None:
             targets = self.geometry.targets()
             self.geometry.followed.say_size(bool(targets) and self.size_is_of(axes_of(targets)))
@@ -192,6 +215,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self.geometry.show_error(problem)
         if problem:
             self._ticket = self._settled = 0
+            self._say_settled()
             self._no_result(translate("FemScalpel", "No preview."))
             return
         self._given_up, self._cost = False, None
@@ -200,6 +224,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             operate, source = self.operation(tool, self.entered()), self.source
         except (femscalpel.Error, ValueError, TypeError) as error:
             self._ticket = self._settled = 0
+            self._say_settled()
             self._place_error(error)
             return
         surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
@@ -208,11 +233,16 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole, guard))
         self._set_ok(True)
         ticket = self._ticket
+        self._say_settled()
         if self.shown is None:
             self._clear_errors()
             self._say_computing(ticket)
         else:
             QtCore.QTimer.singleShot(400, lambda: self._say_computing(ticket))
+
+    def _say_settled(self):
+        """Notes at what is said whether it is about what is entered now, for what drives the window from outside."""
+        self.result.status.setProperty(SETTLED, not self._is_waiting())
 
     def _is_waiting(self):
         return not self._closed and self._settled < self._ticket
@@ -236,6 +266,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._heard(ticket, value) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._say_settled()
         self._steady.hold()
         self._clear_errors()
         self._set_ok(True)
@@ -249,11 +280,13 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         self._light_up()
         self._summary = summary(report) + self._pieces(value.parting)
         self._status(self._summary)
+        self._foresee_soon()
 
     def failed(self, ticket, error):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
             return
         self._settled = ticket
+        self._say_settled()
         self._steady.hold()
         if isinstance(error, TooMuch):
             self._clear_errors()
@@ -366,6 +399,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
         if self._closed:
             return
         self._meshes.pickable(self.pickable() if on else ())
+        self.geometry.show_grips(not on)
         self._hide_parts(not on)
         switch = self.scene.root
         graph = self.view.getSceneGraph()
@@ -375,6 +409,7 @@ class ToolPanel(WithOptions, WithOk, ViewPanel):
             graph.addChild(switch)
 
     def clear_view(self):
+        self._end_foresight()
         if self.expressions is not None:
             self.expressions.put_back()
         self.geometry.close()

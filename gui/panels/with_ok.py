@@ -139,6 +139,7 @@ class WithOk:
             return
         self.worker.cancel()
         self._ticket = self._settled = 0
+        self._say_settled()
         self._given_up = True
         self._status(translate("FemScalpel", "Cancelled. OK, or a change, computes again."))
 
@@ -156,6 +157,8 @@ class WithOk:
 
     def _heard(self, ticket, value, error=None):
         """Whether this is what OK waits for."""
+        if self._is_foresight(ticket, value):
+            return True
         if ticket != self._making:
             return False
         self._outcome = (value, error)
@@ -164,23 +167,35 @@ class WithOk:
     def _compute(self, obj):
         """Has the mesh of `obj` made on the other thread, for its recomputation. Raises what that does, and
         femscalpel.Cancelled."""
-        compute = obj.Proxy.begin(obj)
-        if compute is None:
-            return
         progress = self._progress
+        if not self._wait_for_foresight(progress) or self._closed:
+            self._end_foresight()
+            self._stop_computing()
+        compute = obj.Proxy.begin(obj, self._foreseen)
+        if compute is None:
+            contents.unread(obj.Source)
+            self._say_taking(progress)
+            return
         steps = Steps(progress)
         self._outcome = None
         self._making = self.worker.request(lambda: compute(steps))
         done = progress.wait_for(lambda: self._outcome is not None or self._closed, steps.say)
         self._making = None
         if not done or self._closed:
-            self.worker.cancel()
-            self.worker.wait_until_idle(_PATIENCE)
-            raise femscalpel.Cancelled("cancelled")
+            self._stop_computing()
         (made, error), self._outcome = self._outcome, None
         if error is not None:
             raise error
         obj.Proxy.adopt(made)
+        self._say_taking(progress)
+
+    def _stop_computing(self):
+        self.worker.cancel()
+        self.worker.wait_until_idle(_PATIENCE)
+        raise femscalpel.Cancelled("cancelled")
+
+    @staticmethod
+    def _say_taking(progress):
         progress.say(translate("FemScalpel", "FreeCAD takes the mesh over…"))
         progress.paint()
 
@@ -217,10 +232,9 @@ class WithOk:
         label = self._free_label(obj)
         if label != obj.Label:
             FreeCADGui.doCommand(f"{self._text_of(obj)}.Label = {label!r}")
-        lines = [self.following_text(self._text_of(obj))]
-        lines += [
-            f"{self._text_of(obj)}.setExpression{pair!r}" for pair in self.expressions.take(obj, self.form).items()
-        ]
+        expressions, text = self.expressions.take(obj, self.form), self._text_of(obj)
+        lines = [self.following_text(text), *self.expressed_lines(text, expressions)]
+        lines += [f"{text}.setExpression{pair!r}" for pair in expressions.items()]
         for line in filter(None, lines):
             FreeCADGui.doCommand(line)
         self._remember_source()
@@ -255,6 +269,7 @@ class WithOk:
         text = self._text_of(self.edited)
         lines = [f"{text}.{name} = {value}" for name, value in self.settings().items()]
         lines += filter(None, [self.following_text(text)])
+        lines += self.expressed_lines(text, self.expressions.now())
         lines += [f"{text}.setExpression{pair!r}" for pair in self.expressions.changes().items()]
         self.expressions.put_back()
         return lines

@@ -63,11 +63,68 @@ class Band:
             self.replaced |= lacking
         # What the result lacks is as it was; near the changed elements it is drawn as they are.
         around = source.cells.per_cell(lambda nodes: near[nodes].any(axis=1)).astype(bool) & ~self.replaced
+        overlapped = self._overlapped(cells, around & lacking)
+        self.replaced |= overlapped
+        around &= ~overlapped
         #: The changed elements, and the family of each.
         self.cells = cells.with_some_of(source.cells, around)
         self.families = np.append(cells.families(mesh, source.families), source.cell_family[around])
         #: Mask of the source's elements that are drawn as they were.
         self.stays = ~self.replaced & ~around
+
+    def _overlapped(self, cells, chosen):
+        """Mask of those `chosen` of the source's solids that changed elements, `cells`, stand for: they are on the same
+        side of a face, or have not the face that another one that they stand for had. Improving takes elements away
+        that the tool does not reach."""
+        out = np.zeros(len(chosen), bool)
+        faces, owner, keys, middles = self._solid_faces(self.source.cells, chosen)
+        _, _, changed_keys, changed_middles = self._solid_faces(cells, np.ones(len(cells), bool))
+        if not len(keys) or not len(changed_keys):
+            return out
+        corners = self.points[faces[:, :3]]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+        def side(points):
+            return np.einsum("ij,ij->i", normals, points - corners[:, 0])
+
+        order = np.argsort(changed_keys)
+        ascending, own = changed_keys[order], side(middles)
+        # A face has two changed elements at most.
+        for at in (np.searchsorted(ascending, keys), np.searchsorted(ascending, keys, "right") - 1):
+            at = order[np.clip(at, 0, len(order) - 1)]
+            out[owner[(changed_keys[at] == keys) & (own * side(changed_middles[at]) > 0)]] = True
+        lost = np.unique(self._solid_faces(self.source.cells, self.replaced & ~self.gone)[2])
+        # The lips of a crack along faces have no others on their faces.
+        alone = ~np.isin(keys, changed_keys) & ~self._doubled()[faces[:, :3]].any(axis=1)
+        while True:
+            lost = np.union1d(lost, keys[out[owner]])
+            more = owner[alone & ~out[owner] & np.isin(keys, lost)]
+            if not len(more):
+                return out
+            out[more] = True
+
+    def _doubled(self):
+        """Mask of the nodes that others of the result are at the place of."""
+        _, place, times = np.unique(self.mesh.points, axis=0, return_inverse=True, return_counts=True)
+        out = np.zeros(self.total, bool)
+        out[self.number[times[place.ravel()] > 1]] = True
+        return out
+
+    def _solid_faces(self, cells, chosen):
+        """(faces, their elements, their keys, the middles of the elements) of the solids among Cells that a mask
+        chooses."""
+        faces, owners, middles, first = [np.empty((0, 4), np.int64)], [np.empty(0, np.int64)], [np.empty((0, 3))], 0
+        for kind, nodes in cells.blocks:
+            at = np.flatnonzero(chosen[first : first + len(nodes)])
+            if CELL_TYPES[kind][0] == 3 and len(at):
+                of_kind, owner = mesh_faces.faces_of(kind, nodes[at])
+                faces.append(of_kind)
+                owners.append(first + at[owner])
+                middles.append(self.points[nodes[at]].mean(axis=1)[owner])
+            first += len(nodes)
+        faces = np.concatenate(faces)
+        keys = mesh_faces.face_keys(faces, self.total)
+        return faces, np.concatenate(owners), keys, np.concatenate(middles)
 
     def _as_before(self, kind, nodes):
         """Mask of the result's elements of a type that the source has, too, with the same nodes."""

@@ -162,11 +162,11 @@ class _UnlitNode(Part):
 
     def show(self, points):
         """Shows lines (n, 2, 3) or points (n, 3)."""
+        self._set_number(len(points))
         if not len(points):
             self.hide()
             return
         set_values(self._coordinates.point, np.ascontiguousarray(points.reshape(-1, 3), np.float32))
-        self._set_number(len(points))
         self.reveal()
 
     def _set_number(self, number):

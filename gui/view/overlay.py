@@ -3,6 +3,9 @@
 
 from pivy import coin
 
+#: The part of the depth of the view that pictures have: so they are before what is at the same place.
+_NEARER = 0.9995
+
 
 class Overlay:
     """A named separator in a view's scene graph."""
@@ -34,13 +37,16 @@ class Overlay:
 
 class Picture(Overlay):
     """An Overlay that is looked at, not picked: clicks go through to what can be selected. Well lit; ghosts are
-    blended."""
+    blended; in front of what FreeCAD draws at the same place, such as the faces of the CAD part."""
 
     def __init__(self, view, name):
         super().__init__(view, name)
         blend = coin.SoTransparencyType()
         blend.value = coin.SoTransparencyType.DELAYED_BLEND
-        for node in (unpickable(), blend, *_lights()):
+        # FreeCAD's faces are moved back like ours, see FaceNode, so that the difference is this alone.
+        nearer = coin.SoDepthBuffer()
+        nearer.range.setValue(0.0, _NEARER)
+        for node in (unpickable(), blend, nearer, *_lights()):
             self.root.addChild(node)
 
 

@@ -14,7 +14,12 @@ from femscalpelobjects.pieces import parting_of
 from . import faces as mesh_faces
 from .band import Band, centres, segments
 from .cells import Cells, Families
+from .islands import areas, islands as islands_of
 from .group_shape import elements_shape, group_shape, joined, nodes_shape
+
+
+# The part of the mesh's outer faces that what hangs together has at least to be no island.
+_SMALL = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +31,7 @@ class Surface:
     quality: np.ndarray  #: (m,) mean ratio of the element behind
     family: np.ndarray  #: (m,) index into a list of families
     lip: np.ndarray  #: (m,) bool: on the tool
+    island: np.ndarray = None  #: (m,) bool: far from what was made, and small; None for none
     beams: np.ndarray = field(default_factory=lambda: np.empty((0, 2, 3), np.float32))  #: lines beside them
 
     @classmethod
@@ -35,7 +41,15 @@ class Surface:
 
     def without_lip(self):
         """The faces that are not on the tool."""
-        kept = ~self.lip
+        return self._part(~self.lip)
+
+    def parted(self):
+        """(the faces that are no islands, those that are)."""
+        if self.island is None:
+            return self, self._part(np.zeros(len(self.faces), bool))
+        return self._part(~self.island), self._part(self.island)
+
+    def _part(self, kept):
         return Surface(self.points, self.faces[kept], self.quality[kept], self.family[kept], self.lip[kept])
 
 
@@ -52,6 +66,7 @@ class PreviewData:
     outline: np.ndarray  #: lines around the new surface
     front: np.ndarray  #: lines where the crack ends inside the part
     moved: np.ndarray  #: points
+    in_front: np.ndarray  #: (k,) bool: moved points on the new surface, or in front of it when it is cut open
     replaced: np.ndarray  #: numbers of the source's elements that the changed part stands for
     removed: Surface  #: outer faces of elements that go
     worst: np.ndarray  #: edges of the worst element
@@ -104,6 +119,11 @@ class PreviewSource:
     def pieces(self):
         """How many pieces the mesh is in."""
         return len(femscalpel.pieces(self.mesh))
+
+    @functools.cached_property
+    def area(self):
+        """Of the outer faces."""
+        return float(areas(self.skin, self.points).sum())
 
     def edge_length(self):
         """Mean length of the edges of the outer faces; of a mesh without such a twentieth of its size."""
@@ -159,18 +179,40 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
     points, cells, distance = band.points, band.cells, tool.distance(band.points)
     faces, owner, family, lip = band.outer_faces(distance)
     positive = (cells.per_cell(lambda nodes: distance[nodes].mean(axis=1)) > 0)[owner]
-    sides = tuple(
-        Surface.make(points, faces[side], cells.quality[owner[side]], family[side], lip[side])
-        for side in (~positive, positive)
-    )
     stays = band.stays[source.skin_owner]
     beyond = tool.distance(source.skin_centres) > 0
+    on_tool = np.abs(distance) <= 1e-7 * source.size
+    edges, on_front = _outline(band, report, faces, lip, positive, on_tool)
+    made = np.zeros(len(points), bool)
+    made[edges] = True
+    # What is seen when it is cut open: of a crack one side, of a hole the changed elements.
+    removes = band.gone.any()
+    opened = (~positive | removes, stays & ~beyond & ~removes)
+    islands = [np.zeros(len(positive), bool), np.zeros(len(stays), bool)]
+    found = islands_of(np.concatenate([faces[opened[0]], source.skin[opened[1]]]), points, made, _SMALL * source.area)
+    islands[0][opened[0]], islands[1][opened[1]] = np.split(found, [opened[0].sum()])
+    sides = tuple(
+        Surface.make(
+            points,
+            faces[side],
+            cells.quality[owner[side]],
+            family[side],
+            lip[side],
+            island=islands[0][side] & ~lip[side],
+        )
+        for side in (~positive, positive)
+    )
     rest = tuple(
-        Surface.make(source.points, source.skin[side], source.skin_quality[side], source.skin_family[side])
+        Surface.make(
+            source.points,
+            source.skin[side],
+            source.skin_quality[side],
+            source.skin_family[side],
+            island=islands[1][side],
+        )
         for side in (stays & ~beyond, stays & beyond)
     )
-    on_tool = np.abs(distance) <= 1e-7 * source.size
-    outline, front = _outline(band, report, faces, lip, positive, on_tool)
+    lines = points[edges].astype(np.float32).reshape(-1, 2, 3)
     drawn = np.zeros(len(points), bool) if lip.any() else on_tool
     worst, centre, ratio = _worst(report, result.mesh)
     return PreviewData(
@@ -180,9 +222,10 @@ def make_preview(source, result, tool, removed_region=None, whole=False):
         families=list(source.families.names),
         borders=np.concatenate([_kept_borders(source, stays), _band_borders(points, faces, family, lip, drawn)]),
         beams=band.beams(faces, report),
-        outline=outline,
-        front=front,
+        outline=lines[~on_front],
+        front=lines[on_front],
         moved=band.moved.astype(np.float32),
+        in_front=removes | (tool.distance(band.moved) > -1e-7 * source.size),
         replaced=source.cells.ids[band.replaced],
         removed=_removed(source, band.gone),
         worst=worst,
@@ -241,7 +284,7 @@ def _band_borders(points, faces, family, lip, drawn):
 
 
 def _outline(band, report, faces, lip, positive, on_tool):
-    """Lines around the lips; of a shell, the lips themselves. Of them, those on the front."""
+    """Edges (k, 2) around the lips; of a shell, the lips themselves. Which of them are on the front."""
     mesh, points, number, total = band.mesh, band.points, band.number, band.total
     if lip.any():
         chosen = lip & ~positive
@@ -263,9 +306,8 @@ def _outline(band, report, faces, lip, positive, on_tool):
             if cell_type in mesh.cells:
                 members = np.isin(mesh.cell_ids[cell_type], mesh.groups[name, "element"].ids)
                 front[number[np.unique(mesh.cells[cell_type][members][:, :2])]] = True
-    on_front = front[edges].all(axis=1) if len(edges) else np.zeros(0, bool)
-    lines = points[edges].astype(np.float32).reshape(-1, 2, 3)
-    return lines[~on_front], lines[on_front]
+    edges = edges.reshape(-1, 2)
+    return edges, front[edges].all(axis=1)
 
 
 def _worst(report, mesh):

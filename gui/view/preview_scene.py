@@ -21,7 +21,7 @@ class PreviewScene(Picture):
     """The nodes of the preview, under one separator called "FemScalpelPreview".
 
     Its parts are called FemScalpelBand, ...Rest, ...Ghost, ...Borders, ...Beams, ...Outline, ...Front, ...Moved,
-    ...Removed, ...Worst and ...Highlight.
+    ...MovedUnder, ...Removed, ...Worst and ...Highlight.
     """
 
     def __init__(self, view):
@@ -37,7 +37,16 @@ class PreviewScene(Picture):
         self.beams = LineNode("FemScalpelBeams", colours.BEAM, 4.0)
         self.outline = LineNode("FemScalpelOutline", preferences.colour("Interface", colours.INTERFACE), 4.0)
         self.front = LineNode("FemScalpelFront", preferences.colour("Front", colours.FRONT), 5.0)
-        self.moved = PointNode("FemScalpelMoved", preferences.colour("Moved", colours.MOVED), 3.0)
+        moved = preferences.colour("Moved", colours.MOVED)
+        self.moved = PointNode("FemScalpelMoved", moved, 3.0)
+        # Drawn before the faces and without depth of their own, so that faces are never behind them.
+        self.moved_under = PointNode("FemScalpelMovedUnder", moved, 3.0)
+        under = coin.SoSeparator()
+        depth = coin.SoDepthBuffer()
+        depth.write = False
+        under.addChild(depth)
+        under.addChild(self.moved_under.root)
+        self.root.addChild(under)
         self.worst = LineNode("FemScalpelWorst", (0, 0, 0), 3.0)
         self.worst_label = LabelNode("FemScalpelWorstLabel")
         highlight = preferences.colour("Highlight", colours.HIGHLIGHT)
@@ -76,6 +85,7 @@ class PreviewScene(Picture):
             self.outline,
             self.front,
             self.moved,
+            self.moved_under,
             self.worst,
             self.worst_label,
         ):
@@ -97,27 +107,32 @@ class PreviewScene(Picture):
             return
         cut_away, only = self.look == LOOKS[0] and not len(data.removed.faces), self.look == LOOKS[2]
         through = len(data.removed.faces) > 0 and not only
-        negative, positive = data.rest
+        (negative, positive), band = data.rest, data.band
         if only:
             self.rest.hide()
             self.ghost.hide()
         elif cut_away:
+            (negative, islands), (changed, others) = negative.parted(), data.band[0].parted()
             self._fill(self.rest, [negative], data)
             # Not its lip, which is where that of the other side is.
-            self._fill(self.ghost, [positive, data.band[1].without_lip()], None)
+            self._fill(self.ghost, [positive, data.band[1].without_lip(), islands, others], None)
+            band = [changed]
         elif through and self.look == LOOKS[0]:
             self.rest.hide()
-            self._fill(self.ghost, [negative, positive], None)
+            band, others = zip(*(side.parted() for side in data.band))
+            self._fill(self.ghost, [negative, positive, *others], None)
         else:
             self._fill(self.rest, [negative, positive], data)
             self.ghost.hide()
-        self._fill(self.band, data.band[:1] if cut_away else data.band, data, self.colouring == "quality")
+        self._fill(self.band, band, data, self.colouring == "quality")
         self.removed.show(data.removed.points, data.removed.faces)
         self.borders.show(data.borders)
         self.beams.show(data.beams)
         self.outline.show(data.outline)
         self.front.show(data.front)
-        self.moved.show(data.moved) if self.show_moved else self.moved.hide()
+        under = data.in_front & (self.look == LOOKS[0])
+        for part, chosen in ((self.moved, ~under), (self.moved_under, under)):
+            part.show(data.moved[chosen & self.show_moved])
         if self.show_worst and len(data.worst):
             self.worst.show(data.worst)
             self.worst_label.show(

@@ -43,12 +43,17 @@ PROFILES = {"Cylinder": _cylinder, "Sphere": _sphere, "Torus": _torus, "Cone": _
 ENDLESS = ("Cylinder",)
 
 
-def revolved(profile, steps=48):
-    """Points (n, 3) and quadrangles (m, 4) of what a profile of (radius, height) makes when it turns about z."""
+def revolved(profile, start=0.0, end=360.0):
+    """Points (n, 3) and quadrangles (m, 4) of what a profile of (radius, height) makes when it turns about z between
+    two angles in degrees."""
     profile = np.asarray(profile, float).reshape(-1, 2)
-    angles = np.linspace(0, 2 * np.pi, steps, endpoint=False)
+    is_whole = abs(end - start) >= 360
+    steps = 48 if is_whole else max(2, math.ceil(48 * abs(end - start) / 360) + 1)
+    angles = np.radians(np.linspace(start, start + 360 if is_whole else end, steps, endpoint=not is_whole))
     ring = np.column_stack([np.cos(angles), np.sin(angles)])
     points = np.concatenate([np.column_stack([r * ring, np.full(steps, z)]) for r, z in profile] or [np.empty((0, 3))])
     lower = np.arange(max(len(profile) - 1, 0) * steps)
+    if not is_whole:
+        lower = lower[lower % steps < steps - 1]
     after = lower // steps * steps + (lower + 1) % steps
     return points, np.column_stack([lower, after, after + steps, lower + steps])

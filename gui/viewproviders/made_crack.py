@@ -37,10 +37,10 @@ class MadeCrack:
         self._switch = coin.SoSwitch()
         self._switch.setName("FemScalpelMadeCrack")
         self._switch.whichChild = coin.SO_SWITCH_NONE
-        self.outline = LineNode("FemScalpelMadeOutline", rgb, 3.0)
-        self.front = LineNode("FemScalpelMadeFront", rgb, 5.0)
+        self.outline = LineNode("FemScalpelMadeOutline", rgb, 4.0)
+        self.front = LineNode("FemScalpelMadeFront", rgb, 6.0)
         self.lips = FaceNode("FemScalpelMadeLips", rgb, edges=tuple(0.5 * c for c in rgb))
-        self._hidden = [LineNode("FemScalpelCoveredOutline", rgb, 1.5), LineNode("FemScalpelCoveredFront", rgb, 3.0)]
+        self._hidden = [LineNode("FemScalpelCoveredOutline", rgb, 2.0), LineNode("FemScalpelCoveredFront", rgb, 3.0)]
         covered = coin.SoAnnotation()
         for part in self._hidden:
             part.dash()

@@ -169,6 +169,10 @@
       <translation>Wählen</translation>
     </message>
     <message>
+      <source>Picked places do not move with the mesh: when it changes, the edge that is there then is rounded. A group goes with the mesh.</source>
+      <translation>Gewählte Stellen bewegen sich nicht mit dem Netz: Ändert es sich, wird die Kante gerundet, die dann dort ist. Eine Gruppe geht mit dem Netz.</translation>
+    </message>
+    <message>
       <source>What is rounded: what was picked, or a group of segments or nodes on an edge</source>
       <translation>Was gerundet wird: was gewählt wurde oder eine Gruppe von Strecken oder Knoten auf einer Kante</translation>
     </message>

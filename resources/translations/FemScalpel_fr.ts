@@ -169,6 +169,10 @@
       <translation>Choisir</translation>
     </message>
     <message>
+      <source>Picked places do not move with the mesh: when it changes, the edge that is there then is rounded. A group goes with the mesh.</source>
+      <translation>Les endroits choisis ne suivent pas le maillage : s'il change, c'est l'arête qui s'y trouve alors qui est arrondie. Un groupe suit le maillage.</translation>
+    </message>
+    <message>
       <source>What is rounded: what was picked, or a group of segments or nodes on an edge</source>
       <translation>Ce qui est arrondi : ce qui a été choisi, ou un groupe de segments ou de nœuds sur une arête</translation>
     </message>

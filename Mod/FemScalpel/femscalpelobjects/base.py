@@ -216,12 +216,13 @@ class MeshOperation:
                 FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
         self._give(obj, made, aloud=True)
 
-    def begin(self, obj):
+    def begin(self, obj, foreseen=None):
         """What execute() would compute, as a function that another thread can call: with `progress` or None, called as
         progress(step, fraction of it or None), which may raise femscalpel.Cancelled. What the function returns is for
-        adopt(). None where nothing is to be computed. Raises what execute() does, not as Reason.
+        adopt(). None where nothing is to be computed, also as it was `foreseen`: a Made that was computed for a StandIn
+        like the object. Raises what execute() does, not as Reason.
 
-        The object and what it is made from must not change meanwhile.
+        The object and what it is made from must not change meanwhile, unless it is a StandIn.
         """
         self._link_geometry(obj)
         self.mesh_of(obj, "Source")
@@ -229,6 +230,10 @@ class MeshOperation:
         self._check_following(obj)
         if self._remembered(obj, inputs, surroundings) is not None:
             return None
+        if foreseen is not None and None not in (surroundings, foreseen.surroundings):
+            if (foreseen.inputs, foreseen.surroundings) == (inputs, surroundings):
+                self.adopt(foreseen)
+                return None
         femmesh = Fem.FemMesh()  # here, as FreeCAD counts them
         return lambda progress=None: self._compute(obj, inputs, surroundings, femmesh, progress)
 

@@ -18,8 +18,8 @@ from .following import FOLLOW_PROPERTIES, problem_of
 from .geometry import shapes_of
 from .ours import is_ours
 
-# Properties that are no inputs; the first is FreeCAD's own, from 1.0 on, and changes with the mesh.
-_ASIDE = {
+#: Properties that are no inputs; the first is FreeCAD's own, from 1.0 on, and changes with the mesh.
+ASIDE = {
     "_ElementMapVersion",
     "FemMesh",
     "Label",
@@ -47,7 +47,7 @@ def inputs_of(obj):
     values = {
         name: _plain(obj, name, getattr(obj, name))
         for name in sorted(obj.PropertiesList)
-        if name not in _ASIDE and obj.getGroupOfProperty(name) != "Result"
+        if name not in ASIDE and obj.getGroupOfProperty(name) != "Result"
     }
     return _digest(obj.Proxy.Type.encode(), repr(values).encode(), problem_of(obj).encode())
 
@@ -102,6 +102,11 @@ def learn(obj, mesh, digest, changes):
     _known.setdefault(_key(obj), digest)
     _read.clear()
     _read[_key(obj)] = mesh
+
+
+def unread(obj):
+    """Nobody will ask for what learn() was told, for now."""
+    _read.pop(_key(obj), None)
 
 
 def forget(obj):

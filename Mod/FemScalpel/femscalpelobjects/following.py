@@ -29,7 +29,14 @@ FOLLOW_INPUTS = (
     ("App::PropertyBool", "SizeFollows", "Whether the radius, or the outline, is that of FollowedGeometry, too"),
     ("App::PropertyString", "FollowedName", "What FollowedGeometry was called when it was picked"),
     ("App::PropertyString", "FollowedTopology", "Which faces and edges its parts had then"),
+    # Where an expression says any of these, they are all that says the placement; else they mean nothing.
+    ("App::PropertyVector", "Direction", "Where expressions say it: the normal of the plane, or the axis; any length"),
+    ("App::PropertyVector", "Origin", "Where expressions say the direction: the point of the tool without Offset"),
+    ("App::PropertyDistance", "Offset", "Where expressions say it: how far the tool is from Origin along Direction"),
+    ("App::PropertyAngle", "Turn", "Where expressions say it: by how much the tool is turned about Direction"),
 )
+#: The last of these, which expressions may say.
+EXPRESSED = ("Direction", "Offset", "Turn")
 #: Names of these properties: the mesh depends on them only by way of the numbers.
 FOLLOW_PROPERTIES = tuple(name for _, name, *_ in FOLLOW_INPUTS)
 
@@ -52,7 +59,7 @@ def set_up(obj):
     """Hides what is not for users, and locks the numbers that follow."""
     if "FollowedTopology" not in obj.PropertiesList:
         return
-    for name in ("FollowedName", "FollowedTopology"):
+    for name in ("FollowedName", "FollowedTopology", "Direction", "Origin", "Offset", "Turn"):
         obj.setEditorMode(name, 2)
     for name in ("FollowedGeometry", "FollowOffset", "SizeFollows"):
         obj.setEditorMode(name, 0 if follows(obj) else 2)
@@ -67,6 +74,25 @@ def placement_property(obj):
 def follows(obj):
     """Whether the numbers of an object of FemScalpel follow geometry."""
     return "FollowedTopology" in obj.PropertiesList and obj.Follow == GEOMETRY
+
+
+def is_expressed(obj):
+    """Whether expressions say the direction, the offset or the turn of an object of FemScalpel."""
+    return any(path.lstrip(".").split(".")[0] in EXPRESSED for path, _ in obj.ExpressionEngine)
+
+
+def _expressed(obj):
+    """The placement that expressions say. ValueError where the direction is zero."""
+    direction, here = FreeCAD.Vector(obj.Direction), getattr(obj, placement_property(obj))
+    if not direction.Length > 0:
+        raise ValueError("Direction, as its expressions say it, is zero; give it a length")
+    z = FreeCAD.Vector(0, 0, 1)
+    rotation = FreeCAD.Rotation(z, direction) * FreeCAD.Rotation(z, obj.Turn.Value)
+    base = obj.Origin + FreeCAD.Vector(direction).normalize() * obj.Offset.Value
+    paths = [path.lstrip(".") for path, _ in obj.ExpressionEngine]
+    if any(path.startswith(f"{placement_property(obj)}.Base.") for path in paths):
+        base = here.Base  # as on any other object
+    return FreeCAD.Placement(base, rotation)
 
 
 def targets_of(obj):
@@ -108,6 +134,8 @@ def unlink(obj):
 def problem_of(obj):
     """What is wrong with the geometry that an object follows, "" where nothing is."""
     try:
+        if "Direction" in obj.PropertiesList and is_expressed(obj):
+            _expressed(obj)
         _axes(obj)
     except ValueError as error:
         return str(error)
@@ -116,6 +144,9 @@ def problem_of(obj):
 
 def follow(obj):
     """Takes the numbers from the geometry, where they follow any. ValueError where that is broken; they stay then."""
+    if "Direction" in obj.PropertiesList and is_expressed(obj):
+        _move(obj, _expressed(obj))
+        return
     axes = _axes(obj)
     if axes is None:
         return

@@ -28,7 +28,7 @@ def shapes_of(obj):
     """
     geometry = geometry_of(obj)
     found = {"": geometry.Shape} if geometry is not None else {}
-    chain = [obj]
+    chain = [getattr(obj, "StandsFor", None) or obj]
     while getattr(chain[-1], "Source", None) is not None:
         chain.append(chain[-1].Source)
     for analysis in obj.Document.findObjects("Fem::FemAnalysis"):

@@ -45,7 +45,7 @@ def make(doc, operation, source, name, options, **properties):
     except Exception:
         doc.removeObject(obj.Name)
         raise
-    if FreeCAD.GuiUp:
+    if FreeCAD.GuiUp and obj.ViewObject is not None:
         ViewProviderMeshOperation(obj.ViewObject)
     return obj
 

@@ -13,8 +13,12 @@ import unittest
 
 import FreeCAD
 import FreeCADGui
+import numpy as np
 from pivy import coin
 from PySide import QtCore, QtGui
+
+from femscalpelgui.view.label import pixel_ratio
+from femscalpelgui.view.screen import Screen
 
 try:
     from PySide import QtTest
@@ -129,6 +133,16 @@ def click_row(name, text):
     spin(0)
 
 
+def is_settled():
+    """Whether the panel says what is about what is entered now: its result, or what is wrong."""
+    return is_shown("status") and widget("status").property("femscalpelSettled") is not False
+
+
+def is_ready():
+    """Whether the panel has read its mesh, and says what is about what is entered now."""
+    return is_settled() and widget("status").text() and "…" not in widget("status").text()
+
+
 def press_button(*choices):
     """Clicks OK, Cancel or Close of the task panel, whichever is there."""
     boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]
@@ -179,6 +193,22 @@ def click_at(point):
     spin(0.05)
     QTest.mouseClick(canvas(), QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, place)
     spin(0.1)
+
+
+def pixel(point=(0, 0, 0)):
+    """The length in the model of one pixel of the 3-D view at a point."""
+    return Screen(view()).pixel(FreeCAD.Vector(*point)) * pixel_ratio()
+
+
+def canvas_picture():
+    """What the 3-D view shows, as (rows, columns, 3) of bytes."""
+    spin(0.2)
+    corner = canvas().mapToGlobal(QtCore.QPoint(0, 0))
+    screen = QtGui.QApplication.primaryScreen()
+    image = screen.grabWindow(0, corner.x(), corner.y(), canvas().width(), canvas().height()).toImage()
+    image = image.convertToFormat(QtGui.QImage.Format_RGB888)
+    bits = np.frombuffer(bytes(image.constBits()), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return bits[:, : 3 * image.width()].reshape(image.height(), image.width(), 3)
 
 
 def drag(start, end, steps=8):
@@ -239,6 +269,11 @@ def lines_drawn(name):
 def points_drawn(name):
     """Number of points drawn under the node of that name."""
     return sum(s.numPoints.getValue() for s in shapes_in(name, coin.SoPointSet))
+
+
+def moved_drawn():
+    """Number of moved nodes that are marked."""
+    return points_drawn("FemScalpelMoved") + points_drawn("FemScalpelMovedUnder")
 
 
 def screenshot(name):
@@ -373,10 +408,10 @@ class GuiTest(unittest.TestCase):
         spin(0)
 
     def wait_for_preview(self):
-        """Waits until the panel shows a result."""
-        wait_until(lambda: is_shown("status") and re.match(r"\d+ ", widget("status").text()), "the preview")
+        """Waits until the panel shows the result of what is entered now."""
+        wait_until(lambda: is_settled() and re.match(r"\d+ ", widget("status").text()), "the preview")
 
     def wait_for_message(self, name):
         """Waits for a message beside a field and returns it."""
-        wait_until(lambda: is_shown(name), f"the message {name}")
+        wait_until(lambda: is_settled() and is_shown(name), f"the message {name}")
         return widget(name).text()

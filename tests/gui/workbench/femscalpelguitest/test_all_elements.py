@@ -106,7 +106,7 @@ class Panels(GuiTest):
         self.run_command(name)
         if is_shown("patch"):
             choose("patch", "Whole")
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def colours_of(self, name):
         """Number of colours given to faces one by one under a node."""

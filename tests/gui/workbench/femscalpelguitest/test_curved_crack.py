@@ -27,7 +27,7 @@ KINDS = {
 class CurvedTest(CylinderTest):
     def open_panel(self, name="FemScalpel_CurvedCrack"):
         self.run_command(name)
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def enter(self, kind):
         choose("toolShape", kind)
@@ -207,9 +207,9 @@ class CurvedCrack(CurvedTest):
         self.open_panel()
         self.enter("Torus")
         spin(0.1)
-        size, origin = self.mesh.FemMesh.BoundBox.DiagonalLength, np.array(ORIGIN)
+        tip, origin = 54 * pixel(), np.array(ORIGIN)
         up = np.array((0, 0, 1.0))
-        drag(origin + 0.1 * size * up, origin + (0.1 * size + 0.8) * up)
+        drag(origin + tip * up, origin + (tip + 0.8) * up)
         self.assertAlmostEqual(value("originZ"), ORIGIN[2] + 0.8, delta=0.15)
         self.assertAlmostEqual(value("originX"), ORIGIN[0], delta=0.01)
         self.assertAlmostEqual(value("tubeRadius"), 0.9)

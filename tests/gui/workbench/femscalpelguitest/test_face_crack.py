@@ -21,7 +21,7 @@ from .test_crack_panel import traces
 class FaceCrack(GuiTest):
     def open_panel(self):
         self.run_command("FemScalpel_FaceCrack")
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def test_made_edited_undone(self):
         mesh = self.add_mesh(mesh_of("hexahedron"))
@@ -44,7 +44,7 @@ class FaceCrack(GuiTest):
         self.assertEqual(faces_drawn("FemScalpelRest"), 12 + 2 * 14)
         self.assertEqual(faces_drawn("FemScalpelGhost"), 54)
         self.assertEqual(lines_drawn("FemScalpelOutline"), 14)
-        self.assertEqual(points_drawn("FemScalpelMoved"), 0)
+        self.assertEqual(moved_drawn(), 0)
         np.testing.assert_array_equal(widget("histogram").after, whole.quality.after.histogram)
         names = [widget("groups").item(row, 0).text() for row in range(widget("groups").rowCount())]
         self.assertCountEqual(names, [g.name for g in whole.groups])

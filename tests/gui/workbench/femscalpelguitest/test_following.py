@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Picked geometry stays linked; fields take expressions."""
 
+import math
 from unittest import mock
 
 import FreeCAD
@@ -279,6 +280,105 @@ class Following(GuiTest):
         self.assertAlmostEqual(value("radius"), 0.66)
         press_cancel()
         self.assertEqual((drill.ExpressionEngine, drill.Radius.Value, drill.State), ([], old, ["Up-to-date"]))
+        self.assertEqual((self.doc.UndoNames, self.doc.RedoNames), ([], []))
+
+    def test_one_step_to_undo(self):
+        drill = self.drill()
+        self.enter_expression("radius", "Box.Length / 5")
+        self.wait_for_preview()
+        press_ok()
+        self.assertEqual((self.doc.UndoNames, self.doc.RedoNames), (["Drill"], []))
+        self.assertAlmostEqual(drill.Radius.Value, 0.66)
+
+    def z_of(self, obj):
+        return obj.PlanePlacement.Rotation.multVec(FreeCAD.Vector(0, 0, 1))
+
+    def test_direction_and_offset_of_a_new_object(self):
+        self.open_panel()
+        choose("patch", "Whole")
+        self.enter_new_expression("normalY", "Box.Width / Box.Length")
+        self.enter_new_expression("offset", "Box.Height / 4")
+        x = value("originX")
+        slope = 2 / 3.3
+        self.wait_for_preview()
+        screenshot("expression_of_a_normal")
+        press_ok()
+        crack = self.doc.Crack
+        self.assertEqual(dict(crack.ExpressionEngine).keys(), {".Direction.y", "Offset"})
+        for height, width in ((2, 2), (3, 1), (2, 2)):
+            self.part.Height, self.part.Width = height, width
+            self.doc.recompute()
+            normal = FreeCAD.Vector(1, width / 3.3, 0).normalize()
+            self.assertLess((self.z_of(crack) - normal).Length, 1e-6)
+            self.assertAlmostEqual(crack.PlanePlacement.Base.x, x + height / 4 * normal.x, places=6)
+            self.assertEqual(crack.State, ["Up-to-date"])
+        crack.ViewObject.doubleClicked()  # again, and nothing is another
+        self.wait_for_preview()
+        self.assertAlmostEqual(value("normalY") / value("normalX"), slope, places=2)
+        self.assertAlmostEqual(value("offset"), 0.5)
+        before = crack.PlanePlacement.Base.x
+        press_ok()
+        self.assertAlmostEqual(crack.PlanePlacement.Base.x, before, places=6)
+        self.assertEqual(dict(crack.ExpressionEngine).keys(), {".Direction.y", "Offset"})
+
+    def test_turn(self):
+        self.open_panel()
+        choose("patch", "Ellipse")
+        self.wait_for_preview()
+        press_ok()
+        crack = self.doc.Crack
+        crack.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.enter_expression("patchTurn", "Box.Length / 1 mm * 10 deg")
+        self.assertAlmostEqual(value("patchTurn"), 33)
+        self.wait_for_preview()
+        press_ok()
+        plain, x = FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), self.z_of(crack)), FreeCAD.Vector(1, 0, 0)
+        for length in (3.3, 5.0):
+            self.part.Length = length
+            self.doc.recompute()
+            along = plain.inverted().multVec(crack.PlanePlacement.Rotation.multVec(x))
+            self.assertAlmostEqual(math.degrees(math.atan2(along.y, along.x)), 10 * length, places=4)
+
+    def test_turn_of_a_slot_with_a_bottom(self):
+        self.open_panel("FemScalpel_Incision")
+        choose("slotEnd", "Point")
+        self.enter_new_expression("slotTurn", "Box.Length / 1 mm * 10 deg")
+        self.wait_for_preview()
+        press_ok()
+        cut = self.doc.Incision
+        for length in (3.3, 6.0, 3.3):
+            self.part.Length = length
+            self.doc.recompute()
+            mouth = cut.BottomPlacement.Rotation.multVec(FreeCAD.Vector(0, 0, -1))
+            plain = FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), self.z_of(cut)).inverted().multVec(mouth)
+            self.assertAlmostEqual(math.degrees(math.atan2(plain.y, plain.x)), 10 * length, places=4)
+
+    def test_vector(self):
+        self.open_panel("FemScalpel_Reshape")
+        choose("wall", "TOP")
+        choose("motion", "By")
+        self.enter_new_expression("vectorZ", "Box.Length / 33")
+        self.wait_for_preview()
+        self.assertAlmostEqual(value("vectorZ"), 0.1)
+        press_ok()
+        self.part.Length = 6.6
+        self.doc.recompute()
+        self.assertAlmostEqual(self.doc.Reshape.MoveBy.z, 0.2)
+
+    def test_zero_direction(self):
+        self.open_panel()
+        choose("patch", "Whole")
+        self.enter_new_expression("normalX", "Box.Length / 1 mm - 2.3")
+        self.wait_for_preview()
+        press_ok()
+        self.part.Length = 2.3
+        self.doc.recompute()
+        self.assertIn("Invalid", self.doc.Crack.State)
+        wait_until(lambda: "Direction, as its expressions say it, is zero" in report_view(), "the reason")
+        self.part.Length = 3.3
+        self.doc.recompute()
+        self.assertEqual(self.doc.Crack.State, ["Up-to-date"])
 
     def test_expression_ends_following(self):
         crack = self.crack_from_face()

@@ -34,7 +34,7 @@ class MaterialTest(GuiTest):
 
     def open_panel(self, name):
         self.run_command(name)
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def shown(self, report):
         """Waits for the preview of what a report tells."""
@@ -187,6 +187,7 @@ class Fillet(MaterialTest):
         source = femmesh_bridge.from_femmesh(self.mesh.FemMesh)
         self.open_panel("FemScalpel_Fillet")
         self.assertIn("Press Pick", self.wait_for_message("geometryError"))
+        self.assertFalse(is_shown("stays"))
         screenshot("fillet_empty")
         self.assertAlmostEqual(value("filletRadius"), 1)
         click("pickEdge")
@@ -197,6 +198,7 @@ class Fillet(MaterialTest):
         self.assertEqual(points_drawn("FemScalpelPicked"), 1)
         self.assertGreater(lines_drawn("FemScalpelOutline"), 10)
         self.assertIn("FILLET_FACE", self.groups_listed())
+        self.assertIn("A group goes with the mesh", widget("stays").text())
         screenshot("fillet_1_preview")
         type_into("filletRadius", "0.8 mm")
         expected = fs.fillet(source, [(7, 0, 4)], 0.8)
@@ -211,6 +213,7 @@ class Fillet(MaterialTest):
         self.assertIn("1 picked place", widget("edge").currentText())
         choose("edge", "EDGE")
         self.shown(fs.fillet(source, "EDGE", 0.8).report)
+        self.assertFalse(is_shown("stays"))
         screenshot("fillet_group")
         press_ok()
         self.assertEqual((fillet.AlongPoints, fillet.Along), ([], "EDGE"))

@@ -119,15 +119,14 @@ class CylindricalCrack(CylinderTest):
         np.testing.assert_allclose([value("normalX"), value("normalY"), value("normalZ")], (0, 0, 1), atol=0.006)
 
     def wait_for_preview_or_message(self):
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def test_handles(self):
         self.run_command("FemScalpel_CylindricalCrack")
         self.wait_for_preview_or_message()
         self.enter_axis((7.0, 2.5, 2.0), (0.0, 0.0, 1.0), 1.2)
         spin(0.1)
-        size = self.mesh.FemMesh.BoundBox.DiagonalLength
-        arrow, out = 1.2 + 0.095 * size, np.array((0.5**0.5, 0.5**0.5, 0))
+        arrow, out = 1.2 + 50 * pixel(), np.array((0.5**0.5, 0.5**0.5, 0))
         drag((7, 2.5, 2) + arrow * out, (7, 2.5, 2) + (arrow + 0.5) * out)
         self.assertAlmostEqual(value("radius"), 1.7, delta=0.1)
         self.assertAlmostEqual(value("originX"), 7)
@@ -167,7 +166,7 @@ class Patches(CylinderTest):
         type_into("patchRadius", "1.6 mm")
         type_into("patchSecondRadius", "0.9 mm")
         type_into("patchTurn", "90 deg")
-        wait_until(lambda: re.match(r"\d+ ", widget("status").text()), "the preview")
+        self.wait_for_preview()
         screenshot("crack_ellipse")
         press_ok()
         crack = self.doc.Crack
@@ -194,13 +193,13 @@ class Patches(CylinderTest):
         self.choose_disk(1.2)
         self.wait_for_preview()
         screenshot("crack_disk_handles")
-        size = self.mesh.FemMesh.BoundBox.DiagonalLength
+        border, tip = 50 * pixel(), 64 * pixel()
         centre, out = np.array((7, 2.5, 2)), np.array((1, 0, 0))
-        drag(centre + (1.2 + 0.095 * size) * out, centre + (1.7 + 0.095 * size) * out)
+        drag(centre + (1.2 + border) * out, centre + (1.7 + border) * out)
         self.assertAlmostEqual(value("patchRadius"), 1.7, delta=0.1)
         np.testing.assert_allclose([value("originX"), value("originY"), value("originZ")], centre, atol=1e-9)
         across = np.array((0.5**0.5, 0.5**0.5, 0))
-        drag(centre + 0.12 * size * across, centre + (0.12 * size + 0.6) * across)
+        drag(centre + tip * across, centre + (tip + 0.6) * across)
         np.testing.assert_allclose(
             [value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1
         )
@@ -208,7 +207,7 @@ class Patches(CylinderTest):
         self.assertAlmostEqual(value("patchRadius"), 1.7, delta=0.1)
         self.wait_for_preview()
         choose("patch", "Whole")
-        drag(centre + (0.12 * size + 0.6) * across, centre + (0.12 * size + 1.2) * across)  # nothing to drag any more
+        drag(centre + (tip + 0.6) * across, centre + (tip + 1.2) * across)  # nothing to drag any more
         np.testing.assert_allclose(
             [value("originX"), value("originY"), value("originZ")], centre + 0.6 * across, atol=0.1
         )

@@ -42,7 +42,7 @@ class Preserve(GuiTest):
 
     def open_panel(self, name):
         self.run_command(name)
-        wait_until(lambda: widget("status").text() and "…" not in widget("status").text(), "the panel")
+        wait_until(is_ready, "the panel")
 
     def test_made_edited(self):
         self.open_panel("FemScalpel_Crack")

@@ -12,6 +12,7 @@ import numpy as np
 import femmesh_bridge
 import ObjectsFemScalpel
 from femscalpelgui.panels import legend as legends
+from femscalpelgui.panels.table_tools import TableTools
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest, QTest
 from .test_crack_panel import CrackTest, long_box
@@ -270,3 +271,24 @@ class Inspector(Folder, GuiTest):
             rows = {row["Group"]: row for row in csv.DictReader(file)}
         self.assertEqual(float(rows["LEFT"]["Measure"]), 100)
         self.assertEqual(rows["LEFT"]["Kind"], "volumes")
+
+
+class MistakenTable(QtGui.QTableWidget):
+    """As PySide 2 at times returns another object in place of an item."""
+
+    def horizontalHeaderItem(self, column):
+        return QtGui.QSpacerItem(1, 1)
+
+
+class Headers(GuiTest):
+    def test_mistaken_items(self):
+        box = QtGui.QWidget()
+        layout = QtGui.QVBoxLayout(box)
+        table = MistakenTable(1, 3)
+        table.setHorizontalHeaderLabels(["Name", "", "Size"])
+        layout.addWidget(table)
+        for column, text in enumerate(("LEFT", "", "12")):
+            table.setItem(0, column, QtGui.QTableWidgetItem(text))
+        tools = TableTools(table, "Groups")
+        tools.copy()
+        self.assertEqual(QtGui.QApplication.clipboard().text().split("\n")[:2], ["Name\tSize", "LEFT\t12"])

@@ -27,7 +27,7 @@ class Tour(GuiTest):
         enter_plane(*plane)
         moved = fs.crack(femmesh_bridge.from_femmesh(self.doc.Bracket.FemMesh), fs.Plane(*plane)).report.nodes_moved
         wait_until(
-            lambda: widget("status").text().startswith(f"{moved} ") and points_drawn("FemScalpelMoved") == moved,
+            lambda: widget("status").text().startswith(f"{moved} ") and moved_drawn() == moved,
             "the preview of the tilted plane",
         )
         screenshot("tour_2_crack")
