@@ -18,7 +18,12 @@ constexpr Format table[] = {
      [](const std::filesystem::path& path, const std::string&) { return read_inp(path); },
      write_inp},
     {"ParaView", {".vtu"}, nullptr, write_vtu},
-    {"Gmsh", {".msh"}, nullptr, write_msh, nullptr, msh_losses},
+    {"Gmsh",
+     {".msh"},
+     [](const std::filesystem::path& path, const std::string&) { return read_msh(path); },
+     write_msh,
+     nullptr,
+     msh_losses},
 };
 
 /// The extension in lower case; of a packed file with the one before: ".inp.gz".
