@@ -6,6 +6,7 @@
 #include "io/inp.h"
 #include "io/med.h"
 #include "io/msh.h"
+#include "io/unv.h"
 #include "io/vtu.h"
 
 namespace femscalpel {
@@ -24,6 +25,12 @@ constexpr Format table[] = {
      write_msh,
      nullptr,
      msh_losses},
+    {"UNV: I-DEAS, SALOME",
+     {".unv"},
+     [](const std::filesystem::path& path, const std::string&) { return read_unv(path); },
+     write_unv,
+     nullptr,
+     unv_losses},
 };
 
 /// The extension in lower case; of a packed file with the one before: ".inp.gz".
