@@ -27,9 +27,9 @@ protected:
         std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
         return MshSource(path_);
     }
-    const fs::path path_ = fs::path(testing::TempDir()) /
-                           ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh");
+    const fs::path path_ =
+        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
+                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh");
 };
 
 TEST_F(MshParts, TypesAndTheirOtherSides) {
@@ -48,13 +48,15 @@ TEST_F(MshParts, TypesAndTheirOtherSides) {
         const auto from = turned_round(t.type);
         EXPECT_NE(from[1], 1);
         for (std::size_t k = 0; k < static_cast<std::size_t>(t.nodes); ++k)
-            EXPECT_EQ(static_cast<std::size_t>(from[static_cast<std::size_t>(from[k])]), k) << t.name;
+            EXPECT_EQ(static_cast<std::size_t>(from[from[k]]), k) << t.name;
         if (!t.quadratic || t.dimension == 1) continue;
-        const auto corner = [&](int k) { return from[static_cast<std::size_t>(k)]; };
+        const auto ends = [](int a, int b) { return std::minmax({a, b}); };
         for (std::size_t e = 0; e < t.edges.size(); ++e) {  // middles stay between the ends of their edges
-            const auto old = static_cast<std::size_t>(from[static_cast<std::size_t>(t.corners) + e] - t.corners);
-            EXPECT_EQ(std::minmax(t.edges[old][0], t.edges[old][1]),
-                      std::minmax(corner(t.edges[e][0]), corner(t.edges[e][1])))
+            const auto& old =
+                t.edges[from[static_cast<std::size_t>(t.corners) + e] - static_cast<std::size_t>(t.corners)];
+            const auto& now = t.edges[e];
+            EXPECT_EQ(ends(old[0], old[1]),
+                      ends(from[static_cast<std::size_t>(now[0])], from[static_cast<std::size_t>(now[1])]))
                 << t.name;
         }
     }
@@ -119,7 +121,8 @@ TEST_F(MshParts, BuilderKeepsNumbersAndTurns) {
     MshBuilder builder(s, {});
     builder.start_nodes(3);
     for (Index i = 0; i < 3; ++i) builder.add_node(10 + i, {static_cast<double>(i), 0, 0});
-    EXPECT_THAT([&] { builder.start_elements(); }, ThrowsMessage<Error>(HasSubstr("the elements come before the nodes")));
+    EXPECT_THAT([&] { builder.start_elements(); },
+                ThrowsMessage<Error>(HasSubstr("the elements come before the nodes")));
     builder.end_nodes();
     builder.start_elements();
     EXPECT_EQ(builder.type(2), CellType::triangle);

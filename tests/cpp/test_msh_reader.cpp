@@ -23,11 +23,14 @@ class MshReading : public testing::Test {
 protected:
     void TearDown() override { fs::remove(path_); }
     Mesh read(const std::string& text) const {
+        fs::remove(path_);  // to write over a file waits for the disk
         std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
         return read_msh(path_);
     }
     void expect_error(const std::string& text, const std::string& message) const {
-        EXPECT_THAT([&] { read(text); }, ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message))) << text;
+        EXPECT_THAT([&] { read(text); },
+                    ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message)))
+            << text;
     }
     std::string remarks(const Mesh& mesh) const {
         std::string out;
@@ -37,9 +40,9 @@ protected:
         }
         return out;
     }
-    const fs::path path_ = fs::path(testing::TempDir()) /
-                           ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh");
+    const fs::path path_ =
+        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
+                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh");
 };
 
 const std::string head22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -66,15 +69,15 @@ TEST_F(MshReading, WhatWriteMshWroteComesBackExactly) {
 }
 
 TEST_F(MshReading, RepeatedElementsOfVersion2AreOne) {
-    const Mesh mesh = read(head22 + "$PhysicalNames\n3\n2 1 \"A\"\n2 2 \"B\"\n0 4 \"P\"\n$EndPhysicalNames\n" +
-                           five_nodes +
-                           "$Elements\n11\n"
-                           "1 15 2 4 1 2\n2 15 2 9 1 2\n"            // a point in two groups
-                           "3 2 2 1 5 2 4 6\n4 2 2 2 5 2 4 6\n"      // one triangle in two groups
-                           "5 2 2 1 5 2 4 8\n6 2 2 1 5 2 4 8\n"      // two triangles in the same group
-                           "7 2 2 1 5 2 6 8\n8 2 2 2 6 2 6 8\n"      // two, of two surfaces
-                           "9 2 2 1 5 4 6 8\n10 2 2 -2 5 4 8 6\n"    // one, seen from both sides
-                           "13 2 1 0 2 4 10\n$EndElements\n");       // one in no group
+    const Mesh mesh =
+        read(head22 + "$PhysicalNames\n3\n2 1 \"A\"\n2 2 \"B\"\n0 4 \"P\"\n$EndPhysicalNames\n" + five_nodes +
+             "$Elements\n11\n"
+             "1 15 2 4 1 2\n2 15 2 9 1 2\n"          // a point in two groups
+             "3 2 2 1 5 2 4 6\n4 2 2 2 5 2 4 6\n"    // one triangle in two groups
+             "5 2 2 1 5 2 4 8\n6 2 2 1 5 2 4 8\n"    // two triangles in the same group
+             "7 2 2 1 5 2 6 8\n8 2 2 2 6 2 6 8\n"    // two, of two surfaces
+             "9 2 2 1 5 4 6 8\n10 2 2 -2 5 4 8 6\n"  // one, seen from both sides
+             "13 2 1 0 2 4 10\n$EndElements\n");     // one in no group
     const CellBlock& triangles = mesh.block(CellType::triangle);
     EXPECT_THAT(triangles.ids, ElementsAre(3, 5, 6, 7, 8, 9, 13));
     EXPECT_THAT(triangles.nodes(5), ElementsAre(1, 2, 3));
@@ -192,7 +195,8 @@ TEST_F(MshReading, BinaryOfBothByteOrdersAndSizes) {
     }
     const std::string text = binary41(false, 8);
     const std::size_t nodes = text.find("$Nodes"), elements = text.find("$Elements");
-    expect_error(text.substr(0, nodes + 111), ": $Nodes, byte " + std::to_string(nodes + 107) + ": the file ends within");
+    expect_error(text.substr(0, nodes + 111),
+                 ": $Nodes, byte " + std::to_string(nodes + 107) + ": the file ends within");
     std::string damaged = text;
     damaged[elements + 10 + 32 + 8] = 29;  // the type of the first block
     EXPECT_THAT([&] { read(damaged); },
@@ -225,8 +229,8 @@ TEST_F(MshReading, NamesMayComeLastAndAgree) {
                            "$PhysicalNames\n3\n2 7 \"W\"\n3 8 \"W\"\n2 9 \"PhysicalSurface7\"\n$EndPhysicalNames\n");
     ASSERT_EQ(mesh.groups.size(), 2u);
     EXPECT_THAT(checks::members(mesh, "W", GroupKind::element), ElementsAre(1, 2));
-    const Mesh taken = read(head22 + "$PhysicalNames\n1\n3 9 \"PhysicalSurface7\"\n$EndPhysicalNames\n" + five_nodes +
-                            elements);
+    const Mesh taken =
+        read(head22 + "$PhysicalNames\n1\n3 9 \"PhysicalSurface7\"\n$EndPhysicalNames\n" + five_nodes + elements);
     EXPECT_THAT(checks::members(taken, "PhysicalSurface7", GroupKind::element), ElementsAre());
     EXPECT_THAT(checks::members(taken, "PhysicalSurface7_", GroupKind::element), ElementsAre(1));
 }
@@ -262,7 +266,8 @@ TEST_F(MshReading, ErrorsNameTheLine) {
                  ":15: element number 3 is used twice");
     expect_error(head22 + five_nodes + triangle + triangle, ":16: there is a second section of elements");
     expect_error(head22 + five_nodes + "$Periodic\n1\n", ":12: the section $Periodic does not end");
-    expect_error(head22 + "$PhysicalNames\n1\n2 1 A\n$EndPhysicalNames\n", ":6: expected a dimension, a tag and a name");
+    expect_error(head22 + "$PhysicalNames\n1\n2 1 A\n$EndPhysicalNames\n",
+                 ":6: expected a dimension, a tag and a name");
     expect_error(head22 + "$PhysicalNames\n2\n2 1 \"A\"\n2 1 \"B\"\n$EndPhysicalNames\n", "has two names");
     const std::string nodes = "$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n";
     expect_error(head41 + "$Nodes\n1 2 1 2\n0 1 0 1\n1\n0 0 0\n$EndNodes\n",

@@ -27,11 +27,14 @@ class Unv : public testing::Test {
 protected:
     void TearDown() override { fs::remove(path_); }
     Mesh read(const std::string& text) const {
+        fs::remove(path_);  // to write over a file waits for the disk
         std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
         return read_unv(path_);
     }
     void expect_error(const std::string& text, const std::string& message) const {
-        EXPECT_THAT([&] { read(text); }, ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message))) << text;
+        EXPECT_THAT([&] { read(text); },
+                    ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message)))
+            << text;
     }
     std::string written(const Mesh& mesh) const {
         write_unv(mesh, path_);
@@ -46,9 +49,9 @@ protected:
         }
         return out;
     }
-    const fs::path path_ = fs::path(testing::TempDir()) /
-                           ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".unv");
+    const fs::path path_ =
+        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
+                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".unv");
 };
 
 std::string dataset(const std::string& number, const std::string& content) {
@@ -103,18 +106,19 @@ TEST_F(Unv, IsWrittenAsSalomeDoes) {
                                 "         6       118         2         1         7        10\n"
                                 "        10        50        20        60        30        70        80        90\n"
                                 "       100        40\n    -1\n"));
-    EXPECT_THAT(text, HasSubstr("    -1\n  2467\n"
-                                "         1         0         0         0         0         0         0         2\n"
-                                "A B\n         8         5         0         0         8         6         0         0\n"
-                                "         2         0         0         0         0         0         0         3\n"
-                                "N\n         7        10         0         0         7        20         0         0\n"
-                                "         7        30         0         0\n"
-                                "         3         0         0         0         0         0         0         0\n"
-                                "NONE\n"));
-    EXPECT_THAT(unv_losses(mesh),
-                ElementsAre("that the empty group 'NONE' is one of nodes", "the facet group 'SIDE'",
-                            "the name '" + std::string(41, 'x') + "' for programs that read 40 bytes of it",
-                            "the unit 'mm'"));
+    EXPECT_THAT(text,
+                HasSubstr("    -1\n  2467\n"
+                          "         1         0         0         0         0         0         0         2\n"
+                          "A B\n         8         5         0         0         8         6         0         0\n"
+                          "         2         0         0         0         0         0         0         3\n"
+                          "N\n         7        10         0         0         7        20         0         0\n"
+                          "         7        30         0         0\n"
+                          "         3         0         0         0         0         0         0         0\n"
+                          "NONE\n"));
+    EXPECT_THAT(
+        unv_losses(mesh),
+        ElementsAre("that the empty group 'NONE' is one of nodes", "the facet group 'SIDE'",
+                    "the name '" + std::string(41, 'x') + "' for programs that read 40 bytes of it", "the unit 'mm'"));
     EXPECT_EQ(read_unv(path_).groups.back().name, std::string(41, 'x'));
 }
 
@@ -158,12 +162,13 @@ TEST_F(Unv, NumbersOfFortranUnitsAndWindowsLines) {
 }
 
 TEST_F(Unv, OlderDataSets) {
-    const std::string old_nodes = dataset("15",
-                                          "         1         0         0         8  0.00000E+00  0.00000E+00 -1.00000E+00\n"
-                                          "         2         0         0         8  1.00000E+00  0.00000E+00 -1.00000E+00\n") +
-                                  dataset("781",
-                                          "         3         1         1        11\n"
-                                          "  1.0000000000000000D+00  1.0000000000000000D+00  0.0000000000000000D+00\n");
+    const std::string old_nodes =
+        dataset("15",
+                "         1         0         0         8  0.00000E+00  0.00000E+00 -1.00000E+00\n"
+                "         2         0         0         8  1.00000E+00  0.00000E+00 -1.00000E+00\n") +
+        dataset("781",
+                "         3         1         1        11\n"
+                "  1.0000000000000000D+00  1.0000000000000000D+00  0.0000000000000000D+00\n");
     const Mesh mesh = read(old_nodes +
                            dataset("71",
                                    "         1        41         1         7         8         9         3\n"
@@ -186,10 +191,12 @@ TEST_F(Unv, OlderDataSets) {
 }
 
 TEST_F(Unv, BeamsWithAndWithoutTheirSections) {
-    const std::string with2 = "        21         1         1         7         2\n         0         1         1\n         2         4\n";
+    const std::string with2 =
+        "        21         1         1         7         2\n         0         1         1\n         2         4\n";
     const std::string without2 = "        11         1         1         7         2\n         2         4\n";
-    const std::string with3 = "        24         1         1         7         3\n         0         1         1\n"
-                              "         2         6         4\n";
+    const std::string with3 =
+        "        24         1         1         7         3\n         0         1         1\n"
+        "         2         6         4\n";
     const std::string without3 = "        22         1         1         7         3\n         2         6         4\n";
     const std::array<std::string, 4> kinds = {with2, without2, with3, without3};
     for (const std::string& first : kinds)
@@ -208,15 +215,23 @@ TEST_F(Unv, BeamsWithAndWithoutTheirSections) {
 
 TEST_F(Unv, GroupsOfEveryKind) {
     const std::string head = "         0         0         0         0         0         0";
-    const Mesh mesh = read(dataset("2477", "         1" + head + "         3\nBOTH\n"
-                                           "         7         2         0         0         8         9         0         0\n"
-                                           "         7         4         0         0\n"
-                                           "         2" + head + "         0\nNONE\n\n"
-                                           "         3" + head + "         1\n\n         7         6         0         0\n"
-                                           "         4" + head + "         3\nBOTH\n"
-                                           "         7         6         0         0         7        99         0         0\n"
-                                           "         1         7         0         0\n") +
-                           triangle + nodes);  // in any order
+    const Mesh mesh =
+        read(dataset("2477", "         1" + head +
+                                 "         3\nBOTH\n"
+                                 "         7         2         0         0         8         9         0         0\n"
+                                 "         7         4         0         0\n"
+                                 "         2" +
+                                 head +
+                                 "         0\nNONE\n\n"
+                                 "         3" +
+                                 head +
+                                 "         1\n\n         7         6         0         0\n"
+                                 "         4" +
+                                 head +
+                                 "         3\nBOTH\n"
+                                 "         7         6         0         0         7        99         0         0\n"
+                                 "         1         7         0         0\n") +
+             triangle + nodes);  // in any order
     ASSERT_EQ(mesh.groups.size(), 4u);
     EXPECT_THAT(checks::members(mesh, "BOTH", GroupKind::node), ElementsAre(2, 4, 6));
     EXPECT_THAT(checks::members(mesh, "BOTH", GroupKind::element), ElementsAre(9));
@@ -241,8 +256,9 @@ std::string system(const std::string& number, int type, double x) {
 TEST_F(Unv, CoordinateSystems) {
     const std::string head = "         1\npart\n";
     EXPECT_EQ(read(dataset("2420", head + system("1", 0, 0) + system("3", 1, 0)) + nodes + triangle).node_count(), 3);
-    expect_error(dataset("2420", head + system("1", 0, 0.5)) + nodes + triangle,
-                 ":14: node 2 is given in coordinate system 1, which is turned or moved; only coordinates of the global");
+    expect_error(
+        dataset("2420", head + system("1", 0, 0.5)) + nodes + triangle,
+        ":14: node 2 is given in coordinate system 1, which is turned or moved; only coordinates of the global");
     expect_error(dataset("2420", head + system("1", 1, 0)) + nodes + triangle, "which is cylindrical");
     expect_error(dataset("2420", head + system("1", 2, 0)) + nodes + triangle, "which is spherical");
     std::string other = nodes;
@@ -252,9 +268,11 @@ TEST_F(Unv, CoordinateSystems) {
 
 TEST_F(Unv, WhatIsNotReadIsTold) {
     std::string two = triangle;
-    two.insert(two.rfind("    -1"), "        10        91         2         1         7         3\n"
-                                    "         4         2         6\n");
-    const Mesh mesh = read(nodes + two + dataset("2414", "1\n        -1\n") + dataset("2414", "2\n") + dataset("9999", ""));
+    two.insert(two.rfind("    -1"),
+               "        10        91         2         1         7         3\n"
+               "         4         2         6\n");
+    const Mesh mesh =
+        read(nodes + two + dataset("2414", "1\n        -1\n") + dataset("2414", "2\n") + dataset("9999", ""));
     EXPECT_EQ(mesh.block(CellType::triangle).size(), 2);
     EXPECT_EQ(remarks(mesh),
               ": the elements' numbers of properties and materials are not read\n"
@@ -269,8 +287,10 @@ TEST_F(Unv, ErrorsNameTheLine) {
     expect_error("    -1\nhello\n", ":2: expected the number of a data set, not 'hello'");
     expect_error("    -1\n  2411\n", ":2: data set 2411 does not end; the file is truncated or damaged");
     expect_error(triangle, ": there are no nodes in this file");
-    expect_error(dataset("2411", "         1         1\n"), ":4: data set 2411 ends where the displacement system of a node should follow");
-    expect_error(dataset("2411", "         x         1\n"), ":3: the number of a node should be a whole number, not 'x'");
+    expect_error(dataset("2411", "         1         1\n"),
+                 ":4: data set 2411 ends where the displacement system of a node should follow");
+    expect_error(dataset("2411", "         x         1\n"),
+                 ":3: the number of a node should be a whole number, not 'x'");
     expect_error(dataset("2411", " 1 1 1 1\n0,5 0 0\n"), ":4: a coordinate should be a finite number, not '0,5'");
     expect_error(dataset("2411", " 1 1 1 1\nnan 0 0\n"), ":4: a coordinate should be a finite number, not 'nan'");
     expect_error(dataset("2411", " 0 1 1 1\n0 0 0\n"), ":3: a node has the number 0");
@@ -280,16 +300,19 @@ TEST_F(Unv, ErrorsNameTheLine) {
                  ":13: element 1 names node 7, which the file does not define");
     expect_error(nodes + dataset("2412", " 1 121 1 1 7 2\n 2 4\n"),
                  ":12: element 1 has the descriptor 121 (rigid bar) and 2 nodes, which FemScalpel cannot hold");
-    expect_error(nodes + dataset("2412", " 1 91 1 1 7 4\n 2 4 6 2\n"), ":12: element 1 has the descriptor 91 and 4 nodes");
-    expect_error(nodes + dataset("2467", " 1 0 0 0 0 0 0 999999\nA\n"), "is more than the rest of the data set can hold");
+    expect_error(nodes + dataset("2412", " 1 91 1 1 7 4\n 2 4 6 2\n"),
+                 ":12: element 1 has the descriptor 91 and 4 nodes");
+    expect_error(nodes + dataset("2467", " 1 0 0 0 0 0 0 999999\nA\n"),
+                 "is more than the rest of the data set can hold");
     expect_error(nodes + dataset("2467", " 1 0 0 0 0 0 0 2\nA\n 7 2 0 0\n"),
                  "data set 2467 ends where the kind of a group's member should follow");
 }
 
 TEST_F(Unv, DamagedFilesGiveAMeshOrAReadError) {
     const std::string whole = written(checks::one_of_each(not_in_unv));
-    const std::string other = dataset("164", "         1  SI\n") + dataset("2420", "         1\np\n" + system("1", 0, 0)) +
-                              nodes + triangle + dataset("2467", " 1 0 0 0 0 0 0 2\nA\n 7 2 0 0 8 9 0 0\n");
+    const std::string other = dataset("164", "         1  SI\n") +
+                              dataset("2420", "         1\np\n" + system("1", 0, 0)) + nodes + triangle +
+                              dataset("2467", " 1 0 0 0 0 0 0 2\nA\n 7 2 0 0 8 9 0 0\n");
     checks::Random random(6);
     int read_well = 0, refused = 0;
     for (const std::string& file : {whole, other})

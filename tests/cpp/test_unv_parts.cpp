@@ -21,8 +21,7 @@ TEST(UnvParts, MiddlesStandBetweenTheEndsOfTheirEdges) {
         EXPECT_FALSE(cell_type_of_unv(type.descriptor, t.nodes + 7));
         EXPECT_EQ(unv_description(type.descriptor), "");
         std::vector<int> place(static_cast<std::size_t>(t.nodes), -1);
-        for (int k = 0; k < t.nodes; ++k)
-            place[static_cast<std::size_t>(type.order[static_cast<std::size_t>(k)])] = k;
+        for (int k = 0; k < t.nodes; ++k) place[static_cast<std::size_t>(type.order[static_cast<std::size_t>(k)])] = k;
         EXPECT_EQ(std::ranges::count(place, -1), 0) << t.name;
         if (!t.quadratic) continue;
         for (std::size_t e = 0; e < t.edges.size(); ++e) {
@@ -42,7 +41,8 @@ TEST(UnvParts, MiddlesStandBetweenTheEndsOfTheirEdges) {
 
 TEST(UnvParts, SourceFindsDataSets) {
     const fs::path path = fs::path(testing::TempDir()) / ("femscalpel_parts_" + std::to_string(::getpid()) + ".unv");
-    std::ofstream(path) << "    -1\n    58b   1 2\n        -1\nx\n    -1\n\n    -1\n  2411\n 7 1.5D+0 a b\n c\n    -1\n";
+    std::ofstream(path)
+        << "    -1\n    58b   1 2\n        -1\nx\n    -1\n\n    -1\n  2411\n 7 1.5D+0 a b\n c\n    -1\n";
     UnvSource source(path);
     fs::remove(path);
     ASSERT_EQ(source.datasets().size(), 2u);

@@ -22,6 +22,7 @@ class VtuReading : public testing::Test {
 protected:
     void TearDown() override { fs::remove(path_); }
     Mesh read(const std::string& text) const {
+        fs::remove(path_);  // to write over a file waits for the disk
         std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
         return read_vtu(path_);
     }
@@ -30,9 +31,9 @@ protected:
                     ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message)))
             << text;
     }
-    const fs::path path_ = fs::path(testing::TempDir()) /
-                           ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() + ".vtu");
+    const fs::path path_ =
+        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
+                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".vtu");
 };
 
 std::string array(const std::string& type, const std::string& name, const std::string& values,
@@ -64,9 +65,10 @@ TEST_F(VtuReading, WhatWriteVtuWroteComesBackExactly) {
     mesh.add_group("Family", GroupKind::node);
     mesh.add_group("one face", GroupKind::facet);
     const auto number = [&](CellType type) { return mesh.block(type).ids[0]; };
-    set_group_members(mesh, 7, {GroupKind::facet,
-                                {number(CellType::quad), number(CellType::hexahedron), number(CellType::hexahedron)},
-                                {2, 1, 6}});
+    set_group_members(mesh, 7,
+                      {GroupKind::facet,
+                       {number(CellType::quad), number(CellType::hexahedron), number(CellType::hexahedron)},
+                       {2, 1, 6}});
     set_group_members(mesh, 9, {GroupKind::node, {993}, {}});
     set_group_members(mesh, 10, {GroupKind::facet, {number(CellType::wedge)}, {1}});
     write_vtu(mesh, path_);
@@ -105,7 +107,8 @@ TEST_F(VtuReading, TextWithForeignArrays) {
 
 TEST_F(VtuReading, ElementsWithinArraysArePassedOver) {
     Text text;
-    const std::string key = "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\"><Value>7</Value></InformationKey>";
+    const std::string key =
+        "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\"><Value>7</Value></InformationKey>";
     text.points = array("Float32", "Points", "0 0 0 1 0 0 0 1 0 0 0 1.5e0\n" + key + "\n" + key);
     text.types = array("UInt8", "types", "\n" + key + "\n10 3\n" + key);
     text.cell_data = array("Int64", "first", "9 7" + key) + array("Int64", "ElementNumber", "9 7");
@@ -127,7 +130,7 @@ TEST_F(VtuReading, Base64OfBothByteOrders) {
 }
 
 TEST_F(VtuReading, ErrorsNameTheLine) {
-    const auto with = [](std::string Text::* part, const std::string& value) {
+    const auto with = [](std::string Text::*part, const std::string& value) {
         Text text;
         text.*part = value;
         return text.str();
@@ -135,7 +138,8 @@ TEST_F(VtuReading, ErrorsNameTheLine) {
     expect_error("", ":1: this is no VTK file of an unstructured grid");
     expect_error("<VTKFile type=\"UnstructuredGrid\"><a></b>", ":1: mismatched tag");
     expect_error("no xml", ":1: ");
-    expect_error("<VTKFile type=\"PolyData\">", ":1: this is no VTK file of an unstructured grid, but of the type 'PolyData'");
+    expect_error("<VTKFile type=\"PolyData\">",
+                 ":1: this is no VTK file of an unstructured grid, but of the type 'PolyData'");
     expect_error("<VTKFile type=\"UnstructuredGrid\"></VTKFile>", "the grid has no piece");
     Text whole;
     std::string text = whole.str();
@@ -166,8 +170,9 @@ TEST_F(VtuReading, ErrorsNameTheLine) {
                  ":9: the array 'connectivity' of Cells gives cell 0 the point 4 of 4");
     expect_error(with(&Text::points, array("Float32", "Points", "0 0 0 1 0 0 0 1 0 0 0 nan")),
                  ":6: the array 'Points' of Points has a value that is not a finite number");
-    expect_error(with(&Text::cell_data, array("UInt8", "A", "1 4", "format=\"ascii\" femscalpel_group=\"facet\" "
-                                                                   "femscalpel_name=\"A\"")),
+    expect_error(with(&Text::cell_data, array("UInt8", "A", "1 4",
+                                              "format=\"ascii\" femscalpel_group=\"facet\" "
+                                              "femscalpel_name=\"A\"")),
                  "names faces of element 2 that it has not");
 }
 

@@ -29,7 +29,10 @@ def test_files_of_gmsh(tmp_path, gmsh, order, recombined):  # noqa: F811
     expected = groups_in_gmsh(gmsh)
     for group in mesh.groups.all("element"):
         name = {"Körper_1": "Körper 1", "wall_2": "wall 2"}.get(group.name, group.name)
-        if name in ("tips", "PhysicalLine5"):  # Gmsh calls points so, and names point elements here that it does not write
+        if name in (
+            "tips",
+            "PhysicalLine5",
+        ):  # Gmsh calls points so, and names point elements here that it does not write
             assert len(group) == 0
             assert f"group '{name}' names 2 nodes or elements that the file does" in " ".join(mesh.input_warnings)
         elif name != "wall":

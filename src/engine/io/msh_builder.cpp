@@ -74,7 +74,7 @@ void MshBuilder::turn_last(CellType type) {
     const auto from = turned_round(type);
     std::array<Index, 27> before;
     std::copy_n(nodes, count, before.begin());
-    for (std::size_t k = 0; k < count; ++k) nodes[k] = before[static_cast<std::size_t>(from[k])];
+    for (std::size_t k = 0; k < count; ++k) nodes[k] = before[from[k]];
 }
 
 void MshBuilder::add_to_groups(Index node, FamilyIndex family) {

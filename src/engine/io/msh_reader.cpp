@@ -55,8 +55,9 @@ private:
         if (first == "$NOD" || first == "$PTS")
             source_.fail("files of Gmsh's version 1 are not read; save it anew with Gmsh, which reads them");
         if (first != "$MeshFormat")
-            source_.fail("this is no mesh of Gmsh, which begins with $MeshFormat (other programs, as Fluent, have files "
-                         "of the same extension, which are not read)");
+            source_.fail(
+                "this is no mesh of Gmsh, which begins with $MeshFormat (other programs, as Fluent, have files "
+                "of the same extension, which are not read)");
         source_.rewind();
         source_.next_section();
         const std::string_view version = source_.word();
@@ -163,7 +164,8 @@ private:
     }
 
     void tell_passed(const std::string& section, const Passed& at) {
-        const auto* const known = std::ranges::find(passed_over_in_msh, std::string_view(section), [](auto& p) { return p.name; });
+        const auto* const known =
+            std::ranges::find(passed_over_in_msh, std::string_view(section), [](auto& p) { return p.name; });
         std::string text = source_.shown();
         if (!source_.is_binary()) text += ":" + std::to_string(at.first_line);
         text += ": the section $" + section + " is not read";

@@ -90,9 +90,9 @@ private:
     int minor_;
     std::array<std::map<Index, Entity>, 4> entities_;
     std::vector<PointNodes> point_nodes_;
-    bool parametric_ = false;   // nodes have parametric coordinates
-    Index partitions_ = 0;      // how many
-    Index interfaces_ = 0;      // entities between partitions, whose groups are those of another dimension
+    bool parametric_ = false;  // nodes have parametric coordinates
+    Index partitions_ = 0;     // how many
+    Index interfaces_ = 0;     // entities between partitions, whose groups are those of another dimension
     Index entity_count_ = 0;
 };
 

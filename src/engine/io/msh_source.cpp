@@ -85,7 +85,8 @@ void MshSource::end_section() {
         if (!sections_) sections_ = at_;
         return;
     }
-    fail("expected $End" + std::string(name_) + ", not " + (found.empty() ? "the end of the file" : quoted_word(found)));
+    fail("expected $End" + std::string(name_) + ", not " +
+         (found.empty() ? "the end of the file" : quoted_word(found)));
 }
 
 std::string_view MshSource::content() const {
@@ -133,7 +134,8 @@ void MshSource::not_a_number(const char* wanted) const {
     const std::string_view found(last_, static_cast<std::size_t>(stop - last_));
     if (found.empty()) fail("the file ends within the section $" + std::string(name_));
     if (found.starts_with('$'))
-        fail("the section $" + std::string(name_) + " has fewer numbers than it says; it ends with " + quoted_word(found));
+        fail("the section $" + std::string(name_) + " has fewer numbers than it says; it ends with " +
+             quoted_word(found));
     fail("expected a " + std::string(wanted) + ", not " + quoted_word(found));
 }
 

@@ -127,9 +127,9 @@ private:
     const char* at_ = nullptr;
     const char* end_ = nullptr;
     const char* sections_ = nullptr;  // behind the first section
-    const char* last_ = nullptr;     // start of what was read last
-    const char* section_ = nullptr;  // behind the line that opens the current section
-    std::string_view name_;          // of the current section
+    const char* last_ = nullptr;      // start of what was read last
+    const char* section_ = nullptr;   // behind the line that opens the current section
+    std::string_view name_;           // of the current section
     Index integer_ = 0;
     bool binary_ = false;
     bool swapped_ = false;

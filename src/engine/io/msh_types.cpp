@@ -72,9 +72,9 @@ std::string msh_type_description(std::int64_t number) {
     return found == std::end(msh_descriptions) ? std::string() : found->text;
 }
 
-std::array<std::int8_t, 27> turned_round(CellType type) {
+std::array<std::uint8_t, 27> turned_round(CellType type) {
     const CellTraits& t = traits(type);
-    std::array<std::int8_t, 27> out{};
+    std::array<std::uint8_t, 27> out{};
     for (int k = 0; k < t.nodes; ++k) {
         int from = k;  // centres stay
         if (t.dimension == 1)
@@ -83,7 +83,7 @@ std::array<std::int8_t, 27> turned_round(CellType type) {
             from = (t.corners - k) % t.corners;
         else if (k < 2 * t.corners)
             from = 3 * t.corners - 1 - k;
-        out[static_cast<std::size_t>(k)] = static_cast<std::int8_t>(from);
+        out[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(from);
     }
     return out;
 }

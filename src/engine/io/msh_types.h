@@ -11,8 +11,8 @@
 
 namespace femscalpel {
 
-/// What our files' $Comments say before the tags of those physical groups of points that are node groups; the others are
-/// groups of point elements. It is there where groups hold point elements.
+/// What our files' $Comments say before the tags of those physical groups of points that are node groups; the others
+/// are groups of point elements. It is there where groups hold point elements.
 inline constexpr std::string_view msh_node_groups_comment = "FemScalpel: node groups are the physical points";
 
 /// An element type in Gmsh: its number, 0 where Gmsh has none, and where its nodes stand in ours: Gmsh's node k is our
@@ -33,6 +33,6 @@ std::string msh_type_description(std::int64_t number);
 
 /// The nodes of an edge or face element seen from its other side: node k of the turned one is node result[k].
 /// The type must be of dimension 1 or 2.
-std::array<std::int8_t, 27> turned_round(CellType type);
+std::array<std::uint8_t, 27> turned_round(CellType type);
 
 }  // namespace femscalpel

@@ -17,10 +17,14 @@ namespace {
 
 /// What data sets hold that are not read.
 constexpr std::pair<std::string_view, const char*> not_in_unv_mesh[] = {
-    {"18", "coordinate systems"},    {"55", "results in nodes"},
-    {"56", "results in elements"},   {"57", "results in elements' nodes"},
-    {"58", "functions"},             {"58b", "functions"},
-    {"82", "lines"},                 {"2414", "results"},
+    {"18", "coordinate systems"},
+    {"55", "results in nodes"},
+    {"56", "results in elements"},
+    {"57", "results in elements' nodes"},
+    {"58", "functions"},
+    {"58b", "functions"},
+    {"82", "lines"},
+    {"2414", "results"},
     {"1710", "materials"},
 };
 
@@ -180,9 +184,9 @@ private:
 
     [[noreturn]] void refuse(Index number, Index descriptor, Index count, const char* at) const {
         const std::string name = unv_description(descriptor);
-        throw UnsupportedElementError(source_.where(at) + "element " + std::to_string(number) +
-                                      " has the descriptor " + std::to_string(descriptor) +
-                                      (name.empty() ? "" : " (" + name + ")") + " and " + std::to_string(count) +
+        throw UnsupportedElementError(source_.where(at) + "element " + std::to_string(number) + " has the descriptor " +
+                                      std::to_string(descriptor) + (name.empty() ? "" : " (" + name + ")") + " and " +
+                                      std::to_string(count) +
                                       " nodes, which FemScalpel cannot hold; export the mesh without such elements");
     }
 
@@ -220,7 +224,8 @@ private:
         while (!source_.at_end()) {
             const Index number = source_.integer("the number of a group");
             Index count = 0;
-            for (int left = source_.words_left(); left > 0; --left) count = source_.integer("a number of a group's head");
+            for (int left = source_.words_left(); left > 0; --left)
+                count = source_.integer("a number of a group's head");
             if (count < 0 || count > source_.left() / 4 + 1)
                 source_.fail("the number of members, " + std::to_string(count) +
                              ", is more than the rest of the data set can hold");

@@ -25,10 +25,9 @@ struct VtuNumber {
     bool integer;
 };
 
-constexpr VtuNumber vtu_numbers[] = {{"Int8", 1, true},   {"UInt8", 1, true},  {"Int16", 2, true},
-                                     {"UInt16", 2, true}, {"Int32", 4, true},  {"UInt32", 4, true},
-                                     {"Int64", 8, true},  {"UInt64", 8, true}, {"Float32", 4, false},
-                                     {"Float64", 8, false}};
+constexpr VtuNumber vtu_numbers[] = {
+    {"Int8", 1, true},   {"UInt8", 1, true}, {"Int16", 2, true},  {"UInt16", 2, true},   {"Int32", 4, true},
+    {"UInt32", 4, true}, {"Int64", 8, true}, {"UInt64", 8, true}, {"Float32", 4, false}, {"Float64", 8, false}};
 
 const VtuNumber* vtu_number(const VtuArray& array) {
     const auto* const found = std::ranges::find(vtu_numbers, std::string_view(array["type"]), &VtuNumber::type);
@@ -45,7 +44,7 @@ void convert_vtu(const std::string& bytes, bool swapped, std::vector<T>& out) {
         if (swapped) std::reverse(one, one + sizeof(Stored));
         Stored value;
         std::memcpy(&value, one, sizeof(Stored));
-        out[k] = static_cast<T>(value);
+        out[k] = static_cast<T>(value);  // NOLINT(bugprone-signed-char-misuse): Int8 holds numbers
     }
 }
 
@@ -81,9 +80,8 @@ VtuFile::VtuFile(const std::filesystem::path& path) : shown_(path.string()), tex
 }
 
 const VtuArray* VtuFile::find(std::string_view section, std::string_view name) const {
-    const auto found = std::ranges::find_if(arrays_, [&](const VtuArray& a) {
-        return a.section == section && (name.empty() || a.name() == name);
-    });
+    const auto found = std::ranges::find_if(
+        arrays_, [&](const VtuArray& a) { return a.section == section && (name.empty() || a.name() == name); });
     return found == arrays_.end() ? nullptr : &*found;
 }
 
@@ -92,8 +90,8 @@ void VtuFile::fail(Index line, const std::string& what) const {
 }
 
 void VtuFile::fail(const VtuArray& array, const std::string& what) const {
-    fail(array.line, "the array '" + array.name() + "' of " + (array.section.empty() ? "the file" : array.section) +
-                         " " + what);
+    fail(array.line,
+         "the array '" + array.name() + "' of " + (array.section.empty() ? "the file" : array.section) + " " + what);
 }
 
 bool VtuFile::is_integer(const VtuArray& array) {
@@ -205,7 +203,8 @@ std::vector<T> VtuFile::values(const VtuArray& array, Index least, Index most) c
         const bool is_signed = number->type[0] == 'I';
         switch (number->bytes) {
             case 1:
-                is_signed ? convert_vtu<std::int8_t>(raw, swapped_, out) : convert_vtu<std::uint8_t>(raw, swapped_, out);
+                is_signed ? convert_vtu<std::int8_t>(raw, swapped_, out)
+                          : convert_vtu<std::uint8_t>(raw, swapped_, out);
                 break;
             case 2:
                 is_signed ? convert_vtu<std::int16_t>(raw, swapped_, out)

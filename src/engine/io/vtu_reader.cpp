@@ -151,8 +151,7 @@ private:
         for (const VtuArray& array : file_.arrays())
             if (!known_.contains(&array) && !(own && array.name() == "Family"))
                 names += (names.empty() ? "'" : ", '") + array.name() + "'";
-        if (!names.empty())
-            mesh_.remarks.push_back(file_.shown() + ": the data arrays " + names + " are not read");
+        if (!names.empty()) mesh_.remarks.push_back(file_.shown() + ": the data arrays " + names + " are not read");
     }
 
     VtuFile file_;
