@@ -14,8 +14,9 @@ namespace femscalpel {
 inline constexpr std::array<std::uint8_t, cell_type_count> vtk_types = {1,  3,  21, 5,  22, 34, 9,  23, 28, 10,
                                                                         24, 14, 27, 13, 26, 32, 12, 25, 29};
 
-/// Attributes of arrays that are groups: what a group is of ("node", "element", "facet"), and its name.
+/// The attribute of an array that is a group: what the group is of, "node", "element" or "facet".
 inline constexpr const char* vtu_group_kind = "femscalpel_group";
+/// The attribute with the group's name.
 inline constexpr const char* vtu_group_name = "femscalpel_name";
 
 /// The six nodes of a linear wedge in VTK's order, or from VTK's in ours.
