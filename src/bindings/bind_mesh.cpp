@@ -153,7 +153,9 @@ void bind_properties(MeshClass& mesh) {
         .def("instances", &instances)
         .def("input_warnings", [](const Mesh& mesh) {
             const SolverInput* input = solver_input(mesh);
-            return input ? input->warnings() : std::vector<std::string>{};
+            std::vector<std::string> out = input ? input->warnings() : std::vector<std::string>{};
+            out.insert(out.end(), mesh.remarks.begin(), mesh.remarks.end());
+            return out;
         });
 }
 

@@ -619,18 +619,17 @@ def _files(mesh, make, folder):
         if not isinstance(m, fs.Mesh):
             out.append(m)
             continue
-        for suffix in (".inp", ".inp.gz", ".vtu", ".med"):
+        for suffix in (".inp", ".inp.gz", ".vtu", ".med", ".msh", ".unv"):
             path = folder / f"file{k}{suffix}"
             error = tried(lambda: fs.write(m, path))
             if error is not None:
                 out.append(error)
                 continue
-            if suffix in (".inp", ".vtu"):
+            if suffix in (".inp", ".vtu", ".msh", ".unv"):
                 out.append(short(path.read_bytes()))
             if suffix == ".inp.gz":
                 out.append(short(gzip.decompress(path.read_bytes())))
-            if suffix != ".vtu":
-                out.append(fs.read(path))
+            out.append(fs.read(path))
     return out
 
 

@@ -40,6 +40,7 @@ TEST(Msh, GroupsOfPointsNodesAndElements) {
     EXPECT_EQ(text,
               "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
               "$PhysicalNames\n4\n0 1 \"A B\"\n3 1 \"A B\"\n0 2 \"N\"\n3 3 \"NONE\"\n$EndPhysicalNames\n"
+              "$Comments\nFemScalpel: node groups are the physical points 2\n$EndComments\n"
               "$Entities\n2 0 0 1\n1 0 0 0 1 1 \n2 0 0 0 1 2 \n1 0 0 0 1 1 0.5 1 1 0\n$EndEntities\n"
               "$Nodes\n1 4 10 40\n3 1 0 4\n10\n20\n30\n40\n0 0 0\n1 0 0\n0 1 0\n0 0 0.5\n$EndNodes\n"
               "$Elements\n3 4 5 11\n0 1 15 1\n9 10\n3 1 4 1\n5 10 20 30 40\n0 2 15 2\n10 20\n11 40\n$EndElements\n");

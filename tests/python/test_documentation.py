@@ -14,7 +14,7 @@ API = ROOT / "resources" / "docs" / "api"
 PAGES = (
     "README.md",
     "CONTRIBUTING.md",
-    *(f"resources/docs/{p}.md" for p in ("architecture", "groups", "paper", "tour")),
+    *(f"resources/docs/{p}.md" for p in ("architecture", "formats", "groups", "paper", "tour")),
 )
 SUFFIXES = "h|cpp|py|pyi|ui|svg|ts|md|rst|txt|sh|geo"
 

@@ -31,14 +31,15 @@ def test_round_trip(tmp_path, suffix, as_path):
     np.testing.assert_array_equal(back.cells["tetra"], mesh.cells["tetra"])
     np.testing.assert_array_equal(back.cell_ids["tetra"], mesh.cell_ids["tetra"])
     for group in mesh.groups.all():
-        np.testing.assert_array_equal(back.groups[group.name, group.kind].ids, group.ids)
+        kind = "element" if suffix == ".unv" and len(group) == 0 else group.kind  # a loss that is told
+        np.testing.assert_array_equal(back.groups[group.name, kind].ids, group.ids)
 
 
 def test_formats():
     assert fs.formats()[:3] == [
         ("MED: Code_Aster, SALOME", (".med", ".mmed", ".rmed"), True, True),
         ("CalculiX", (".inp", ".inp.gz"), True, True),
-        ("ParaView", (".vtu",), False, True),
+        ("ParaView", (".vtu",), True, True),
     ]
 
 

@@ -6,6 +6,7 @@
 #include "io/inp.h"
 #include "io/med.h"
 #include "io/msh.h"
+#include "io/unv.h"
 #include "io/vtu.h"
 
 namespace femscalpel {
@@ -17,8 +18,22 @@ constexpr Format table[] = {
      {".inp", ".inp.gz"},
      [](const std::filesystem::path& path, const std::string&) { return read_inp(path); },
      write_inp},
-    {"ParaView", {".vtu"}, nullptr, write_vtu},
-    {"Gmsh", {".msh"}, nullptr, write_msh, nullptr, msh_losses},
+    {"ParaView",
+     {".vtu"},
+     [](const std::filesystem::path& path, const std::string&) { return read_vtu(path); },
+     write_vtu},
+    {"Gmsh",
+     {".msh"},
+     [](const std::filesystem::path& path, const std::string&) { return read_msh(path); },
+     write_msh,
+     nullptr,
+     msh_losses},
+    {"UNV: I-DEAS, SALOME",
+     {".unv"},
+     [](const std::filesystem::path& path, const std::string&) { return read_unv(path); },
+     write_unv,
+     nullptr,
+     unv_losses},
 };
 
 /// The extension in lower case; of a packed file with the one before: ".inp.gz".

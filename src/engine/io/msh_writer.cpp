@@ -11,41 +11,14 @@
 #include "deck/solver_input.h"
 #include "error.h"
 #include "io/inp_file.h"
+#include "io/inp_numbers.h"
 #include "io/msh.h"
+#include "io/msh_types.h"
 
 namespace femscalpel {
 namespace {
 
 constexpr std::size_t longest_msh_name = 127;  // by Gmsh's description of the format
-
-/// Gmsh's number of a type, 0 without one, and its nodes as positions in ours.
-struct GmshType {
-    int number;
-    std::array<std::int8_t, 27> order;
-};
-
-/// In the order of CellType.
-constexpr GmshType gmsh_types[cell_type_count] = {
-    {15, {0}},
-    {1, {0, 1}},
-    {8, {0, 1, 2}},
-    {2, {0, 1, 2}},
-    {9, {0, 1, 2, 3, 4, 5}},
-    {0, {}},
-    {3, {0, 1, 2, 3}},
-    {16, {0, 1, 2, 3, 4, 5, 6, 7}},
-    {10, {0, 1, 2, 3, 4, 5, 6, 7, 8}},
-    {4, {0, 1, 2, 3}},
-    {11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
-    {7, {0, 1, 2, 3, 4}},
-    {19, {0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12}},
-    {6, {0, 1, 2, 3, 4, 5}},
-    {18, {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10}},
-    {13, {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16}},
-    {5, {0, 1, 2, 3, 4, 5, 6, 7}},
-    {17, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14}},
-    {12, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26}},
-};
 
 template <class T>
 void append_value(std::string& out, T value, char after = ' ') {
@@ -83,6 +56,7 @@ public:
         find_entities();
         out_ = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
         put_names();
+        put_comment();
         put_entities();
         put_nodes();
         put_elements();
@@ -94,7 +68,7 @@ private:
         if (mesh_.points.empty())
             throw WriteError(shown_ + ": the mesh has no nodes, without which Gmsh reads no mesh");
         for (const CellBlock& block : mesh_.blocks())
-            if (block.size() > 0 && gmsh_types[static_cast<std::size_t>(block.type)].number == 0)
+            if (block.size() > 0 && msh_type(block.type).number == 0)
                 throw WriteError(shown_ + ": the mesh has " + std::to_string(block.size()) + " elements of type " +
                                  std::string(traits(block.type).name) +
                                  ", which Gmsh does not have; write another format, as .med");
@@ -163,7 +137,7 @@ private:
             const Group& group = mesh_.groups[g];
             if (group.hidden || group.kind == GroupKind::facet) continue;
             unsigned dimensions = dimensions_[static_cast<GroupIndex>(g)];
-            if (dimensions == 0) dimensions = group.kind == GroupKind::node ? 1u : 1u << home_dimension_;
+            if (dimensions == 0) dimensions = group.kind == GroupKind::node ? 1u : 1u << std::max(home_dimension_, 1);
             for (int d = 0; d <= 3; ++d)
                 if (dimensions & (1u << d)) {
                     append_value(lines, d);
@@ -176,6 +150,21 @@ private:
         out_ += "$PhysicalNames\n";
         append_value(out_, count, '\n');
         out_ += lines + "$EndPhysicalNames\n";
+    }
+
+    /// Says which physical groups of points are node groups, where others hold point elements.
+    void put_comment() {
+        const auto elements = [this](const auto& d) {
+            return (d.second & 1u) && mesh_.groups[static_cast<std::size_t>(d.first)].kind == GroupKind::element;
+        };
+        if (std::ranges::none_of(dimensions_, elements)) return;
+        out_ += "$Comments\n" + std::string(msh_node_groups_comment);
+        for (std::size_t g = 0; g < mesh_.groups.size(); ++g)
+            if (mesh_.groups[g].kind == GroupKind::node && !mesh_.groups[g].hidden) {
+                out_ += ' ';
+                append_integer(out_, static_cast<Index>(g) + 1);
+            }
+        out_ += "\n$EndComments\n";
     }
 
     void put_entities() {
@@ -230,7 +219,7 @@ private:
         SparseCheck check(1 << 14);
         for (const MshRun& run : runs_) {
             const CellBlock& block = mesh_.block(run.type);
-            const GmshType& type = gmsh_types[static_cast<std::size_t>(run.type)];
+            const MshType& type = msh_type(run.type);
             const auto nodes = static_cast<std::size_t>(traits(run.type).nodes);
             append_value(out_, traits(run.type).dimension);
             append_value(out_, run.entity);

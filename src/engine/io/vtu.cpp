@@ -17,13 +17,10 @@
 #include "cancel.h"
 #include "error.h"
 #include "io/atomic_file.h"
+#include "io/vtu_types.h"
 
 namespace femscalpel {
 namespace {
-
-/// VTK's cell type numbers in the order of CellType (vtkCellType.h).
-constexpr std::array<std::uint8_t, cell_type_count> vtk_types = {1,  3,  21, 5,  22, 34, 9,  23, 28, 10,
-                                                                 24, 14, 27, 13, 26, 32, 12, 25, 29};
 
 /// Length of the valid UTF-8 character that `text` begins with; 0 if there is none.
 std::size_t utf8_length(std::string_view text) {
@@ -88,11 +85,12 @@ public:
 
     /// One array, of `components` values each, as a DataArray element and a compressed block.
     template <class T>
-    void array(std::string_view type, std::string_view name, const std::vector<T>& values, int components = 1) {
+    void array(std::string_view type, std::string_view name, const std::vector<T>& values, int components = 1,
+               const std::string& more = {}) {
         xml += "<DataArray type=\"";
         xml += type;
         xml += "\" Name=\"" + escaped(name) + "\" NumberOfComponents=\"" + std::to_string(components) +
-               "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
+               "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"" + more + "/>\n";
         compress(reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T));
     }
 
@@ -135,6 +133,12 @@ private:
     std::set<std::string> taken_;
 };
 
+/// Attributes that tell read_vtu() which group an array is; others pass over them.
+std::string group_attributes(const Group& group) {
+    return std::string(" ") + vtu_group_kind + "=\"" + std::string(to_string(group.kind)) + "\" " + vtu_group_name +
+           "=\"" + escaped(group.name) + "\"";
+}
+
 /// 1 for the families that contain `group`, by family.
 std::vector<std::uint8_t> families_with(const Mesh& mesh, GroupIndex group) {
     std::vector<std::uint8_t> in(static_cast<std::size_t>(mesh.families.size()));
@@ -155,7 +159,7 @@ void write_point_data(Document& document, const Mesh& mesh) {
         if (group.hidden || group.kind != GroupKind::node) continue;
         const std::vector<std::uint8_t> in = families_with(mesh, static_cast<GroupIndex>(g));
         for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = in[static_cast<std::size_t>(mesh.node_families[i])];
-        document.array("UInt8", names.unique(group.name), flags);
+        document.array("UInt8", names.unique(group.name), flags, 1, group_attributes(group));
     }
     document.xml += "</PointData>\n";
 }
@@ -188,7 +192,7 @@ void write_cell_data(Document& document, const Mesh& mesh) {
                     flags[first[static_cast<std::size_t>(f.type)] + static_cast<std::size_t>(f.cell)] |=
                         static_cast<std::uint8_t>(1u << (f.face - 1));
         }
-        document.array("UInt8", names.unique(group.name), flags);
+        document.array("UInt8", names.unique(group.name), flags, 1, group_attributes(group));
     }
     document.xml += "</CellData>\n";
 }
@@ -200,10 +204,7 @@ void write_cells(Document& document, const Mesh& mesh) {
         const std::size_t start = connectivity.size();
         connectivity.insert(connectivity.end(), block.connectivity.begin(), block.connectivity.end());
         if (block.type == CellType::wedge)
-            for (std::size_t c = start; c < connectivity.size(); c += 6) {
-                std::swap(connectivity[c + 1], connectivity[c + 2]);
-                std::swap(connectivity[c + 4], connectivity[c + 5]);
-            }
+            for (std::size_t c = start; c < connectivity.size(); c += 6) turn_vtk_wedge(&connectivity[c]);
         const auto nodes = static_cast<std::size_t>(traits(block.type).nodes);
         for (std::size_t c = 1; c <= block.ids.size(); ++c) offsets.push_back(static_cast<Index>(start + c * nodes));
         types.insert(types.end(), block.ids.size(), vtk_types[static_cast<std::size_t>(block.type)]);

@@ -78,6 +78,8 @@ public:
     FamilyTable families;
     std::string name = "mesh";
     std::string unit;  ///< unit of the coordinates as a file states it, may be empty
+    /// What the file this mesh was read from holds and the mesh does not, a line each, with the file's name.
+    std::vector<std::string> remarks;
     /// What the file this mesh was read from says besides, if there is any (mesh/companion.h).
     std::shared_ptr<const Companion> companion;
 

@@ -301,8 +301,8 @@ class Mesh:
 
     @property
     def input_warnings(self) -> Tuple[str, ...]:
-        """What was odd in the deck the mesh was read from, or had to be written out, with file and line. Empty for
-        other files."""
+        """What was odd in the file the mesh was read from, had to be written out, or was not read, with file and
+        line."""
         return tuple(self._engine_mesh.input_warnings())
 
     @property
