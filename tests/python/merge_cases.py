@@ -5,10 +5,10 @@
 
 Each kind: stiffeners on a flat and on a curved shell; plates, blocks, rods and tubes on and into the two boxes, and
 into the flanged cylinder; sleeves and parts of sleeves on a shaft; what overlaps and is flush with the mesh; shells of
-quadrangles, blocks of hexahedra and prisms; all of these also in second order, with --quadratic. A result is checked: one part, conforming, positive volumes, a
-seam without a gap. Printed: how many were refused, the smallest and usual quality, how many are poor (below 0.12 and
-below the worse of the two inputs), the largest change of any group's measure, and the seeds that failed a check; with
---refused those that were refused, too.
+quadrangles, blocks of hexahedra and prisms; all of these also in second order, with --quadratic. A result is checked:
+one part, conforming, positive volumes, a seam without a gap. Printed: how many were refused, the smallest and usual
+quality, how many are poor (below 0.12 and below the worse of the two inputs), the largest change of any group's
+measure, and the seeds that failed a check; with --refused those that were refused, too.
 """
 
 import collections
