@@ -10,6 +10,8 @@
 #include <random>
 
 #include "cancel.h"
+#include "cutting/mend_filling.h"
+#include "mesh/quality.h"
 #include "voxel_skin.h"
 
 namespace femscalpel {
@@ -39,6 +41,23 @@ std::string reason(const VoxelSkin& skin, const FillOptions& options = {}) {
         return e.what();
     }
     return "";
+}
+
+TEST(MendFilling, AFlatElementGetsAPointBesideItsPlane) {
+    // Two triangles of the skin in a plane, their diagonal the one way; inside, the other way, an element of no height.
+    std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-7}, {0, 1, 0}, {0.5, 0.5, -0.7}};
+    const std::vector<Triangle> skin{{0, 1, 2}, {0, 2, 3}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};
+    std::vector<Tetra> tetras{{0, 1, 3, 4}, {1, 2, 3, 4}, {0, 1, 2, 3}};
+    for (Tetra& t : tetras)
+        if (signed_volume(points[t[0]], points[t[1]], points[t[2]], points[t[3]]) < 0) std::swap(t[0], t[1]);
+    ASSERT_LT(check_filling(points, skin, tetras), 1e-3);
+    mend_filling(points, skin, tetras);
+    EXPECT_GT(check_filling(points, skin, tetras), 0.2);
+    EXPECT_EQ(points.size(), 6u);
+    // And what is good stays.
+    const std::vector<Tetra> before = tetras;
+    mend_filling(points, skin, tetras);
+    EXPECT_EQ(tetras, before);
 }
 
 TEST(Fill, UnitCube) {

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "cutting/covered_faces.h"
+#include "cutting/meeting.h"
 #include "cutting/refill.h"
 #include "mesh/quality.h"
 #include "operators/joint.h"
+#include "operators/merge_refining.h"
 #include "operators/seam.h"
+#include "operators/simplify_at_meeting.h"
 #include "operators/trim.h"
 #include "operators/unite.h"
 #include "simple_meshes.h"
@@ -152,6 +155,42 @@ TEST(Joint, StopsAreAtEndsBendsAndNodes) {
     EXPECT_EQ(joint.stops[1].at, Vec3(2, 0, 0));
     EXPECT_EQ(joint.stops[2].node, (std::array<Index, 2>{-1, -1}));
     EXPECT_NEAR(ribbon_of(line, 0)->length(), 3 + std::hypot(1, 0.3), 1e-12);
+}
+
+TEST(SimplifyAtMeeting, DividesWhatIsNearAndNothingElse) {
+    const Mesh base = checks::bricks(12, 10, 6), part = moved(checks::bricks(2, 2, 2), {5.2, 4.3, 6});
+    const Meeting meeting = find_meeting(base, part, {});
+    ASSERT_EQ(meeting.lines.size(), 4u);  // the four sides
+    const auto converted = simplify_at_meeting(base, part, meeting.lines, false, {}, {});
+    ASSERT_TRUE(converted);
+    const Index left = converted->mesh.block(CellType::hexahedron).size();
+    EXPECT_LT(left, 12 * 10 * 6 - 9);
+    EXPECT_GE(left, 120);  // the lowest layer
+    EXPECT_GT(converted->mesh.block(CellType::pyramid).size(), 0);
+    const auto again = simplify_at_meeting(converted->mesh, part, meeting.lines, false, {}, {});
+    EXPECT_FALSE(again);
+    EXPECT_FALSE(simplify_at_meeting(checks::grid(3, 3, 3), part, meeting.lines, true, {}, {}));
+    // What gives way is divided inside of the other, too.
+    const auto within = simplify_at_meeting(moved(checks::bricks(12, 10, 12), {0, 0, -9}), base, {}, true, {}, {});
+    ASSERT_TRUE(within);
+    EXPECT_GE(within->report.converted.at("hexahedron"), 3 * 120);
+    EXPECT_LE(within->report.converted.at("hexahedron"), 7 * 120);
+}
+
+TEST(MergeRefining, DividesWhatItRefines) {
+    const Mesh base = checks::bricks(6, 6, 4);
+    Mesh part = checks::grid(3, 3, 3);
+    for (Vec3& x : part.points) x = 0.2 * x + Vec3(2.7, 2.6, 4);
+    const Meeting meeting = find_meeting(base, part, {});
+    MergeRefining refining(base, part, {});
+    refining.run(meeting.lines, 2.5, {});
+    EXPECT_TRUE(refining.any());
+    EXPECT_EQ(&refining.mesh(1), &part);
+    Report report;
+    refining.join(0, report);
+    ASSERT_TRUE(report.refinement);
+    EXPECT_GT(report.converted.at("hexahedron"), 0);
+    EXPECT_GT(refining.mesh(0).block(CellType::tetra).size(), 0);
 }
 
 TEST(Trim, LeavesWhatIsOnThePointsSide) {

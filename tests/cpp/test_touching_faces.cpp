@@ -39,6 +39,9 @@ TEST(NearBoxes, AreThePairsThatMeet) {
         second{Box(Vec3(5.5, 0, 0), Vec3(7, 1, 1)), Box(Vec3(1, 1, 1), Vec3(5, 2, 2))};
     EXPECT_EQ(near_boxes(first, second), (std::vector<std::pair<int, int>>{{0, 1}, {1, 0}, {1, 1}}));
     EXPECT_TRUE(near_boxes(first, {}).empty());
+    const BoxTree tree(first);
+    EXPECT_TRUE(tree.meets(second[0]) && tree.meets(second[1]));
+    EXPECT_FALSE(tree.meets(Box(Vec3(2, 0, 0), Vec3(4, 1, 1))) || BoxTree({}).meets(second[0]));
 }
 
 TEST(OuterFaces, OfSolidsAreTrianglesWithNormalsOut) {

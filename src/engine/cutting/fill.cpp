@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cutting/fill_process.h"
+#include "cutting/mend_filling.h"
 
 namespace femscalpel {
 namespace {
@@ -73,6 +74,8 @@ Filled fill_cavity(const std::vector<Vec3>& points, const std::vector<Triangle>&
             if (v < 0 || v >= known) refuse(points, triangles, cavity.centre, "an unknown node");
             v = v < given ? cavity.origin[v] : v - given + static_cast<int>(points.size());
         }
+    mend_filling(all, triangles, filled.tetras);
+    filled.points.assign(all.begin() + static_cast<std::ptrdiff_t>(points.size()), all.end());
     filled.worst = check_filling(all, triangles, filled.tetras);
     return filled;
 }
