@@ -159,6 +159,7 @@ private:
     void check_faces() const {
         check_faces(other_, cover_);
         std::vector<SurfaceFace> own;
+        own.reserve(covered_.size());
         for (const FaceKey& key : covered_) own.push_back({key, false});
         check_faces(mesh_, own);
     }

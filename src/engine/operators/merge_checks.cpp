@@ -27,8 +27,6 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-/// What is as near as this part of a mesh's size to the other is near it.
-constexpr double close = 1e-2;
 /// A crossing is farther than this from the edges of both triangles, in their size.
 constexpr double inside = 1e-6;
 
