@@ -155,3 +155,22 @@ def test_scaled_jacobian_of_bent_elements():
 def test_scaled_jacobian_of_a_quadrangle_with_a_reentrant_corner():
     mesh = fs.Mesh([[0, 0, 0], [2, 0, 0], [0.5, 0.5, 0], [0, 2, 0]], {"quad": [[0, 1, 2, 3]]})
     assert fs.scaled_jacobian(mesh)["quad"][0] < -0.5
+
+
+def test_measure_of_curved_pyramids_is_that_of_the_hexahedron_they_fill():
+    rng = np.random.default_rng(3)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+    edges = EDGES["hexahedron20"]
+    middles = np.array([(corners[a] + corners[b]) / 2 for a, b in edges]) + rng.uniform(-0.1, 0.1, (12, 3))
+    tip = np.array([0.5, 0.45, 0.55])
+    to_tip = (corners + tip) / 2 + rng.uniform(-0.05, 0.05, (8, 3))
+    points = np.concatenate([corners, middles, [tip], to_tip])
+    place = {frozenset(e): 8 + k for k, e in enumerate(edges)}
+    pyramids = []
+    for face in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
+        base = face[::-1]
+        around = [place[frozenset((base[k], base[(k + 1) % 4]))] for k in range(4)]
+        pyramids.append([*base, 20, *around, *(21 + c for c in base)])
+    found = fs.measure(fs.Mesh(points, {"hexahedron20": [range(20)], "pyramid13": pyramids}))
+    assert abs(found["hexahedron20"][0] - 1) > 1e-3
+    assert found["pyramid13"].sum() == pytest.approx(found["hexahedron20"][0], rel=1e-12)

@@ -52,7 +52,9 @@ private:
         double worst;  // of what they become
     };
 
-    double ratio(const Tetra& t) const { return mean_ratio(points_[t[0]], points_[t[1]], points_[t[2]], points_[t[3]]); }
+    double ratio(const Tetra& t) const {
+        return mean_ratio(points_[t[0]], points_[t[1]], points_[t[2]], points_[t[3]]);
+    }
 
     std::optional<std::size_t> worst_but(const std::set<Tetra>& given_up) const {
         std::optional<std::size_t> out;

@@ -128,6 +128,14 @@ public:
         coefficients_ = vandermonde.inverse();
     }
 
+    /// The functions themselves, by node.
+    Eigen::VectorXd values_at(const Vec3& x) const {
+        Eigen::RowVectorXd monomials(static_cast<Eigen::Index>(powers_.size()));
+        for (std::size_t j = 0; j < powers_.size(); ++j)
+            monomials(static_cast<Eigen::Index>(j)) = monomial(powers_[j], x);
+        return (monomials * coefficients_).transpose();
+    }
+
     /// 3 x nodes.
     Eigen::Matrix3Xd at(const Vec3& x) const {
         Eigen::Matrix3Xd out = Eigen::Matrix3Xd::Zero(3, coefficients_.cols());
@@ -182,6 +190,7 @@ private:
 };
 
 struct Integrator {
+    std::vector<Eigen::VectorXd> values;
     std::vector<Eigen::Matrix3Xd> gradients;
     std::vector<double> weights;
 };
@@ -203,6 +212,7 @@ const Integrator& integrator(CellType type) {
             // The seventh node of a triangle is taken to lie where the other six put it.
             const ShapeGradients shape(t.type == CellType::triangle7 ? CellType::triangle6 : t.type);
             for (const GaussPoint& g : rule) {
+                out[static_cast<int>(t.type)].values.push_back(shape.values_at(g.at));
                 out[static_cast<int>(t.type)].gradients.push_back(shape.at(g.at));
                 out[static_cast<int>(t.type)].weights.push_back(g.weight);
             }
@@ -210,6 +220,34 @@ const Integrator& integrator(CellType type) {
         return out;
     }();
     return all[static_cast<int>(type)];
+}
+
+/// Volume of a second-order element with faces of six and eight nodes, by the divergence theorem.
+double volume_by_faces(const CellTraits& t, auto at) {
+    const Vec3& origin = at(0);
+    double sum = 0;
+    for (const auto& face : t.faces) {
+        const int corners = face[3] < 0 ? 3 : 4;
+        std::array<Vec3, 8> nodes;
+        for (int k = 0; k < corners; ++k) {
+            const int a = face[k], b = face[(k + 1) % corners];
+            const auto edge = std::ranges::find_if(
+                t.edges, [&](const auto& e) { return std::minmax<int>(e[0], e[1]) == std::minmax<int>(a, b); });
+            nodes[k] = at(a) - origin;
+            nodes[corners + k] = at(t.corners + static_cast<int>(edge - t.edges.begin())) - origin;
+        }
+        const Integrator& rule = integrator(corners == 3 ? CellType::triangle6 : CellType::quad8);
+        for (std::size_t g = 0; g < rule.weights.size(); ++g) {
+            Vec3 x = Vec3::Zero(), along = x, across = x;
+            for (int k = 0; k < 2 * corners; ++k) {
+                x += rule.values[g][k] * nodes[k];
+                along += rule.gradients[g](0, k) * nodes[k];
+                across += rule.gradients[g](1, k) * nodes[k];
+            }
+            sum += rule.weights[g] * x.dot(along.cross(across));
+        }
+    }
+    return -sum / 3;  // the faces' normals point into the element
 }
 
 /// Volume of an element with straight edges, exact for its shape functions: by the divergence theorem, as quadrangles,
@@ -321,8 +359,9 @@ double measure_of(CellType type, auto at) {
             return (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
         case CellType::tetra:
             return signed_volume(at(0), at(1), at(2), at(3));
-        case CellType::pyramid:
         case CellType::pyramid13:
+            return volume_by_faces(t, at);
+        case CellType::pyramid:
         case CellType::wedge:
         case CellType::hexahedron:
             return straight_volume(t, at);
