@@ -230,9 +230,9 @@ double volume_by_faces(const CellTraits& t, auto at) {
         const int corners = face[3] < 0 ? 3 : 4;
         std::array<Vec3, 8> nodes;
         for (int k = 0; k < corners; ++k) {
-            const int a = face[k], b = face[(k + 1) % corners];
+            const std::int8_t a = face[k], b = face[(k + 1) % corners];
             const auto edge = std::ranges::find_if(
-                t.edges, [&](const auto& e) { return std::minmax<int>(e[0], e[1]) == std::minmax<int>(a, b); });
+                t.edges, [&](const auto& e) { return std::minmax(e[0], e[1]) == std::minmax(a, b); });
             nodes[k] = at(a) - origin;
             nodes[corners + k] = at(t.corners + static_cast<int>(edge - t.edges.begin())) - origin;
         }
