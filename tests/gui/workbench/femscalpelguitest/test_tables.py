@@ -72,7 +72,7 @@ class GroupTable(Folder, CrackTest):
     def open_panel(self):
         super().open_panel()
         choose("patch", "HalfPlane")
-        wait_until(lambda: "front of" in widget("status").text(), "a crack with a front")
+        wait_until(lambda: is_settled() and "front of" in widget("status").text(), "a crack with a front")
 
     def test_sorted_and_filtered(self):
         self.open_panel()
@@ -90,7 +90,7 @@ class GroupTable(Folder, CrackTest):
         self.assertEqual(sorted(shown_names()), ["CRACK_FRONT", "CRACK_N", "CRACK_P"])
         before = widget("status").text()
         type_into("offset", "0.3")
-        wait_until(lambda: widget("status").text() != before, "the new preview")
+        wait_until(lambda: is_settled() and widget("status").text() != before, "the new preview")
         self.assertEqual(sorted(shown_names()), ["CRACK_FRONT", "CRACK_N", "CRACK_P"])
         counts = [int(text) for text in column(3)]
         self.assertEqual(counts, sorted(counts))
