@@ -19,19 +19,9 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 // Files that Gmsh and meshio wrote are in tests/python/test_msh_reader.py.
-class MshReading : public testing::Test {
+class MshReading : public checks::TextReading {
 protected:
-    void TearDown() override { fs::remove(path_); }
-    Mesh read(const std::string& text) const {
-        fs::remove(path_);  // to write over a file waits for the disk
-        std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
-        return read_msh(path_);
-    }
-    void expect_error(const std::string& text, const std::string& message) const {
-        EXPECT_THAT([&] { read(text); },
-                    ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message)))
-            << text;
-    }
+    MshReading() : TextReading([](const fs::path& path) { return read_msh(path); }, ".msh") {}
     std::string remarks(const Mesh& mesh) const {
         std::string out;
         for (const std::string& r : mesh.remarks) {
@@ -40,9 +30,6 @@ protected:
         }
         return out;
     }
-    const fs::path path_ =
-        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh");
 };
 
 const std::string head22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -289,30 +276,10 @@ TEST_F(MshReading, DamagedFilesGiveAMeshOrAReadError) {
                             "$Elements\n4\n1 15 2 4 1 2\n3 2 2 1 5 2 4 6\n4 2 2 2 5 2 4 6\n5 4 2 2 1 2 4 6 8\n"
                             "$EndElements\n$Periodic\n0\n$EndPeriodic\n";
     checks::Random random(5);
-    int read_well = 0, refused = 0;
     for (const std::string& whole : {own, old, binary41(false, 8), binary41(true, 4), binary22(false)})
-        for (int round = 0; round < 1500; ++round) {
-            std::string text = whole;
-            const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random.bits() % n); };
-            if (round % 5 == 0) text.resize(pick(text.size()));
-            if (round % 5 == 1) {  // a line less
-                const std::size_t from = text.rfind('\n', pick(text.size())), to = text.find('\n', from + 1);
-                if (from != text.npos && to != text.npos) text.erase(from, to - from);
-            }
-            for (std::size_t k = round % 5 < 2 ? pick(2) : 1 + pick(4); k > 0 && !text.empty(); --k) {
-                char& c = text[pick(text.size())];
-                c = round % 2 ? static_cast<char>(random.bits()) : "0123456789-.$ \n\"e"[pick(17)];
-            }
-            try {
-                read(text).validate();
-                ++read_well;
-            } catch (const Error& error) {
-                EXPECT_THAT(error.what(), testing::StartsWith(path_.string() + ":")) << round;
-                ++refused;
-            }
-        }
-    EXPECT_GT(read_well, 500);
-    EXPECT_GT(refused, 500);
+        read_damaged(whole, 1500, "0123456789-.$ \n\"e", random);
+    EXPECT_GT(read_well_, 500);
+    EXPECT_GT(refused_, 500);
 }
 
 }  // namespace FILE_NAMESPACE

@@ -23,19 +23,9 @@ const std::initializer_list<CellType> not_in_unv = {CellType::pyramid, CellType:
                                                     CellType::hexahedron27};
 
 // What FreeCAD makes of files, and of which order nodes are, is in tests/freecad/workbench/femscalpeltest/test_unv.py.
-class Unv : public testing::Test {
+class Unv : public checks::TextReading {
 protected:
-    void TearDown() override { fs::remove(path_); }
-    Mesh read(const std::string& text) const {
-        fs::remove(path_);  // to write over a file waits for the disk
-        std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
-        return read_unv(path_);
-    }
-    void expect_error(const std::string& text, const std::string& message) const {
-        EXPECT_THAT([&] { read(text); },
-                    ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message)))
-            << text;
-    }
+    Unv() : TextReading([](const fs::path& path) { return read_unv(path); }, ".unv") {}
     std::string written(const Mesh& mesh) const {
         write_unv(mesh, path_);
         std::ifstream in(path_);
@@ -49,9 +39,6 @@ protected:
         }
         return out;
     }
-    const fs::path path_ =
-        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".unv");
 };
 
 std::string dataset(const std::string& number, const std::string& content) {
@@ -314,30 +301,9 @@ TEST_F(Unv, DamagedFilesGiveAMeshOrAReadError) {
                               dataset("2420", "         1\np\n" + system("1", 0, 0)) + nodes + triangle +
                               dataset("2467", " 1 0 0 0 0 0 0 2\nA\n 7 2 0 0 8 9 0 0\n");
     checks::Random random(6);
-    int read_well = 0, refused = 0;
-    for (const std::string& file : {whole, other})
-        for (int round = 0; round < 3000; ++round) {
-            std::string text = file;
-            const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random.bits() % n); };
-            if (round % 5 == 0) text.resize(pick(text.size()));
-            if (round % 5 == 1) {  // a line less
-                const std::size_t from = text.rfind('\n', pick(text.size())), to = text.find('\n', from + 1);
-                if (from != text.npos && to != text.npos) text.erase(from, to - from);
-            }
-            for (std::size_t k = round % 5 < 2 ? pick(2) : 1 + pick(4); k > 0 && !text.empty(); --k) {
-                char& c = text[pick(text.size())];
-                c = round % 2 ? static_cast<char>(random.bits()) : "0123456789-. \n\"eD"[pick(17)];
-            }
-            try {
-                read(text).validate();
-                ++read_well;
-            } catch (const Error& error) {
-                EXPECT_THAT(error.what(), testing::StartsWith(path_.string() + ":")) << round;
-                ++refused;
-            }
-        }
-    EXPECT_GT(read_well, 300);
-    EXPECT_GT(refused, 300);
+    for (const std::string& file : {whole, other}) read_damaged(file, 3000, "0123456789-. \n\"eD", random);
+    EXPECT_GT(read_well_, 300);
+    EXPECT_GT(refused_, 300);
 }
 
 }  // namespace FILE_NAMESPACE

@@ -18,22 +18,9 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 // Files that VTK and meshio wrote are in tests/python/test_vtu_reader.py.
-class VtuReading : public testing::Test {
+class VtuReading : public checks::TextReading {
 protected:
-    void TearDown() override { fs::remove(path_); }
-    Mesh read(const std::string& text) const {
-        fs::remove(path_);  // to write over a file waits for the disk
-        std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
-        return read_vtu(path_);
-    }
-    void expect_error(const std::string& text, const std::string& message) const {
-        EXPECT_THAT([&] { read(text); },
-                    ThrowsMessage<Error>(HasSubstr((message[0] == ':' ? path_.string() : "") + message)))
-            << text;
-    }
-    const fs::path path_ =
-        fs::path(testing::TempDir()) / ("femscalpel_" + std::to_string(::getpid()) + "_" +
-                                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".vtu");
+    VtuReading() : TextReading([](const fs::path& path) { return read_vtu(path); }, ".vtu") {}
 };
 
 std::string array(const std::string& type, const std::string& name, const std::string& values,
@@ -184,26 +171,9 @@ TEST_F(VtuReading, DamagedFilesGiveAMeshOrAReadError) {
     other.types = array("UInt8", "types", "AgAAAA==CgM=", "format=\"binary\"");
     other.cell_data = array("UInt8", "A", "1 0", "format=\"ascii\" femscalpel_group=\"element\" femscalpel_name=\"A\"");
     checks::Random random(7);
-    int read_well = 0, refused = 0;
-    for (const std::string& file : {own, other.str()})
-        for (int round = 0; round < 3000; ++round) {
-            std::string text = file;
-            const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random.bits() % n); };
-            if (round % 5 == 0) text.resize(pick(text.size()));
-            for (std::size_t k = round % 5 == 0 ? pick(2) : 1 + pick(3); k > 0 && !text.empty(); --k) {
-                char& c = text[pick(text.size())];
-                c = round % 2 ? static_cast<char>(random.bits()) : "0123456789-.<>/\"e="[pick(18)];
-            }
-            try {
-                read(text).validate();
-                ++read_well;
-            } catch (const Error& error) {
-                EXPECT_THAT(error.what(), testing::StartsWith(path_.string() + ":")) << round;
-                ++refused;
-            }
-        }
-    EXPECT_GT(read_well, 300);
-    EXPECT_GT(refused, 300);
+    for (const std::string& file : {own, other.str()}) read_damaged(file, 3000, "0123456789-.<>/\"e=", random);
+    EXPECT_GT(read_well_, 300);
+    EXPECT_GT(refused_, 300);
 }
 
 }  // namespace FILE_NAMESPACE

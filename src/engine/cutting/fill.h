@@ -30,8 +30,8 @@ struct Filled {
 /// early when cancelled.
 ///
 /// Netgen's library does it, in a process of its own (see fill_process.h); what it leaves nearly flat is mended
-/// (mend_filling.h). Throws QualityError that names the place when the surface is open or crosses itself, and when Netgen
-/// gives up or what it makes does not fit.
+/// (mend_filling.h). Throws QualityError that names the place when the surface is open or crosses itself, and when
+/// Netgen gives up or what it makes does not fit.
 Filled fill_cavity(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
                    const FillOptions& options = {});
 

@@ -111,14 +111,7 @@ void Msh4Sections::read_nodes() {
     std::vector<Index> numbers;
     Index done = 0;
     for (Index b = 0; b < blocks; ++b) {
-        Index d = 0, tag = 0;
-        if (minor_ > 0) {
-            d = dimension();
-            tag = source_.integer();
-        } else {
-            tag = source_.integer();
-            d = dimension();
-        }
+        const auto [d, tag] = entity();
         const bool parametric = source_.integer() != 0;
         const Index here = block_size(count - done, "nodes");
         if (d == 0 && here > 0) point_nodes_.push_back({tag, done, done + here});
@@ -140,6 +133,16 @@ void Msh4Sections::read_nodes() {
     builder_.end_nodes();
 }
 
+/// Dimension and tag of the entity that a block is of; 4.0 has them the other way round.
+std::pair<int, Index> Msh4Sections::entity() {
+    if (minor_ > 0) {
+        const int d = dimension();
+        return {d, source_.integer()};
+    }
+    const Index tag = source_.integer();
+    return {dimension(), tag};
+}
+
 void Msh4Sections::read_elements() {
     builder_.start_elements();
     const Index blocks = source_.size(), count = source_.size();
@@ -150,14 +153,7 @@ void Msh4Sections::read_elements() {
     source_.expect(count, 2);
     Index done = 0;
     for (Index b = 0; b < blocks; ++b) {
-        Index d = 0, tag = 0;
-        if (minor_ > 0) {
-            d = dimension();
-            tag = source_.integer();
-        } else {
-            tag = source_.integer();
-            d = dimension();
-        }
+        const auto [d, tag] = entity();
         const CellType type = builder_.type(source_.integer());
         if (traits(type).dimension != d)
             source_.fail("elements of type " + std::string(traits(type).name) + " in an entity of dimension " +

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "io/msh_builder.h"
@@ -85,6 +86,7 @@ private:
     void read_block(const Entity& entity, CellType type, Index count);
     Entity* find(Index dimension, Index tag);
     int dimension();
+    std::pair<int, Index> entity();
     Index block_size(Index left, const char* what);
 
     int minor_;

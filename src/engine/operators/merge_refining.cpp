@@ -18,8 +18,6 @@ namespace {
 
 /// And no longer than this part of a closed line.
 constexpr double of_length = 0.12;
-/// Rings around elements to be bisected that bisecting may reach.
-constexpr int rings_at_bisection = 2;
 
 /// There is no tool here, nor an option to refine.
 void speak_of_meshes(std::string& warning, std::size_t m) {
@@ -86,7 +84,7 @@ std::optional<Refined> MergeRefining::simplify(const Mesh& mesh, std::span<const
                                                const Prepared& known) const {
     if (has_simplices_alone(mesh)) return {};
     std::vector<std::int8_t> level = levels_to_refine(mesh, zones, options_);
-    spread_levels(mesh, level, rings_at_bisection, known.adjacency);
+    spread_levels(mesh, level, rings_to_refine, known.adjacency);
     return simplify_first(mesh, level, known);
 }
 

@@ -15,8 +15,6 @@
 namespace femscalpel {
 namespace {
 
-/// Rings around elements to be bisected that bisecting may reach.
-constexpr int rings_to_refine = 2;
 /// Rings beside the band to which it may grow when the mesh was refined, or with it its width is found anew.
 constexpr int spare_rings = 2;
 

@@ -15,6 +15,9 @@
 
 namespace femscalpel {
 
+/// Rings around elements to be bisected that bisecting may reach.
+inline constexpr int rings_to_refine = 2;
+
 /// Whether a mesh has no elements but points, segments, triangles and tetrahedra.
 bool has_simplices_alone(const Mesh& mesh);
 
