@@ -400,3 +400,9 @@ def test_a_rib_that_hangs_over_the_border(angle, at, tilt):
 def test_a_rib_that_ends_beside_the_border(seed):
     result = fs.merge(*KINDS["quadrangles"](np.random.default_rng(seed)))
     assert in_one_line(result.mesh)
+
+
+def test_a_seam_across_the_lips_of_a_crack():
+    cracked = fs.crack(grid_box((7, 6, 3), (10.0, 8.0, 4.0)), fs.Plane((5, 4, 2), (1, 0, 0.1))).mesh
+    with pytest.raises(fs.QualityError, match="the seam runs across double nodes, of a crack's lips or a contact, at"):
+        fs.merge(cracked, block((5.948, 3.34, 4), (3.228, 2.077, 2.183), (3, 5, 2), "A"))
