@@ -84,11 +84,6 @@ private:
 
     [[noreturn]] void fail(const CavityError& error) const {
         const std::string cannot = "the two solids cannot be joined";
-        if (cover_.empty())
-            throw QualityError(cannot +
-                                   ": they touch in a line or a point alone. They have to touch over an area, or to "
-                                   "overlap. Move the addition, or leave that part of it out",
-                               "other");
         const Box there = box_around(other_).intersection(box_around(mesh_));
         for (const Mesh* mesh : {&mesh_, &other_})
             if (const std::optional<Vec3> at = double_nodes(*mesh, there, error.at))
@@ -97,6 +92,11 @@ private:
                         point_text(*at) +
                         ". Join the two before it is cracked, or move the addition off the double nodes",
                     "other");
+        if (cover_.empty())
+            throw QualityError(cannot +
+                                   ": they touch in a line or a point alone. They have to touch over an area, or to "
+                                   "overlap. Move the addition, or leave that part of it out",
+                               "other");
         throw QualityError(cannot + ": near " + point_text(error.at) + " their skins leave no volume between them (" +
                                error.why +
                                "), as where they run along each other at a small angle. Move the addition a little, or "
