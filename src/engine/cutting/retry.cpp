@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "cancel.h"
@@ -39,6 +40,11 @@ constexpr double largest_part_after = 2.75;
 /// All tries together may move nodes so often, and so many times more for each element of the band: some seconds, where
 /// second-order elements make it slow.
 constexpr double fewest_visits = 1.5e5, visits_per_element = 2.5;
+/// The last resort is taken though there is a result if it is so many times as good.
+constexpr double much_better = 1.5;
+/// For that, mid-side nodes may be so many edge lengths beside their surface where elements are worse than half of
+/// poor_quality otherwise, and any where they would be an error.
+constexpr double little_straightened = 0.035;
 /// A curved mesh with elements below this is returned only if nothing better is found; below the other never.
 constexpr double degenerate_quality = 0.01, flat = 1e-6;
 
@@ -252,14 +258,13 @@ public:
                 if (verdict == Verdict::good) return;
                 if (verdict == Verdict::settled) break;
             }
-            const bool in_vain = before_far_ && (!sound || !is_best_);
-            if (before_far_) {
+            const bool in_vain = before_held_ && (!sound || !is_best_);
+            if (before_held_) {
                 if (in_vain) {  // goes on as if it had not been tried
-                    bad = std::move(*before_far_);
-                    sound = true;
+                    std::tie(bad, sound) = std::move(*before_held_);
                     start_->may_hold.clear();
                 }
-                before_far_.reset();
+                before_held_.reset();
             }
             if (attempt >= attempts_ || is_exhausted()) {
                 if (!in_vain && try_to_hold(bad, sound, true)) continue;
@@ -271,6 +276,7 @@ public:
             if (!choose_otherwise(bad, sound, attempt)) break;
             f_ = *start_;
         }
+        if (best_ && best_quality_ < poor_quality) try_straight(true);
         take_best();
     }
 
@@ -284,13 +290,10 @@ private:
     Verdict judge(Slots& poor) {
         const double enough = f_.d.mids.any() ? second_order_quality : poor_quality;
         const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
-        const bool too_far =
-            best_ && held_far_ && (!has_two_sides() || elements_laid_flat(f_) > elements_laid_flat(*best_));
+        const bool too_far = best_ && held_far_ && cuts_less(f_);
         if (quality >= enough && !too_far) return Verdict::good;
-        const double lips = lips_of_node_ * static_cast<double>(f_.nodes.size());
-        const double more = element_count(f_.d.band) + lips - elements_;
-        const bool too_many = more > (largest_growth - 1) * mesh_elements_;
-        is_best_ = quality > best_quality_ && !too_far && !(too_many && best_ && best_quality_ >= hold_quality);
+        is_best_ =
+            quality > best_quality_ && !too_far && !(grows_too_far(f_) && best_ && best_quality_ >= hold_quality);
         if (is_best_) {
             best_quality_ = quality;
             best_ = std::move(f_);
@@ -301,19 +304,29 @@ private:
         // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
         if (plain_ && quality >= poor_quality) return Verdict::settled;
         const int enough_tries = best_quality_ < poor_quality ? hard_polishings : polishings;
-        if (!before_far_) ++polished_;
+        if (!before_held_) ++polished_;
         return polished_ >= enough_tries && best_ ? Verdict::settled : Verdict::again;
     }
 
     /// Whether the tool still passes through the mesh: of a corner cut off, all may have been held.
-    bool has_two_sides() const {
+    static bool has_two_sides(const Workpiece& f) {
         bool positive = false, negative = false;
-        for (int v = 0; v < f_.d.band.size(); ++v) {
-            if (!f_.d.band.in_use(v)) continue;
-            positive = positive || f_.distance[v] > 0;
-            negative = negative || f_.distance[v] < 0;
+        for (int v = 0; v < f.d.band.size(); ++v) {
+            if (!f.d.band.in_use(v)) continue;
+            positive = positive || f.distance[v] > 0;
+            negative = negative || f.distance[v] < 0;
         }
         return positive && negative;
+    }
+
+    /// Whether nodes were held so far beside the tool that it no longer cuts what the best one cuts.
+    bool cuts_less(const Workpiece& f) const {
+        return !has_two_sides(f) || elements_laid_flat(f) > elements_laid_flat(*best_);
+    }
+
+    bool grows_too_far(const Workpiece& f) const {
+        const double lips = lips_of_node_ * static_cast<double>(f.nodes.size());
+        return element_count(f.d.band) + lips - elements_ > (largest_growth - 1) * mesh_elements_;
     }
 
     bool is_exhausted() const {
@@ -342,13 +355,14 @@ private:
     /// those only where refining was tried and did not help, or as the `last` thing to try. False when there are none
     /// for it.
     bool try_to_hold(const Slots& bad, bool sound, bool last) {
-        if (!sound || best_quality_ >= poor_quality) return false;
-        const double nearest = best_quality_ < hold_quality ? along_beside : poor_beside;
-        for (const auto& [part, tried] : {std::pair(nearest, &held_near_), std::pair(far_beside, &held_far_)}) {
+        if ((!sound && !start_->d.mids.any()) || best_quality_ >= poor_quality) return false;
+        const double nearest = best_quality_ < hold_quality && (sound || last) ? along_beside : poor_beside;
+        bool& near = sound || last ? held_near_ : held_folded_;
+        for (const auto& [part, tried] : {std::pair(nearest, &near), std::pair(far_beside, &held_far_)}) {
             if (*tried || (tried == &held_far_ && !last && !may_hold_far())) continue;
             if (!allow_to_hold(*start_, made(), part)) continue;
             *tried = true;
-            if (tried == &held_far_) before_far_ = bad;
+            if (tried != &held_near_) before_held_ = {bad, sound};
             is_best_ = false;
             if (last) start_->most_visits = start_->d.visits + static_cast<long>(fewest_visits / 3);
             f_ = *start_;
@@ -374,24 +388,39 @@ private:
         keep_resort(std::move(made), quality);
     }
 
-    /// Where curved elements were folded each time: straightens them; and cuts as if all were straight, where corners
-    /// find places that are not looked for among curved elements, to straighten only what is folded then.
+    /// Where curved elements were folded each time, or poor: straightens them; and cuts as if all were straight, where
+    /// corners find places that are not looked for among curved elements, to straighten only what is folded then.
     void try_straight(bool sound) {
-        if (!f_.d.mids.any()) return;
+        if (!start_->d.mids.any()) return;
         if (!sound) keep_straightened(f_);
-        if (resort_quality_ >= poor_quality) return;
-        check_cancelled();
-        Workpiece made = *start_;
-        std::ranges::fill(made.d.off_tool, 0);
-        made.most_visits = made.d.visits + static_cast<long>(fewest_visits / 3);
-        made.d.mids.ignore(true);
-        cut_(made);
-        made.d.mids.ignore(false);
-        keep_straightened(std::move(made));
+        if (!best_ && resort_quality_ >= poor_quality) return;
+        std::ranges::fill(start_->d.off_tool, 0);
+        for (const bool held : {false, true}) {
+            check_cancelled();
+            Workpiece made = *start_;
+            made.most_visits = made.d.visits + static_cast<long>(fewest_visits / 3);
+            made.d.mids.ignore(true);
+            cut_(made);
+            made.d.mids.ignore(false);
+            Slots poor;
+            const bool again =
+                !held && poorest(made, 0, poor) < poor_quality && allow_to_hold(*start_, made, along_beside);
+            keep_straightened(std::move(made));
+            if (!again) break;
+        }
+    }
+
+    /// Whether corners found by far better places when curved elements were not looked at, and none had to be
+    /// straightened then, or little beside elements that are so poor otherwise.
+    bool is_resort_better() const {
+        return resort_ && resort_quality_ > much_better * best_quality_ &&
+               (resort_->straightened == 0 || best_quality_ < hold_quality ||
+                (resort_->straightened_part <= little_straightened && best_quality_ < poor_quality / 2)) &&
+               !cuts_less(*resort_) && !grows_too_far(*resort_);
     }
 
     void take_best() {
-        if (!best_) {
+        if (!best_ || is_resort_better()) {
             best_ = std::move(resort_);
             best_quality_ = resort_quality_;
         }
@@ -418,9 +447,10 @@ private:
     double best_quality_;
     std::optional<Workpiece> resort_;  // taken if there is no best one
     double resort_quality_ = 0;
-    bool is_best_ = false;                       // the last one is: f_ was moved there
-    std::optional<Slots> before_far_;            // poor elements of the last try, when this one may hold nodes farther
-    bool held_near_ = false, held_far_ = false;  // was tried
+    bool is_best_ = false;  // the last one is: f_ was moved there
+    // Bad elements of the last try, and whether they were sound, when this one holds nodes that may not help.
+    std::optional<std::pair<Slots, bool>> before_held_;
+    bool held_folded_ = false, held_near_ = false, held_far_ = false;  // was tried
     int polished_ = 0;
 };
 

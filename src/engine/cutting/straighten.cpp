@@ -75,15 +75,49 @@ private:
     bool straighten(BandElement e) {
         if (curved_shape(d_, e) >= goal) return true;
         for (const auto& [a, b] : bent_edges(e)) {
-            for_second_order_at_edge(d_, a, b, [&](BandElement other) {
-                around_.try_emplace({other.triangle, other.slot}, std::min(curved_shape(d_, other), least_curved));
-            });
+            watch_around(a, b);
             const NodeConstraint on = d_.constraints.on_edge(band_, a, b);
             d_.mids.straighten(a, b);
-            if (!note(on, mid_side(d_, a, b).at, length_at(a, b))) return false;
+            if (!note_middle(on, a, b)) return false;
+            if (curved_shape(d_, e) >= goal) return true;
+        }
+        return curved_shape(d_, e) >= least_curved || leave_tools(e);
+    }
+
+    /// What straightening edges may spoil.
+    void watch_around(int a, int b) {
+        for_second_order_at_edge(d_, a, b, [&](BandElement other) {
+            around_.try_emplace({other.triangle, other.slot}, std::min(curved_shape(d_, other), least_curved));
+        });
+    }
+
+    /// Where an element has no room for the arcs that its edges on curved tools are: chords of these, as in first-order
+    /// elements, those first that bulge most.
+    bool leave_tools(BandElement e) {
+        std::vector<std::tuple<double, int, int>> arcs;
+        const auto nodes = e.nodes(band_);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const int a = nodes[i], b = nodes[j];
+                if (!d_.mids.is_straightened(a, b) || d_.mids.is_off_tools(a, b)) continue;
+                const double bulge = (mid_side(d_, a, b).at - (band_.nodes[a].at + band_.nodes[b].at) / 2).norm();
+                if (bulge > 0) arcs.emplace_back(-bulge, a, b);
+            }
+        std::ranges::sort(arcs);
+        for (const auto& [bulge, a, b] : arcs) {
+            watch_around(a, b);
+            const NodeConstraint on = d_.constraints.on_edge(band_, a, b);
+            d_.mids.straighten_off_tools(a, b);
+            if (!note_middle(on, a, b)) return false;
             if (curved_shape(d_, e) >= goal) return true;
         }
         return curved_shape(d_, e) >= least_curved;
+    }
+
+    bool note_middle(const NodeConstraint& on, int a, int b) {
+        const Vec3 middle = mid_side(d_, a, b).at;
+        const double off_tools = Deformable::off_tools(edge_tools(d_, a, b), middle, d_.held_between(a, b));
+        return note(std::max(d_.constraints.distance(on, middle), off_tools), middle, length_at(a, b));
     }
 
     /// Of the edge, or of those around its ends, which may be beside the surface themselves.
@@ -100,17 +134,18 @@ private:
             const NodeConstraint& c = d_.constraints[v];
             if (d_.constraints.is_straight(c)
                     ? d_.constraints.distance(c, band_.nodes[v].at) > std::max(10 * f_.tolerance, d_.rounding)
-                    : !note(c, band_.nodes[v].at, band_.mean_edge_length(v)))
+                    : !note(d_.constraints.distance(c, band_.nodes[v].at), band_.nodes[v].at,
+                            band_.mean_edge_length(v)))
                 return false;
         }
         return true;
     }
 
-    /// Notes what is beside its surface or curve; false if it is too far.
-    bool note(const NodeConstraint& on, const Vec3& x, double length) {
-        const double off = d_.constraints.distance(on, x);
+    /// Notes what is `off` its surface, curve or tools; false if it is too far.
+    bool note(double off, const Vec3& x, double length) {
         if (off <= std::max(on_it * length, d_.rounding)) return true;
         ++count_;
+        f_.straightened_part = std::max(f_.straightened_part, off / length);
         if (off > farthest_) {
             farthest_ = off;
             place_ = x;
@@ -125,10 +160,10 @@ private:
         std::ostringstream text;
         text.precision(3);
         text << "curved elements find no room where the " << f_.tool->kind()
-             << " passes a curved surface, which is coarse there: " << count_
+             << " passes a surface, where the mesh is coarse: " << count_
              << " node(s) were left in the middle of straight edges, up to " << farthest_
-             << " beside it, farthest near (" << place_.transpose() << "). Refine the mesh there first, or move the "
-             << f_.tool->kind();
+             << " beside where they belong, farthest near (" << place_.transpose()
+             << "). Refine the mesh there first, or move the " << f_.tool->kind();
         f_.warnings.push_back(text.str());
         return true;
     }

@@ -52,9 +52,10 @@ struct Workpiece {
     /// What tools have taken, as parts of elements of the mesh: those removed with their measure where they were then,
     /// and what walls of flat faces have left standing (positive) at that moment, or leave in the end (negative).
     std::vector<std::pair<CellRef, double>> taken = {};
-    /// Mid-side nodes that straighten_folded() left beside their surfaces, and how far off the farthest is.
+    /// Mid-side nodes that straighten_folded() left beside their surfaces, how far off the farthest is, and how far one
+    /// is at most in edge lengths there.
     Index straightened = 0;
-    double straightened_off = 0;
+    double straightened_off = 0, straightened_part = 0;
     std::vector<std::string> warnings = {};
     Laps seconds = {};
     /// Where a new mid-side node between two band nodes belongs, for an operator that knows; else see rebuild().

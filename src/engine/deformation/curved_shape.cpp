@@ -62,11 +62,19 @@ EdgeShape shape_of(const Deformable& d, int a, int b) {
     return {d.constraints.on_edge(d.band, a, b), edge_tools(d, a, b), d.mids.bulge(a, b), d.held_between(a, b)};
 }
 
-/// Of an edge that is straightened: but for its tools it lies on nothing.
+/// Of an edge that is straightened: but for its tools it lies on nothing. On a flat surface it stays, though, beside a
+/// curved tool that meets the surface at both ends but not between them.
 MidSide straight_middle(const Deformable& d, int a, int b) {
     const Vec3 chord = (d.band.nodes[a].at + d.band.nodes[b].at) / 2;
+    if (d.mids.is_off_tools(a, b)) return {chord, true};
     const Contact tools = edge_tools(d, a, b);
     Vec3 x = chord;
+    const NodeConstraint on = d.constraints.on_edge(d.band, a, b);
+    if (on.freedom != NodeFreedom::free && d.constraints.is_straight(on)) {
+        const bool on_both = d.constraints.project(on, tools, x, d.held_between(a, b)) &&
+                             (x - chord).norm() < 0.2 * (d.band.nodes[b].at - d.band.nodes[a].at).norm();
+        return {on_both ? x : chord, true};
+    }
     const bool on_tools = std::ranges::none_of(tools.tools(), is_curved) ||
                           d.constraints.project(NodeConstraint{}, tools, x, d.held_between(a, b));
     return {on_tools ? x : chord, on_tools};
@@ -149,7 +157,8 @@ struct Corners {
 
 Contact edge_tools(const Deformable& d, int a, int b) {
     const Contact tools = d.edge_contact(a, b);
-    if (!tools.has(d.barrier) || d.constraints.is_straight(d.constraints.on_edge(d.band, a, b)) ||
+    if (!tools.has(d.barrier) ||
+        (!is_curved(d.barrier) && d.constraints.is_straight(d.constraints.on_edge(d.band, a, b))) ||
         is_between_sides(d, a, b))
         return tools;
     return tools.without(d.barrier);

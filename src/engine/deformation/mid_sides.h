@@ -75,6 +75,14 @@ public:
 
     bool is_straightened(int a, int b) const { return straightened_.contains(edge_key(a, b)); }
 
+    /// Makes it straight though it is on curved tools, too.
+    void straighten_off_tools(int a, int b) {
+        straighten(a, b);
+        off_tools_.insert(edge_key(a, b));
+    }
+
+    bool is_off_tools(int a, int b) const { return off_tools_.contains(edge_key(a, b)); }
+
     /// The input's bulges of the edges that mend() was called for, by edge.
     const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
 
@@ -90,7 +98,7 @@ private:
     bool any_ = false, ignored_ = false;
     std::vector<char> end_of_bulge_;  // by node
     std::unordered_map<std::uint64_t, Vec3> bulges_, mended_;
-    std::unordered_set<std::uint64_t> straightened_;
+    std::unordered_set<std::uint64_t> straightened_, off_tools_;
 };
 
 /// How far along from a to b the point `at` is, as a fraction of the chord.

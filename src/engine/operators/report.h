@@ -49,8 +49,8 @@ struct HeldNodes {
     std::vector<std::string> features;  ///< what else does: "the skin", "a corner", ...
 };
 
-/// Mid-side nodes left in the middle of straight edges beside the surface or curve they belong to, as no sound curved
-/// element found room there.
+/// Mid-side nodes left in the middle of straight edges beside the surface, curve or curved tool they belong to, as no
+/// sound curved element found room there.
 struct StraightenedEdges {
     Index count = 0;     ///< of nodes
     double largest = 0;  ///< how far they are off it, in the mesh's unit

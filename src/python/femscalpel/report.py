@@ -88,8 +88,8 @@ class HeldNodes:
 
 @dataclass(frozen=True)
 class StraightenedEdges:
-    """Mid-side nodes left in the middle of straight edges beside the surface or curve they belong to, as no sound
-    curved element found room there."""
+    """Mid-side nodes left in the middle of straight edges beside the surface, curve or curved tool they belong to, as
+    no sound curved element found room there."""
 
     count: int  #: of nodes
     largest: float  #: how far they are off it, in the mesh's unit
