@@ -36,6 +36,9 @@ constexpr double overshoot = 2.5;
 constexpr double parallel = 0.8;
 /// Cosine of the angle between normals, opposite or alike, from which on faces of solids do not lie on each other.
 constexpr double flush = 0.8;
+/// An edge runs along a border if both its ends are near it, or from its start to its end the two part by no more than
+/// so many times as much as it may be off: one that crosses the border at a small angle does not.
+constexpr double drift = 2.5;
 /// Places along a border edge at which it is looked whether it touches.
 constexpr int samples = 16;
 
@@ -206,7 +209,12 @@ private:
         if (border.piece < 0 || border.distance > most) return foot;
         const auto [a, b] = other.border()[border.piece];
         const auto& points = meshes_[1 - edge.mesh].points;
-        const bool along = std::abs((points[b] - points[a]).normalized().dot(edge.way.normalized())) > parallel;
+        const Vec3 line = (points[b] - points[a]).normalized();
+        const auto is_near = [&](double end) {
+            return other.closest_on_border(edge.at(end)).distance <= std::max(most, 0.1 * edge.way.norm());
+        };
+        const bool along = std::abs(line.dot(edge.way.normalized())) > parallel &&
+                           (line.cross(edge.way).norm() <= drift * most || (is_near(0) && is_near(1)));
         const bool beside = (foot.at - border.at).norm() <= 1e-9 * other.size(foot.piece);
         if (!along) return beside && foot.distance > 0.1 * most ? std::nullopt : std::optional(foot);
         return SurfaceTree::Foot{border.at, border.distance, other.face_at_border(border.piece)};
