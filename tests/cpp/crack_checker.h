@@ -12,6 +12,7 @@
 
 #include "area_by_plane.h"
 #include "crack_model.h"
+#include "cutting/straighten.h"
 #include "distances_by_hand.h"
 #include "elements_by_hand.h"
 #include "findings.h"
@@ -35,6 +36,10 @@ public:
     std::vector<std::string> run();
 
 private:
+    /// Nodes that the report says were left in the middle of straight edges are so far beside their surface at most, in
+    /// edge lengths; the engine takes the longest edges around as the measure, edges_away() those of the surface.
+    static constexpr double left_beside = 1.2 * farthest_straightened;
+
     /// Nodes that are held beside the plane may be as far off it as the report says.
     double tolerance() const { return rounding * model_.size + report_.held.largest; }
     bool on_plane(Index n) const { return std::abs(distance_[n]) <= tolerance(); }
@@ -67,12 +72,17 @@ private:
             if (same_place(n)) continue;
             const double away = edges_away(out_.points[n], shapes, 0.5);
             const bool corner = !mid_nodes().contains(n);
-            if (away > 1e-3)
+            if (away <= 1e-3) continue;
+            if (!corner && report_.straightened.count > 0 && away <= left_beside)
+                beside_.insert(place(n));
+            else
                 bad_.add(what + (corner ? "" : " mid-side"), "node ", id(n), is_input_node(n) ? "" : " (new)", " is ",
                          away, " edge lengths off the old ", what);
         }
     }
 
+    /// No more mid-side nodes are beside their surface than the report and a warning say.
+    void straightened();
     const std::set<Index>& mid_nodes();
     void shell_conformity();
     /// Elements of lower dimension still lie on faces and edges of others, with their mid-side nodes.
@@ -109,6 +119,7 @@ private:
     std::string name_;
     std::set<std::string> made_;
     Findings bad_;
+    std::set<Place> beside_;  ///< mid-side nodes that are not on their surface; both copies in one place
     std::unordered_map<Index, Index> index_;  // node number -> index in out_
     std::vector<double> distance_;
     std::set<Index> in_sets_;
