@@ -12,7 +12,6 @@
 
 #include "area_by_plane.h"
 #include "crack_model.h"
-#include "cutting/straighten.h"
 #include "distances_by_hand.h"
 #include "elements_by_hand.h"
 #include "findings.h"
@@ -36,10 +35,6 @@ public:
     std::vector<std::string> run();
 
 private:
-    /// Nodes that the report says were left in the middle of straight edges are so far beside their surface at most, in
-    /// edge lengths; the engine takes the longest edges around as the measure, edges_away() those of the surface.
-    static constexpr double left_beside = 1.2 * farthest_straightened;
-
     /// Nodes that are held beside the plane may be as far off it as the report says.
     double tolerance() const { return rounding * model_.size + report_.held.largest; }
     bool on_plane(Index n) const { return std::abs(distance_[n]) <= tolerance(); }
@@ -65,7 +60,8 @@ private:
     void compare_borders();
 
     AreaByPlane planes_of(const std::vector<Model::Face>& faces) const;
-    /// Nodes that are not where they were lie on the old surfaces or lines.
+    /// Nodes that are not where they were lie on the old surfaces or lines, but for the middles of straight edges,
+    /// which may be as far beside them as the report says.
     template <class Shapes>
     void nodes_stay(const std::set<Index>& nodes, const std::vector<Shapes>& shapes, const std::string& what) {
         for (const Index n : nodes) {
@@ -73,7 +69,7 @@ private:
             const double away = edges_away(out_.points[n], shapes, 0.5);
             const bool corner = !mid_nodes().contains(n);
             if (away <= 1e-3) continue;
-            if (!corner && report_.straightened.count > 0 && away <= left_beside)
+            if (!corner && distance_away(out_.points[n], shapes) <= 1.01 * report_.straightened.largest)
                 beside_.insert(place(n));
             else
                 bad_.add(what + (corner ? "" : " mid-side"), "node ", id(n), is_input_node(n) ? "" : " (new)", " is ",
