@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Builds, from the sources of this release of Debian, the libraries that a wheel holds, without what is not used: of
-# OpenCASCADE shapes, meshes and STEP, of HDF5 and MED the serial C library, of Netgen nglib without window and Python.
+# OpenCASCADE shapes, meshes and STEP, of HDF5 and MED the serial C library, of Netgen nglib without window and Python,
+# of Expat the library.
 #   resources/packaging/wheel_libraries.sh FOLDER
 # Nothing is done for what FOLDER has already.
 set -eu
@@ -32,14 +33,15 @@ source_of() { # package
     mv "$1.new" "$1"
 }
 # Configures a package by CMake and builds a target of it.
-make_of() { # package, target, CMake's arguments...
-    package=$1
+make_of() { # package's folder, target, CMake's arguments...
+    package=${1%%/*}
+    source=$1
     target=$2
     shift 2
     echo "building $package" >&2
     mkdir -p "build-$package"
     # Some look for what their checks write where CMake was started.
-    (cd "build-$package" && cmake "../$package" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release \
+    (cd "build-$package" && cmake "../$source" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release \
         -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_PREFIX_PATH="$folder" \
         "$@") >"$package.log" 2>&1 &&
         cmake --build "build-$package" --target "$target" >>"$package.log" 2>&1 || {
@@ -62,6 +64,13 @@ if [ ! -e "$folder/lib/libmedC.a" ]; then
         -DMEDFILE_BUILD_STATIC_LIBS=ON -DMEDFILE_INSTALL_DOC=OFF -DMED_MEDINT_TYPE=int -DHDF5_ROOT_DIR="$folder"
     find med-fichier/include build-med-fichier/include -maxdepth 1 -name '*.h*' -exec cp {} "$folder/include/" \;
     cp build-med-fichier/src/libmedC.a "$folder/lib/"
+fi
+if [ ! -e "$folder/lib/libexpat.a" ]; then
+    source_of expat
+    # Debian's corrections ask for the value that configure gives, and CMake does not.
+    sed -i 's/^#cmakedefine XML_DTD$/#cmakedefine XML_DTD 1/' expat/expat/expat_config.h.cmake
+    make_of expat/expat install -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF \
+        -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_DOCS=OFF -DEXPAT_BUILD_PKGCONFIG=OFF
 fi
 if [ ! -e "$folder/lib/libnglib.so" ]; then
     source_of netgen

@@ -5,7 +5,8 @@
     PYTHONPATH=build/release/Mod/FemScalpel /usr/bin/python3 src/bindings/make_stub.py
 
 pybind11 puts the signature of every function into its docstring: names where the binding has py::arg (a parameter
-without a name can only be given by its place), defaults, and types. What C++ types leave open - a dict of what? may it
+without a name can only be given by its place), defaults, and types, which its versions spell differently: the stub is
+the same from each. What C++ types leave open - a dict of what? may it
 be None? - is in the tables here. tests/python/test_stub.py compares stub and module.
 """
 
@@ -52,6 +53,21 @@ MORE_EXACT = {
     ),
 }
 
+#: Spellings of types by pybind11 2.13 and 3, in this order, and what 2.10 writes, which `python_type` reads.
+NEWER = [
+    (r"typing\.(?=[A-Z])(?<!numpy\.typing\.)|collections\.abc\.", ""),
+    (r"\bSupports(Float|Int) \| SupportsIndex", lambda match: match[1].lower()),
+    (r"os\.PathLike \| str \| bytes", "os.PathLike"),
+    (
+        r"Annotated\[numpy\.typing\.ArrayLike, (numpy\.\w+)\]|numpy\.typing\.NDArray\[(numpy\.\w+)\]",
+        r"numpy.ndarray[\1\2]",
+    ),
+    (r'Annotated\[(?:list|Sequence)\[(\w+)\], "?FixedSize\((\d+)\)"?\]', r"List[\1[\2]]"),
+    (r"\b(?:list|Sequence)\[", "List["),
+    (r"\b(tuple|dict)\[", lambda match: match[1].capitalize() + "["),
+    (r"^(.*) \| None$", r"Optional[\1]"),
+]
+
 
 def split(text):
     """Parts of `text` between commas that are in no brackets or quotes."""
@@ -80,6 +96,8 @@ def signatures(name, doc):
 def python_type(text, given):
     """The type that pybind11 calls `text`; `given` to the function, or returned by it."""
     text = text.strip().replace("femscalpel._engine.", "")
+    for newer, older in NEWER:
+        text = re.sub(newer, older, text)
     if text == "tuple" and not given:
         return RESULT
     if text == "os.PathLike":

@@ -78,6 +78,16 @@ AreaByPlane CrackChecker::planes_of(const std::vector<Model::Face>& faces) const
     return out;
 }
 
+void CrackChecker::straightened() {
+    const auto said = static_cast<std::size_t>(report_.straightened.count);
+    if (beside_.size() > said)
+        bad_.add("straightened", beside_.size(), " mid-side nodes are beside their surfaces, the report says ", said);
+    if (said > 0 && std::ranges::none_of(report_.warnings, [](const std::string& w) {
+            return w.find("in the middle of straight edges") != std::string::npos;
+        }))
+        bad_.add("straightened", "no warning says so");
+}
+
 const std::set<Index>& CrackChecker::mid_nodes() {
     if (mids_known_) return mid_nodes_;
     mids_known_ = true;

@@ -29,6 +29,7 @@ std::vector<std::string> CrackChecker::run() {
     lips();
     section();
     groups();
+    straightened();
     node_groups();
     report();
     return bad_.lines();

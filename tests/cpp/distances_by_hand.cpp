@@ -85,6 +85,19 @@ double edges_away(const Vec3& p, const std::vector<Model::Face>& faces, double l
     return best;
 }
 
+double distance_away(const Vec3& p, const std::vector<Model::Face>& faces) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Model::Face& f : faces)
+        if ((p - f.centre).norm() - f.radius < best) best = std::min(best, distance_to(p, f));
+    return best;
+}
+
+double distance_away(const Vec3& p, const std::vector<Model::Segment>& segments) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Model::Segment& s : segments) best = std::min(best, distance_to_arc(p, s.end[0], s.end[1], s.mid));
+    return best;
+}
+
 double edges_away(const Vec3& p, const std::vector<Model::Segment>& segments, double limit) {
     double best = limit;
     for (const Model::Segment& s : segments) {

@@ -13,4 +13,8 @@ double edges_away(const Vec3& p, const std::vector<Model::Face>& faces, double l
 /// The same of segments, and their lengths.
 double edges_away(const Vec3& p, const std::vector<Model::Segment>& segments, double limit);
 
+/// Distance of `p` from the nearest of the faces, or segments, in the mesh's unit.
+double distance_away(const Vec3& p, const std::vector<Model::Face>& faces);
+double distance_away(const Vec3& p, const std::vector<Model::Segment>& segments);
+
 }  // namespace femscalpel::checks

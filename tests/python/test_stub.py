@@ -20,6 +20,9 @@ import make_stub
 REMEDY = f"run src/bindings/make_stub.py with {pathlib.Path(femscalpel.__file__).parents[1]} in PYTHONPATH"
 
 
+#: Three numbers, as pybind11 3 says that they may be given.
+NUMBERS = "typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], " '"FixedSize(3)"]'
+
 INNERMOST = r"[\[(][^\[\]()]*[\])]"
 
 
@@ -141,6 +144,49 @@ def test_differences_are_seen(doc, message):
     )
     found = differences(module_with(doc), ast.parse(stub))
     assert len(found) == bool(message) and message in "".join(found)
+
+
+@pytest.mark.parametrize(
+    "given, kind, spellings",
+    [
+        (True, "Sequence[float]", ["List[float[3]]", "Annotated[list[float], FixedSize(3)]", NUMBERS]),
+        (
+            True,
+            "tuple[float, Sequence[float]] | None",
+            [
+                "Optional[Tuple[float, List[float[3]]]]",
+                "Optional[tuple[float, Annotated[list[float], FixedSize(3)]]]",
+                f"tuple[typing.SupportsFloat | typing.SupportsIndex, {NUMBERS}] | None",
+            ],
+        ),
+        (False, "Sequence[float]", ["List[float[3]]", 'typing.Annotated[list[float], "FixedSize(3)"]']),
+        (
+            True,
+            "Sequence[tuple[str, ArrayLike]]",
+            [
+                "List[Tuple[str, numpy.ndarray[numpy.int64]]]",
+                "list[tuple[str, numpy.ndarray[numpy.int64]]]",
+                "collections.abc.Sequence[tuple[str, typing.Annotated[numpy.typing.ArrayLike, numpy.int64]]]",
+            ],
+        ),
+        (False, "NDArray[np.float64]", ["numpy.ndarray[numpy.float64]", "numpy.typing.NDArray[numpy.float64]"]),
+        (True, "int", ["int", "typing.SupportsInt | typing.SupportsIndex"]),
+        (True, "str | os.PathLike[str]", ["os.PathLike", "os.PathLike | str | bytes"]),
+        (
+            False,
+            "Callable[[Mesh], None] | None",
+            ["Callable[[femscalpel._engine.Mesh], None]", "collections.abc.Callable[[femscalpel._engine.Mesh], None]"],
+        ),
+    ],
+)
+def test_types_are_the_same_however_pybind11_spells_them(given, kind, spellings):
+    assert [make_stub.python_type(spelling, given) for spelling in spellings] == [kind] * len(spellings)
+
+
+@pytest.mark.parametrize("unknown", ["int | str", "typing.Annotated[list[float], 'sorted']", "numpy.typing.ArrayLike"])
+def test_a_type_spelt_in_a_new_way_is_an_error(unknown):
+    with pytest.raises(ValueError, match="does not know"):
+        make_stub.python_type(unknown, True)
 
 
 def test_missing_names_are_seen():
