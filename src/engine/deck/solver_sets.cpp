@@ -261,7 +261,11 @@ private:
             const std::string label_text = line.field();
             const int label = label_from_name(label_text);
             if (label == 0) {
-                fail(line, "'" + label_text + "' is not a face: S1 to S6, SNEG, SPOS, SN or SP");
+                fail(line, label_text.empty()
+                               ? "the face is missing behind '" + (by_number ? std::to_string(number) : name) +
+                                     "': S1 to S6, SNEG, SPOS, SN or SP (Abaqus takes all free faces then; list them)"
+                               : "'" + label_text + "' is not a face: S1 to S6, SNEG, SPOS, SN or SP" +
+                                     (label_text.starts_with('E') ? "; edges E1 to E4 of a shell are S3 to S6" : ""));
                 sets_[s].add_absent(1);
             } else if (by_number) {
                 add_face(line, s, number, label);
