@@ -51,7 +51,10 @@ def test_cards_that_make_part_of_the_mesh_are_refused(tmp_path, keyword):
         (SHEET + "*SURFACE, NAME=S\nE,\n", "in.inp:10: the face is missing behind 'E': S1 to S6, SNEG, SPOS"),
         (SHEET + "*SURFACE, NAME=S\nE, E2\n", "in.inp:10: 'E2' is not a face.*; edges E1 to E4 of a shell are S3 to"),
         (SHEET + "*NSET, NSET=N, ELSET=NO\n", r"in.inp:9: \*NSET, ELSET=NO: there is no element set 'NO'"),
-        (SHEET + "*ELEMENT, TYPE=S3\n3,1,2,3\n", r"in.inp:10: element number 3 is used before \(.*in.inp:8\); give one"),
+        (
+            SHEET + "*ELEMENT, TYPE=S3\n3,1,2,3\n",
+            r"in.inp:10: element number 3 is used before \(.*in.inp:8\); give one",
+        ),
         (SHEET + "*ELEMENT, TYPE=XYZ\n9,1,2,3\n", "in.inp:9: elements of type XYZ are not known to CalculiX; take a"),
         (parts(assembly="*NSET, NSET=N\nJ.4\n"), "in.inp:18: instance 'J' has no node 4: its nodes are 1 to 5, with g"),
         (parts(after="*STEP\n*CLOAD\nI.4, 1, 1.\n"), "in.inp:20: instance 'I' has no node 4"),
@@ -111,7 +114,8 @@ def test_node_sets_of_element_sets_have_their_nodes(tmp_path):
 
 def test_words_and_edges_of_abaqus_become_those_of_calculix_in_decks_of_parts(tmp_path):
     mesh = read_text(
-        tmp_path, parts("*NSET, NSET=N, GEN\n1,5,1\n", "*SURFACE, NAME=S\nI.E, E2\nJ.1, e1\n*SURFACE, NAME=T\nJ.E, SPOS\n")
+        tmp_path,
+        parts("*NSET, NSET=N, GEN\n1,5,1\n", "*SURFACE, NAME=S\nI.E, E2\nJ.1, e1\n*SURFACE, NAME=T\nJ.E, SPOS\n"),
     )
     assert mesh.groups["J_N"].ids.tolist() == [11, 12, 13, 15]
     assert mesh.groups["S"].ids.tolist() == [[1, 4], [3, 4], [11, 3]]
@@ -148,12 +152,15 @@ def test_the_first_places_of_nodes_cannot_follow(tmp_path):
 @needs_ccx
 def test_a_support_by_an_element_set_holds(tmp_path):
     """A bar of two cubes, held at the nodes of the first."""
-    nodes = "*NODE\n" + "".join(f"{4 * i + 2 * j + k + 1},{i},{j},{k}\n" for i in range(3) for j in (0, 1) for k in (0, 1))
+    nodes = "*NODE\n" + "".join(
+        f"{4 * i + 2 * j + k + 1},{i},{j},{k}\n" for i in range(3) for j in (0, 1) for k in (0, 1)
+    )
     deck = (
         nodes + "*ELEMENT, TYPE=C3D8, ELSET=FIRST\n1,1,5,7,3,2,6,8,4\n*ELEMENT, TYPE=C3D8, ELSET=SECOND\n"
         "2,5,9,11,7,6,10,12,8\n*NSET, NSET=HELD, ELSET=FIRST\n*MATERIAL, NAME=M\n*ELASTIC\n1000.,0.\n"
         "*ELSET, ELSET=ALL\nFIRST, SECOND\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*NSET, NSET=OUT, GENERATE\n1,12,1\n"
-        "*STEP\n*STATIC\n*BOUNDARY\nHELD, 1, 3\n*CLOAD\n9,1,25.\n10,1,25.\n11,1,25.\n12,1,25.\n*NODE PRINT, NSET=OUT\nU\n*END STEP\n"
+        "*STEP\n*STATIC\n*BOUNDARY\nHELD, 1, 3\n*CLOAD\n9,1,25.\n10,1,25.\n11,1,25.\n12,1,25.\n"
+        "*NODE PRINT, NSET=OUT\nU\n*END STEP\n"
     )
     displacements = solve(tmp_path, written(tmp_path, read_text(tmp_path, deck)))[0]
     np.testing.assert_allclose([displacements[n] for n in range(1, 9)], 0, atol=1e-15)

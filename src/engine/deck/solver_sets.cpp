@@ -416,6 +416,20 @@ std::vector<char> plane_families(const Mesh& mesh, const SolverInput& input) {
     return families_under(mesh, input, [](const DeckElementType& type) { return type.plane; });
 }
 
+std::vector<std::string> labels_of_families(const Mesh& mesh, const SolverInput& input) {
+    std::unordered_map<std::string_view, const std::string*> labels;
+    for (const Card& card : input.cards())
+        if (card.keyword == "ELEMENT" && card.parameter("TYPE")) labels.emplace(card.group, card.parameter("TYPE"));
+    std::vector<std::string> out(static_cast<std::size_t>(mesh.families.size()));
+    for (FamilyIndex f = 0; f < mesh.families.size(); ++f)
+        for (const GroupIndex g : mesh.families.groups(f)) {
+            const Group& group = mesh.groups[static_cast<std::size_t>(g)];
+            if (const auto it = labels.find(group.name); group.hidden && it != labels.end())
+                out[static_cast<std::size_t>(f)] = *it->second;
+        }
+    return out;
+}
+
 std::vector<char> families_of_whole_elements(const Mesh& mesh) {
     const SolverInput* input = solver_input(mesh);
     if (!input) return {};

@@ -97,9 +97,10 @@ void list_nodes(Card& card, const std::vector<Index>& nodes) {
 
 bool has_data_in_file(std::string_view keyword) {
     constexpr std::string_view keywords[] = {
-        "AMPLITUDE", "BOUNDARY",          "CFLUX",  "CLOAD", "DFLUX",          "DISTRIBUTION", "DLOAD",   "DSLOAD",
-        "ELEMENT",   "ELSET",             "EQUATION", "FIELD", "FILM",         "MPC",          "NODE",    "NODALTHICKNESS",
-        "NORMAL",    "INITIALCONDITIONS", "NSET",   "ORIENTATION", "RADIATE", "SURFACE", "TEMPERATURE", "TRANSFORM"};
+        "AMPLITUDE", "BOUNDARY",    "CFLUX",   "CLOAD",          "DFLUX",       "DISTRIBUTION",
+        "DLOAD",     "DSLOAD",      "ELEMENT", "ELSET",          "EQUATION",    "FIELD",
+        "FILM",      "MPC",         "NODE",    "NODALTHICKNESS", "NORMAL",      "INITIALCONDITIONS",
+        "NSET",      "ORIENTATION", "RADIATE", "SURFACE",        "TEMPERATURE", "TRANSFORM"};
     return std::ranges::find(keywords, keyword) != std::end(keywords);
 }
 
@@ -129,8 +130,7 @@ void list_nodes_of_element_sets(const Mesh& mesh, SolverInput& input) {
     if (std::ranges::none_of(input.cards(), names_elements)) return;
     const NumberIndex numbers(mesh);
     const DeckSetIndex index(input.sets());
-    const std::vector<SetMembers> sets =
-        evaluate_sets(mesh, numbers, input, members_by_card(mesh, input), {}, nullptr);
+    const std::vector<SetMembers> sets = evaluate_sets(mesh, numbers, input, members_by_card(mesh, input), {}, nullptr);
     for (Card& card : input.cards()) {
         check_cancelled();
         if (!names_elements(card)) continue;
@@ -139,10 +139,10 @@ void list_nodes_of_element_sets(const Mesh& mesh, SolverInput& input) {
         if (!s) throw ReadError(where + "there is no element set '" + name + "'");
         const std::vector<Index> nodes = nodes_of(sets[*s], mesh, numbers, input);
         list_nodes(card, nodes);
-        input.warnings().push_back(
-            where + (nodes.empty() ? "that set has no elements, so there are no nodes of them"
-                                   : "CalculiX passes over ELSET=, so the " + std::to_string(nodes.size()) +
-                                         " nodes of these elements are listed instead"));
+        input.warnings().push_back(where + (nodes.empty() ? "that set has no elements, so there are no nodes of them"
+                                                          : "CalculiX passes over ELSET=, so the " +
+                                                                std::to_string(nodes.size()) +
+                                                                " nodes of these elements are listed instead"));
     }
 }
 

@@ -15,8 +15,8 @@ bool has_data_in_file(std::string_view keyword);
 
 /// Throws ReadError "file:line: ..." for cards by which Abaqus makes part of the mesh while it reads the deck, or puts
 /// it elsewhere, so that without them another mesh were read: *NGEN, *ELGEN and kin, *IMPORT, surfaces put together of
-/// others, and, where the deck has no instances (flatten_parts() works them out), *SYSTEM, coordinates that are not x, y,
-/// z, and GENERATE cut short (GEN), which Abaqus takes for the word and CalculiX for nothing.
+/// others, and, where the deck has no instances (flatten_parts() works them out), *SYSTEM, coordinates that are not x,
+/// y, z, and GENERATE cut short (GEN), which Abaqus takes for the word and CalculiX for nothing.
 void refuse_generated_mesh(const std::vector<Card>& cards);
 
 /// Lists the nodes of the elements in the card where *NSET names an element set (ELSET=), which CalculiX passes over,
