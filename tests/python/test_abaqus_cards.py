@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cards by which Abaqus says part of the mesh in other words than CalculiX: put in CalculiX's words, or refused."""
 
+import re
 import shutil
 
 import numpy as np
@@ -165,3 +166,66 @@ def test_a_support_by_an_element_set_holds(tmp_path):
     displacements = solve(tmp_path, written(tmp_path, read_text(tmp_path, deck)))[0]
     np.testing.assert_allclose([displacements[n] for n in range(1, 9)], 0, atol=1e-15)
     np.testing.assert_allclose([displacements[n][0] for n in range(9, 13)], 0.1, rtol=1e-6)
+
+
+BLOCK = (
+    CUBE + "9, 0.5, 0.5, 3.\n*ELEMENT, TYPE=C3D8, ELSET=E\n1,1,2,4,3,5,6,8,7\n*SOLID SECTION, ELSET=E, MATERIAL=M\n,\n"
+)
+
+
+def block(assembly, load):
+    """A cube, held at its bottom, and node 9 above it."""
+    return (
+        f"*PART, NAME=P\n{BLOCK}*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
+        "*NSET, NSET=RP, INSTANCE=I\n9\n*NSET, NSET=TOP, INSTANCE=I\n5,6,7,8\n*SURFACE, NAME=LID\nI.1, S2\n"
+        f"{assembly}*END ASSEMBLY\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*DENSITY\n1.\n*STEP\n*STATIC\n*BOUNDARY\n"
+        f"I.1, 1, 3\nI.2, 1, 3\nI.3, 1, 3\nI.4, 1, 3\n{load}*NODE PRINT, NSET=TOP\nU\n*END STEP\n"
+    )
+
+
+COUPLING = "*COUPLING, CONSTRAINT NAME=C, REF NODE=RP, SURFACE=LID\n*KINEMATIC\n"
+
+
+@needs_ccx
+@pytest.mark.parametrize(
+    "constraint, says",
+    [
+        (COUPLING, "KINEMATIC: CalculiX couples degrees of freedom 1 to 3 alone"),
+        (COUPLING + "** all\n1, 6\n", "KINEMATIC: CalculiX couples degrees of freedom 1 to 3 alone"),
+        (COUPLING + "1, 1\n2, 2\n3, 3\n4, 4\n5, 5\n6, 6\n", "KINEMATIC: CalculiX couples degrees of freedom 1 to 3"),
+        ("*RIGID BODY, REF NODE=RP, TIE NSET=TOP\n", ""),
+        ("*RIGID BODY, REF NODE=RP, PIN NSET=TOP\n", "PIN NSET= of .* becomes NSET="),
+    ],
+    ids=("bare", "range", "six lines", "tie nset", "pin nset"),
+)
+def test_constraints_as_abaqus_writes_them_hold_in_calculix(tmp_path, constraint, says):
+    """As they stand CalculiX passes over them without an error, and the load moves nothing; or it stops."""
+    mesh = read_text(tmp_path, block(constraint, "*CLOAD\nRP, 1, 1.\n"))
+    got = solve(tmp_path, written(tmp_path, mesh))[0]
+    wanted = solve(tmp_path, written(tmp_path, read_text(tmp_path, block(COUPLING + "1, 3\n", "*CLOAD\nRP, 1, 1.\n"))))[
+        0
+    ]
+    assert abs(wanted[8][0]) > 0.01
+    for node, u in wanted.items():
+        np.testing.assert_allclose(got[node], u, atol=1e-9)
+    assert any(re.search(says, w) for w in mesh.input_warnings) and len(mesh.input_warnings) == 1 + bool(says)
+
+
+@needs_ccx
+def test_gravity_without_a_set_is_that_of_all_elements(tmp_path):
+    mesh = read_text(tmp_path, block("", "*DLOAD\n, GRAV, 9.81, 0., 0., -1.\n"))
+    assert mesh.groups["ALL_ELEMENTS"].ids.tolist() == [1]
+    assert "a load without a set is that of the whole model" in mesh.input_warnings[1]
+    displacements = solve(tmp_path, written(tmp_path, mesh))[0]
+    np.testing.assert_allclose(displacements[8][2], -9.81 / 2 / 1000, rtol=1e-6)
+    cracked = fs.crack(mesh, fs.Plane((0.5, 0, 0), (1, 0.1, 0.05))).mesh
+    assert len(cracked.groups["ALL_ELEMENTS"]) == len(cracked.cell_ids["tetra"])
+
+
+def test_constraints_that_calculix_passes_over_are_told(tmp_path):
+    deck = BLOCK + "*SURFACE, NAME=LID\n1, S2\n*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=LID\n*KINEMATIC\n"
+    mesh = read_text(tmp_path, deck + "*NSET, NSET=TOP\n5,6,7,8\n*RIGID BODY, REF NODE=9, TIE NSET=TOP\n")
+    assert [w.split("in.inp:")[1] for w in mesh.input_warnings] == [
+        "18: *KINEMATIC without a line couples nothing in CalculiX; give it degrees of freedom (1, 3)",
+        "21: *RIGID BODY without NSET= or ELSET= is none in CalculiX; say its nodes by NSET=",
+    ]

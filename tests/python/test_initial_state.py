@@ -61,7 +61,9 @@ def deck(label, cards):
         line = ",".join(map(str, [e, *of]))
         text += ",\n".join(",".join(line.split(",")[k : k + 12]) for k in range(0, len(of) + 1, 12)) + "\n"
     return (
-        text + cards + "*MATERIAL, NAME=M\n*ELASTIC\n1000.,0.3\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*STEP\n*STATIC\n"
+        text
+        + cards
+        + "*MATERIAL, NAME=M\n*ELASTIC\n1000.,0.3\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*STEP\n*STATIC\n"
         "*BOUNDARY\nNALL, 1, 3\n*EL PRINT, ELSET=EALL\nCOORD\n*END STEP\n"
     )
 
@@ -127,7 +129,9 @@ def test_shells_whose_parts_are_of_another_type_have_no_values_and_it_is_said(tm
     (tmp_path / "in.inp").write_text(text)
     mesh = fs.read(tmp_path / "in.inp")
     plane = fs.Plane((0.5, 0, 0), (1, 0.1, 0))
-    with pytest.raises(fs.Error, match=r"in.inp:\d+: \*INITIALCONDITIONS names element .* whose integration points are"):
+    with pytest.raises(
+        fs.Error, match=r"in.inp:\d+: \*INITIALCONDITIONS names element .* whose integration points are"
+    ):
         fs.crack(mesh, plane, strict=True)
     result = fs.crack(mesh, plane)
     fs.write(result.mesh, tmp_path / "out.inp")

@@ -146,6 +146,20 @@ void list_nodes_of_element_sets(const Mesh& mesh, SolverInput& input) {
     }
 }
 
+void warn_of_idle_constraints(SolverInput& input) {
+    for (const Card& card : input.cards()) {
+        CardReader line(card);
+        if (card.keyword == "KINEMATIC" && !line.next_data_line())
+            input.warnings().push_back(card.where() +
+                                       ": *KINEMATIC without a line couples nothing in CalculiX; give it "
+                                       "degrees of freedom (1, 3)");
+        if (card.keyword == "RIGIDBODY" && !card.parameter("NSET") && !card.parameter("ELSET"))
+            input.warnings().push_back(card.where() +
+                                       ": *RIGID BODY without NSET= or ELSET= is none in CalculiX; say "
+                                       "its nodes by NSET=");
+    }
+}
+
 void warn_of_newer_cards(SolverInput& input) {
     std::set<std::string> told;
     for (const Card& card : input.cards()) {

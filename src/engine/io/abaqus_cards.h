@@ -24,6 +24,10 @@ void refuse_generated_mesh(const std::vector<Card>& cards);
 /// ReadError for an element set that is not there.
 void list_nodes_of_element_sets(const Mesh& mesh, SolverInput& input);
 
+/// Warns of constraints that Abaqus has and CalculiX passes over without an error: *KINEMATIC without lines, *RIGID
+/// BODY without a set that CalculiX knows.
+void warn_of_idle_constraints(SolverInput& input);
+
 /// Warns of cards that CalculiX 2.20 does not have and a later one has, with its version: a solver that is older passes
 /// over them.
 void warn_of_newer_cards(SolverInput& input);

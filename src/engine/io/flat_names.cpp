@@ -17,25 +17,15 @@ constexpr std::size_t longest_name = 80;  // of a set in CalculiX
 
 /// Adds the numbers a card defines to the scope's lists.
 void scan_numbers(const Card& card, FlatScope& scope) {
+    if (card.keyword == "ELEMENT") {
+        const std::vector<Index> ids = elements_of(card);
+        scope.element_list.insert(scope.element_list.end(), ids.begin(), ids.end());
+    }
+    if (card.keyword != "NODE") return;
     CardReader line(card);
     Index id = 0;
-    if (card.keyword == "NODE")
-        while (line.next_data_line())
-            if (line.integer(id) && id > 0) scope.node_list.push_back(id);
-    if (card.keyword != "ELEMENT") return;
-    ElementLines element(card);
-    while (line.next_data_line()) {
-        element.start_line();
-        for (bool more = true; more && !line.at_end();) {
-            const auto what = element.next();
-            more = what.has_value();
-            if (!line.integer(id))
-                line.field();
-            else if (what == Numbered::element && id > 0)
-                scope.element_list.push_back(id);
-        }
-        element.end_line(line.ends_with_comma());
-    }
+    while (line.next_data_line())
+        if (line.integer(id) && id > 0) scope.node_list.push_back(id);
 }
 
 /// The range of numbers; of the list, what has gaps stays.
@@ -80,6 +70,26 @@ std::string prefixed(const std::string& instance, const std::string& name,
 }
 
 }  // namespace
+
+std::vector<Index> elements_of(const Card& card) {
+    std::vector<Index> out;
+    CardReader line(card);
+    ElementLines element(card);
+    Index id = 0;
+    while (line.next_data_line()) {
+        element.start_line();
+        for (bool more = true; more && !line.at_end();) {
+            const auto what = element.next();
+            more = what.has_value();
+            if (!line.integer(id))
+                line.field();
+            else if (what == Numbered::element && id > 0)
+                out.push_back(id);
+        }
+        element.end_line(line.ends_with_comma());
+    }
+    return out;
+}
 
 std::optional<Index> whole_number(std::string_view field) {
     while (!field.empty() && (field.front() == ' ' || field.front() == '\t')) field.remove_prefix(1);

@@ -93,6 +93,9 @@ private:
     bool all_keep_ = true;  // no instance has other numbers than its part
 };
 
+/// The numbers of the elements of an *ELEMENT card, in its order.
+std::vector<Index> elements_of(const Card& card);
+
 /// A field as a whole number; none if it is not one.
 std::optional<Index> whole_number(std::string_view field);
 

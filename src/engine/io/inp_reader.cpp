@@ -39,6 +39,7 @@ public:
         read_elements();
         list_nodes_of_element_sets(mesh_, *input_);
         read_sets();
+        warn_of_idle_constraints(*input_);
         warn_of_newer_cards(*input_);
         mesh_.companion = input_;
         return std::move(mesh_);
