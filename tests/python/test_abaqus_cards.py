@@ -143,6 +143,20 @@ def test_cards_of_later_versions_are_told_with_their_version(tmp_path):
     assert not [w for w in report.warnings if "in.inp" in w]
 
 
+@pytest.mark.parametrize("strict", (True, False))
+def test_sections_and_materials_of_abaqus_name_no_nodes(tmp_path, strict):
+    """Though their numbers could be those of nodes."""
+    cards = (
+        "*SHELL GENERAL SECTION, ELSET=E\n1, 2, 3\n*TRANSVERSE SHEAR STIFFNESS\n1, 1, 2\n*UEL PROPERTY, ELSET=E\n2, 3\n"
+    )
+    plane = fs.Plane((0.4, 0, 0), (1, 0.1, 0))
+    report = fs.crack(read_text(tmp_path, SHEET + cards), plane, strict=strict).report
+    assert sum("names no node or element by number and is kept" in w for w in report.warnings) == 3
+    turned = parts(cards).replace("5.,0.,0.\n", "5.,0.,0.\n0.,0.,0.,0.,0.,1.,90.\n")
+    text = written(tmp_path, read_text(tmp_path, turned))
+    assert text.count("*TRANSVERSE SHEAR STIFFNESS\n1, 1, 2\n") == 2 and "*UEL PROPERTY, ELSET=J_E\n2, 3\n" in text
+
+
 def test_the_first_places_of_nodes_cannot_follow(tmp_path):
     mesh = read_text(tmp_path, SHEET + "*INITIAL MESH\n1,0,0,0\n2,1.1,0,0\n*STEP\n*STATIC\n*END STEP\n")
     plane = fs.Plane((0.4, 0, 0), (1, 0.1, 0))

@@ -77,23 +77,16 @@ constexpr CardForm forms[] = {
     {"BASEMOTION", Entries::nowhere, Numbered::either, false},
     {"ROTARYINERTIA", Entries::nowhere, Numbered::either, false},
     {"PRE-TENSIONSECTION", Entries::nowhere, Numbered::either, false},
-    // Of Abaqus; no numbers of nodes or elements, no directions.
-    {"COHESIVESECTION", Entries::nowhere},
-    {"HOURGLASSSTIFFNESS", Entries::nowhere},
     {"MONITOR", Entries::nowhere},
-    {"PREPRINT", Entries::nowhere},
     {"RESTART", Entries::nowhere},
-    {"SECTIONCONTROLS", Entries::nowhere},
-    {"SHELLGENERALSECTION", Entries::nowhere},
-    {"SURFACESECTION", Entries::nowhere},
-    {"TRANSVERSESHEARSTIFFNESS", Entries::nowhere},
 };
 
 /// None for cards that neither CalculiX nor the table knows.
 std::optional<CardForm> form_of(const Card& card) {
     const auto* it = std::ranges::find(forms, std::string_view(card.keyword), &CardForm::keyword);
     if (it != std::end(forms)) return *it;
-    if (NamelessCards().takes(card)) return CardForm{card.keyword, Entries::nowhere};
+    if (NamelessCards().takes(card) || is_nameless_in_abaqus(card.keyword))
+        return CardForm{card.keyword, Entries::nowhere};
     return {};
 }
 
