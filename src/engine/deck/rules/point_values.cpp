@@ -90,7 +90,8 @@ void PointValues::carry_element(std::size_t c, const Element& element, Carrying&
     const auto tell = [&](Weight weight, const std::string& what) {
         carrying.remarks().add(c, weight, element.where, the_element(element.number), what);
     };
-    const std::vector<Index> parts = carrying.parts_of(element.number);
+    std::vector<Index> parts = carrying.parts_of(element.number);
+    std::erase_if(parts, [&](Index part) { return !carrying.new_numbers().cell(part); });
     const CellType type = carrying.old().numbers().cell(element.number)->type;
     const CardReader& last = element.records.back().lines.back();
     const bool one_point = element.records.size() == 1;
