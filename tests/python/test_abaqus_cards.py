@@ -51,6 +51,7 @@ def test_cards_that_make_part_of_the_mesh_are_refused(tmp_path, keyword):
         (SHEET + "*SURFACE, NAME=S, COMBINE=UNION\nA, B\n", r"in.inp:9: \*SURFACE with COMBINE: CalculiX has no"),
         (SHEET + "*SURFACE, NAME=S\nE,\n", "in.inp:10: the face is missing behind 'E': S1 to S6, SNEG, SPOS"),
         (SHEET + "*SURFACE, NAME=S\nE, E2\n", "in.inp:10: 'E2' is not a face.*; edges E1 to E4 of a shell are S3 to"),
+        (SHEET + "*SURFACE, TYPE=CYLINDER, NAME=S\n", r"in.inp:9: \*SURFACE of TYPE=CYLINDER; .* Give the surface ele"),
         (SHEET + "*NSET, NSET=N, ELSET=NO\n", r"in.inp:9: \*NSET, ELSET=NO: there is no element set 'NO'"),
         (
             SHEET + "*ELEMENT, TYPE=S3\n3,1,2,3\n",
@@ -62,7 +63,7 @@ def test_cards_that_make_part_of_the_mesh_are_refused(tmp_path, keyword):
         (parts(assembly="*ELSET, ELSET=X\nJ.2\n"), "in.inp:18: instance 'J' has no element 2: its elements are 1 to 3"),
         (parts("*NSET, NSET=N\n4\n"), "in.inp:11: instance 'I' has no node 4"),
     ],
-    ids=range(13),
+    ids=range(14),
 )
 def test_what_would_be_another_mesh_is_refused(tmp_path, text, words):
     with pytest.raises(fs.ReadError, match=words):

@@ -350,7 +350,10 @@ std::optional<std::pair<DeckSetType, std::string>> set_of_card(const Card& card)
         const std::string key = type ? deck_key(*type) : "ELEMENT";
         if (key.starts_with("ELEMENT")) return needed("NAME", DeckSetType::element_surface);
         if (key.starts_with("NODE")) return needed("NAME", DeckSetType::node_surface);
-        throw ReadError(card.where() + ": *SURFACE of TYPE=" + *type + "; CalculiX knows NODE and ELEMENT");
+        throw ReadError(
+            card.where() + ": *SURFACE of TYPE=" + *type +
+            "; CalculiX knows NODE and ELEMENT. Give the surface elements, or leave out the card and what names the "
+            "surface");
     }
     return {};
 }
