@@ -15,7 +15,10 @@ TEST(DeckLabels, OfPartsGoWithThoseOfTheWhole) {
         {"C3D8I", CellType::tetra, "C3D4"},      {"C3D8R", CellType::pyramid, "C3D8"},
         {"C3D6", CellType::pyramid, "C3D8"},     {"C3D20R", CellType::pyramid13, "C3D20R"},
         {"C3D15", CellType::pyramid13, "C3D20"}, {"DC3D20", CellType::tetra10, "DC3D10"},
-        {"DS8", CellType::triangle6, "DS6"},     {"F3D8", CellType::tetra, "F3D4"}};
+        {"DS8", CellType::triangle6, "DS6"},     {"F3D8", CellType::tetra, "F3D4"},
+        {"C3D8H", CellType::tetra, "C3D4H"},     {"C3D20RH", CellType::tetra10, "C3D10H"},
+        {"C3D8RHT", CellType::tetra, "C3D4HT"},  {"C3D8IH", CellType::pyramid, "C3D8H"},
+        {"CPE4P", CellType::triangle, "CPE3P"},  {"DC2D4", CellType::triangle, "DC2D3"}};
     for (const auto& [label, type, expected] : cases) EXPECT_EQ(deck_label_for(label, type), expected) << label;
 }
 

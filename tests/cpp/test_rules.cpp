@@ -19,6 +19,7 @@
 #include "deck/rules/nodal_rule.h"
 #include "deck/rules/node_loads.h"
 #include "deck/rules/normals.h"
+#include "deck/rules/point_values.h"
 #include "deck/rules/reference_nodes.h"
 #include "deck/rules/submodels.h"
 #include "deck/rules/supports.h"
@@ -42,9 +43,10 @@ TEST(CardRules, HaveEachCardInOnePlace) {
         {typeid(MeshCards), {"*NODE", "*ELEMENT, TYPE=S3", "*NSET, NSET=A", "*ELSET, ELSET=A", "*SURFACE, NAME=A"}},
         {typeid(Supports), {"*BOUNDARY"}},
         {typeid(InitialMotions), {"*INITIAL CONDITIONS, TYPE=DISPLACEMENT", "*INITIAL CONDITIONS, TYPE=VELOCITY"}},
-        {typeid(ElementValues),
-         {"*DISTRIBUTION", "*INITIAL CONDITIONS, TYPE=STRESS", "*INITIAL CONDITIONS, TYPE=PLASTIC STRAIN",
+        {typeid(PointValues),
+         {"*INITIAL CONDITIONS, TYPE=STRESS", "*INITIAL CONDITIONS, TYPE=PLASTIC STRAIN",
           "*INITIAL CONDITIONS, TYPE=SOLUTION"}},
+        {typeid(ElementValues), {"*DISTRIBUTION"}},
         {typeid(NodalFields), {"*TEMPERATURE", "*NODAL THICKNESS", "*INITIAL CONDITIONS, TYPE=TEMPERATURE"}},
         {typeid(Submodels), {"*SUBMODEL"}},
         {typeid(NodeLoads), {"*CLOAD", "*CFLUX", "*DISTRIBUTING COUPLING", "*RETAINED NODAL DOFS"}},
@@ -56,7 +58,7 @@ TEST(CardRules, HaveEachCardInOnePlace) {
         {typeid(Mpcs), {"*MPC"}},
         {typeid(ReferenceNodes), {"*RIGID BODY", "*COUPLING", "*PRE-TENSION SECTION"}},
         {typeid(SurfacePairs), {"*TIE", "*CONTACT PAIR"}},
-        {typeid(ForeignResults), {"*RESTART, READ", "*VIEWFACTOR, READ"}},
+        {typeid(ForeignResults), {"*RESTART, READ", "*VIEWFACTOR, READ", "*INITIAL MESH"}},
         {typeid(NamelessCards), {"*STATIC", "*MATERIAL, NAME=M", "*SOLID SECTION, ELSET=A"}},
     };
     EXPECT_EQ(rules.all().size(), table.size());

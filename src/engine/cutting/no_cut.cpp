@@ -165,7 +165,7 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
     message << tool << " misses the mesh: ";
     if (found.segments.any())
         message << "it passes only through segments (" << found.segments.text()
-                << "), which cannot be divided (springs, dashpots, gaps)";
+                << "), which cannot be divided (springs, dashpots, gaps, frames)";
     else if (std::isfinite(found.before) && std::isfinite(found.behind))
         message << "it passes between parts of the mesh, through no element; the nearest nodes are at distance "
                 << found.behind << " on its negative side and " << found.before << " on its positive side";

@@ -48,7 +48,7 @@ bool may_name_entities(const Card& card, const DeckView& view) {
 
 /// A card that CalculiX does not have, or not yet, as far as the rules know; `told` says of which kinds that is told.
 void tell_unknown(const Card& card, const Carrying& carrying, Remarks& remarks, std::set<std::string>& told) {
-    const bool may_name = may_name_entities(card, carrying.old());
+    const bool may_name = !is_nameless_in_abaqus(card.keyword) && may_name_entities(card, carrying.old());
     if (!told.insert((may_name ? "1" : "0") + card.keyword).second) return;
     const std::string text =
         card.where() + ": *" + card.keyword + " is not a card of CalculiX up to " + std::string(latest_calculix) + ": ";

@@ -31,8 +31,8 @@ namespace femscalpel {
 /// - *MPC: PLANE and STRAIGHT get new nodes between their nodes, and lose removed ones; other types stay on the
 /// originals, and
 ///   it is told where nodes are born between these.
-/// - *NORMAL, *DISTRIBUTION, *MODEL CHANGE, initial stresses, plastic strains and solution: parts of an element get
-///   what the element has.
+/// - *NORMAL, *DISTRIBUTION, *MODEL CHANGE: parts of an element get what the element has.
+/// - Initial stresses, plastic strains and solution: integration points of its parts get what the nearest one had.
 /// - Reference nodes, nodes of elements outside the mesh stay the originals.
 ///
 /// What of this changes the meaning, what names something removed or a set that lost all its members, and cards of

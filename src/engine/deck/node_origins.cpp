@@ -10,10 +10,8 @@
 namespace femscalpel {
 namespace {
 
-/// A point farther outside an element than this, in barycentric coordinates, is not said to be in it.
-constexpr double outside = -0.25;
 /// Smaller shares are rounding.
-constexpr double smallest_share = 1e-7;
+constexpr double smallest_share = 1e-13;
 
 /// Barycentric coordinates of `x`, or of its foot on a triangle or segment.
 std::vector<double> barycentric(const Mesh& mesh, std::span<const Index> nodes, int corners, const Vec3& x) {
@@ -76,52 +74,79 @@ const std::vector<NodeOrigins::Share>& NodeOrigins::shares(std::size_t k) const 
 }
 
 void NodeOrigins::find_elements() const {
-    std::vector<char> wanted(static_cast<std::size_t>(before_.node_count()), 0);
+    const int dimension = before_.dimension();
+    const auto for_all_around = [&](const std::vector<char>& wanted, auto found) {
+        SparseCheck check(1 << 12);
+        for (const CellBlock& b : before_.blocks()) {
+            const CellTraits& t = traits(b.type);
+            if (!t.simplex || t.dimension == 0 || (t.dimension == 1 && dimension > 1)) continue;
+            for (Index c = 0; c < b.size(); ++c, check())
+                if (std::ranges::any_of(b.nodes(c), [&](Index n) { return wanted[n] != 0; })) found(CellRef{b.type, c});
+        }
+    };
+    std::vector<char> near(static_cast<std::size_t>(before_.node_count()), 0);
     for (const Node& n : nodes_)
         for (const Index a : n.ancestors)
-            if (const auto index = before_numbers_.node(a)) wanted[*index] = 1;
-    const int dimension = before_.dimension();
-    for (const CellBlock& b : before_.blocks()) {
-        const CellTraits& t = traits(b.type);
-        if (!t.simplex || t.dimension == 0 || (t.dimension == 1 && dimension > 1)) continue;
-        SparseCheck check(1 << 12);
-        for (Index c = 0; c < b.size(); ++c, check())
-            for (const Index n : b.nodes(c))
-                if (wanted[n]) elements_[n].push_back({b.type, c});
-    }
+            if (const auto index = before_numbers_.node(a)) near[*index] = 1;
+    std::vector<char> wanted = near;
+    for_all_around(near, [&](CellRef c) {
+        for (const Index n : before_.block(c.type).nodes(c.cell)) wanted[n] = 1;
+    });
+    for_all_around(wanted, [&](CellRef c) {
+        for (const Index n : before_.block(c.type).nodes(c.cell))
+            if (wanted[n]) elements_[n].push_back(c);
+    });
+}
+
+std::vector<CellRef> NodeOrigins::around(std::span<const Index> nodes) const {
+    std::vector<CellRef> out;
+    for (const Index n : nodes)
+        if (const auto it = elements_.find(n); it != elements_.end())
+            out.insert(out.end(), it->second.begin(), it->second.end());
+    const auto key = [](const CellRef& c) { return std::pair(c.type, c.cell); };
+    std::ranges::sort(out, {}, key);
+    out.erase(std::ranges::unique(out, {}, key).begin(), out.end());
+    return out;
 }
 
 std::vector<NodeOrigins::Share> NodeOrigins::find_shares(const Node& node) const {
-    std::vector<Share> shares;
-    double best = outside;
-    int best_dimension = 0;
-    for (const Index a : node.ancestors) {
-        const auto index = before_numbers_.node(a);
-        const auto around = index ? elements_.find(*index) : elements_.end();
-        if (around == elements_.end()) continue;
-        for (const CellRef& cell : around->second) {
-            const CellTraits& t = traits(cell.type);
-            if (t.dimension < best_dimension) continue;
-            const auto n = before_.block(cell.type).nodes(cell.cell);
-            std::vector<double> l = barycentric(before_, n, t.corners, node.place);
-            const double inside = *std::ranges::min_element(l);
-            if (!(inside > best) && !(inside > outside && t.dimension > best_dimension)) continue;
-            best = inside;
-            best_dimension = t.dimension;
-            double sum = 0;
-            for (double& w : l) sum += (w = std::max(w, 0.0));
-            for (double& w : l) w /= sum;
-            shares.clear();
-            const auto add = [&](Index n_share, double weight) {
-                if (std::abs(weight) > smallest_share) shares.push_back({before_.node_ids[n_share], weight});
-            };
-            for (int i = 0; i < t.corners; ++i) add(n[i], t.quadratic ? l[i] * (2 * l[i] - 1) : l[i]);
-            if (t.quadratic)
-                for (std::size_t e = 0; e < t.edges.size(); ++e)
-                    add(n[static_cast<std::size_t>(t.corners) + e], 4 * l[t.edges[e][0]] * l[t.edges[e][1]]);
+    std::vector<Index> from;
+    for (const Index a : node.ancestors)
+        if (const auto index = before_numbers_.node(a)) from.push_back(*index);
+    const std::vector<CellRef> first = around(from);
+    Place best = best_place(first, node.place, {});
+    if (best.inside < 0 && !first.empty()) {  // nodes move through more than the elements around them
+        for (const CellRef& c : first) {
+            const auto n = before_.block(c.type).nodes(c.cell);
+            from.insert(from.end(), n.begin(), n.end());
         }
+        best = best_place(around(from), node.place, best);
     }
+    if (!best.cell) return {};
+    const CellTraits& t = traits(best.cell->type);
+    const auto n = before_.block(best.cell->type).nodes(best.cell->cell);
+    const std::vector<double>& l = best.coordinates;
+    std::vector<Share> shares;
+    const auto add = [&](Index n_share, double weight) {
+        if (std::abs(weight) > smallest_share) shares.push_back({before_.node_ids[n_share], weight});
+    };
+    for (int i = 0; i < t.corners; ++i) add(n[i], t.quadratic ? l[i] * (2 * l[i] - 1) : l[i]);
+    if (t.quadratic)
+        for (std::size_t e = 0; e < t.edges.size(); ++e)
+            add(n[static_cast<std::size_t>(t.corners) + e], 4 * l[t.edges[e][0]] * l[t.edges[e][1]]);
     return shares;
+}
+
+NodeOrigins::Place NodeOrigins::best_place(std::span<const CellRef> cells, const Vec3& x, Place best) const {
+    for (const CellRef& cell : cells) {
+        const CellTraits& t = traits(cell.type);
+        if (t.dimension < best.dimension) continue;
+        std::vector<double> l = barycentric(before_, before_.block(cell.type).nodes(cell.cell), t.corners, x);
+        const double inside = *std::ranges::min_element(l);
+        if (!(inside > best.inside) && !(inside > outside && t.dimension > best.dimension)) continue;
+        best = {cell, t.dimension, inside, std::move(l)};
+    }
+    return best;
 }
 
 const std::vector<Index>& NodeOrigins::copies_of(Index node) const {

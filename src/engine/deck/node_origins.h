@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -34,7 +35,8 @@ public:
     const std::vector<Node>& nodes() const { return nodes_; }
 
     /// What gives a field's value at the place of nodes()[k]: the shape functions of the old element it is in. Empty
-    /// if it is in none of those around its ancestors. The first call takes a pass over `before`; results are kept.
+    /// if it is in none of those around its ancestors and around these. The first call takes a pass over `before`;
+    /// results are kept.
     const std::vector<Share>& shares(std::size_t k) const;
 
     /// The copies of an original node, none for most.
@@ -44,8 +46,20 @@ public:
     double moved(Index node) const;
 
 private:
+    /// A point farther outside an element than this, in barycentric coordinates, is not said to be in it.
+    static constexpr double outside = -0.25;
+    /// Where a point is in an element.
+    struct Place {
+        std::optional<CellRef> cell;
+        int dimension = 0;
+        double inside = outside;  ///< the least of the coordinates
+        std::vector<double> coordinates;
+    };
+
     void find_elements() const;
+    std::vector<CellRef> around(std::span<const Index> nodes) const;
     std::vector<Share> find_shares(const Node& node) const;
+    Place best_place(std::span<const CellRef> cells, const Vec3& x, Place best) const;
 
     const Mesh& before_;
     const NumberIndex& before_numbers_;

@@ -14,13 +14,14 @@ struct Family {
     std::string_view prefix;
     int dimension;
     bool plane;
+    bool heat_alone = false;  ///< of heat transfer only
 };
 
 /// What begins as another does comes before it.
 constexpr Family families[] = {
-    {"C3D", 3, false},   {"F3D", 3, false}, {"M3D", 2, false},  {"CPS", 2, true},  {"CPEG", 2, true},
-    {"CPE", 2, true},    {"CAX", 2, true},  {"AC3D", 3, false}, {"AC2D", 2, true}, {"R3D", 2, false},
-    {"SFM3D", 2, false}, {"SC", 3, false},  {"S", 2, false},
+    {"C3D", 3, false}, {"C2D", 2, true, true}, {"C1D", 1, false, true}, {"F3D", 3, false}, {"M3D", 2, false},
+    {"CPS", 2, true},  {"CPEG", 2, true},      {"CPE", 2, true},        {"CAX", 2, true},  {"AC3D", 3, false},
+    {"AC2D", 2, true}, {"R3D", 2, false},      {"SFM3D", 2, false},     {"SC", 3, false},  {"S", 2, false},
 };
 
 std::optional<CellType> cell_of(int dimension, int nodes) {
@@ -57,7 +58,11 @@ std::string deck_label_for(std::string_view written, CellType type) {
     out += count;
     // CalculiX's incompatible and reduced first-order elements are not exact as pyramids.
     if (label.compare(digits, formulation - digits, count) == 0 && type != CellType::pyramid)
-        out.append(label, formulation);
+        return out.append(label, formulation);
+    // Abaqus' hybrid elements, and those with temperatures, pore pressures or potentials, have their kind in every
+    // shape.
+    for (const char c : label.substr(formulation))
+        if (std::string_view("HTPE").find(c) != std::string_view::npos) out += c;
     return out;
 }
 
@@ -98,18 +103,24 @@ std::optional<DeckElementType> deck_element_type(std::string_view written) {
         {"SPRINGA", CellType::line, true},
         {"SPRING2", CellType::line, true},
         {"DASHPOTA", CellType::line, true},
+        {"DASHPOT2", CellType::line, true},
+        {"JOINTC", CellType::line, true},
+        {"FRAME2D", CellType::line, true},
+        {"FRAME3D", CellType::line, true},
         {"CONN2D2", CellType::line, true},
         {"CONN3D2", CellType::line, true},
         {"SPRING1", CellType::vertex},
+        {"DASHPOT1", CellType::vertex},
         {"MASS", CellType::vertex},
         {"ROTARYI", CellType::vertex},
         {"DCOUP3D", CellType::vertex},
     };
     for (const Named& n : named)
         if (label == n.label) return DeckElementType{n.cell, false, n.whole};
-    if (label.starts_with("DC") || label.starts_with("DS")) label.erase(0, 1);  // heat transfer, as CalculiX does
+    const bool heat = label.starts_with("DC") || label.starts_with("DS");
+    if (heat) label.erase(0, 1);  // as CalculiX does
     for (const Family& f : families) {
-        if (!label.starts_with(f.prefix)) continue;
+        if (!label.starts_with(f.prefix) || (f.heat_alone && !heat)) continue;
         const char* first = label.data() + f.prefix.size();
         const char* last = label.data() + label.size();
         int nodes = 0;

@@ -261,7 +261,11 @@ private:
             const std::string label_text = line.field();
             const int label = label_from_name(label_text);
             if (label == 0) {
-                fail(line, "'" + label_text + "' is not a face: S1 to S6, SNEG, SPOS, SN or SP");
+                fail(line, label_text.empty()
+                               ? "the face is missing behind '" + (by_number ? std::to_string(number) : name) +
+                                     "': S1 to S6, SNEG, SPOS, SN or SP (Abaqus takes all free faces then; list them)"
+                               : "'" + label_text + "' is not a face: S1 to S6, SNEG, SPOS, SN or SP" +
+                                     (label_text.starts_with('E') ? "; edges E1 to E4 of a shell are S3 to S6" : ""));
                 sets_[s].add_absent(1);
             } else if (by_number) {
                 add_face(line, s, number, label);
@@ -346,7 +350,10 @@ std::optional<std::pair<DeckSetType, std::string>> set_of_card(const Card& card)
         const std::string key = type ? deck_key(*type) : "ELEMENT";
         if (key.starts_with("ELEMENT")) return needed("NAME", DeckSetType::element_surface);
         if (key.starts_with("NODE")) return needed("NAME", DeckSetType::node_surface);
-        throw ReadError(card.where() + ": *SURFACE of TYPE=" + *type + "; CalculiX knows NODE and ELEMENT");
+        throw ReadError(
+            card.where() + ": *SURFACE of TYPE=" + *type +
+            "; CalculiX knows NODE and ELEMENT. Give the surface elements, or leave out the card and what names the "
+            "surface");
     }
     return {};
 }
@@ -410,6 +417,20 @@ std::vector<char> families_under(const Mesh& mesh, const SolverInput& input, aut
 
 std::vector<char> plane_families(const Mesh& mesh, const SolverInput& input) {
     return families_under(mesh, input, [](const DeckElementType& type) { return type.plane; });
+}
+
+std::vector<std::string> labels_of_families(const Mesh& mesh, const SolverInput& input) {
+    std::unordered_map<std::string_view, const std::string*> labels;
+    for (const Card& card : input.cards())
+        if (card.keyword == "ELEMENT" && card.parameter("TYPE")) labels.emplace(card.group, card.parameter("TYPE"));
+    std::vector<std::string> out(static_cast<std::size_t>(mesh.families.size()));
+    for (FamilyIndex f = 0; f < mesh.families.size(); ++f)
+        for (const GroupIndex g : mesh.families.groups(f)) {
+            const Group& group = mesh.groups[static_cast<std::size_t>(g)];
+            if (const auto it = labels.find(group.name); group.hidden && it != labels.end())
+                out[static_cast<std::size_t>(f)] = *it->second;
+        }
+    return out;
 }
 
 std::vector<char> families_of_whole_elements(const Mesh& mesh) {

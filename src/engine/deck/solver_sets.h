@@ -58,6 +58,9 @@ std::vector<std::vector<Index>> members_by_card(const Mesh& mesh, const SolverIn
 /// By family: its elements are under an *ELEMENT card of plane or axisymmetric type.
 std::vector<char> plane_families(const Mesh& mesh, const SolverInput& input);
 
+/// By family: TYPE= of the *ELEMENT card its elements are under; empty for families under none.
+std::vector<std::string> labels_of_families(const Mesh& mesh, const SolverInput& input);
+
 /// By family: its elements are under an *ELEMENT card of a type that cannot be divided (DeckElementType::whole). Empty
 /// for meshes without a solver's input.
 std::vector<char> families_of_whole_elements(const Mesh& mesh);

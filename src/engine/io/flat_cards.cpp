@@ -7,6 +7,7 @@
 
 #include "deck/rules/nameless_cards.h"
 #include "error.h"
+#include "io/abaqus_cards.h"
 #include "io/inp_numbers.h"
 
 namespace femscalpel {
@@ -76,23 +77,16 @@ constexpr CardForm forms[] = {
     {"BASEMOTION", Entries::nowhere, Numbered::either, false},
     {"ROTARYINERTIA", Entries::nowhere, Numbered::either, false},
     {"PRE-TENSIONSECTION", Entries::nowhere, Numbered::either, false},
-    // Of Abaqus; no numbers of nodes or elements, no directions.
-    {"COHESIVESECTION", Entries::nowhere},
-    {"HOURGLASSSTIFFNESS", Entries::nowhere},
     {"MONITOR", Entries::nowhere},
-    {"PREPRINT", Entries::nowhere},
     {"RESTART", Entries::nowhere},
-    {"SECTIONCONTROLS", Entries::nowhere},
-    {"SHELLGENERALSECTION", Entries::nowhere},
-    {"SURFACESECTION", Entries::nowhere},
-    {"TRANSVERSESHEARSTIFFNESS", Entries::nowhere},
 };
 
 /// None for cards that neither CalculiX nor the table knows.
 std::optional<CardForm> form_of(const Card& card) {
     const auto* it = std::ranges::find(forms, std::string_view(card.keyword), &CardForm::keyword);
     if (it != std::end(forms)) return *it;
-    if (NamelessCards().takes(card)) return CardForm{card.keyword, Entries::nowhere};
+    if (NamelessCards().takes(card) || is_nameless_in_abaqus(card.keyword))
+        return CardForm{card.keyword, Entries::nowhere};
     return {};
 }
 
@@ -199,6 +193,10 @@ void FlatCards::change_head(Card& card, const FlatScope& of) const {
             continue;
         }
         CardParameter flat = p;
+        if (is_set && is_short_generate(p.name)) {
+            flat.name = "GENERATE";
+            changed = true;
+        }
         const bool is_number = std::ranges::find(numbers, std::string_view(p.name)) != std::end(numbers);
         const bool is_name = std::ranges::find(names, std::string_view(p.name)) != std::end(names);
         const auto fail = [&](const std::string& wrong) {
@@ -307,7 +305,16 @@ void FlatCards::change_set(Card& card, const FlatScope& scope) const {
 
 /// CalculiX has no areas of nodes, which Abaqus/CAE writes behind them.
 void FlatCards::change_surface(Card& card) const {
-    if (!is_true_for(card, "TYPE", {"NODE"}, "ELEMENT")) return change_first(card, 1, 0, Numbered::element);
+    if (!is_true_for(card, "TYPE", {"NODE"}, "ELEMENT")) {
+        change_first(card, 1, 0, Numbered::element);
+        change_lines(card, [](LineFields& line, std::size_t /*number*/, const Where& /*where*/) {
+            if (!line.has(1)) return;
+            const std::string label = name_key(line.fields[1]);  // an edge of a shell
+            if (label.size() == 2 && label[0] == 'E' && label[1] >= '1' && label[1] <= '4')
+                line.put(1, "S" + std::to_string(label[1] - '0' + 2));
+        });
+        return;
+    }
     change_lines(card, [&](LineFields& line, std::size_t /*number*/, const Where& where) {
         translate(line, 0, *scope_, Numbered::node, where);
         if (!line.has(1) || line.has(2)) return;

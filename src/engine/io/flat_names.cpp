@@ -15,38 +15,36 @@ namespace {
 
 constexpr std::size_t longest_name = 80;  // of a set in CalculiX
 
-/// Adds the numbers a card defines.
-void scan_numbers(const Card& card, NumberRange& nodes, NumberRange& elements, FlatScope* own) {
+/// Adds the numbers a card defines to the scope's lists.
+void scan_numbers(const Card& card, FlatScope& scope) {
+    if (card.keyword == "ELEMENT") {
+        const std::vector<Index> ids = elements_of(card);
+        scope.element_list.insert(scope.element_list.end(), ids.begin(), ids.end());
+    }
+    if (card.keyword != "NODE") return;
     CardReader line(card);
     Index id = 0;
-    if (card.keyword == "NODE") {
-        while (line.next_data_line())
-            if (line.integer(id) && id > 0) {
-                nodes.include(id);
-                if (own) own->own_nodes.insert(id);
-            }
-        return;
-    }
-    ElementLines element(card);
-    while (line.next_data_line()) {
-        element.start_line();
-        for (bool more = true; more && !line.at_end();) {
-            const auto what = element.next();
-            more = what.has_value();
-            if (!line.integer(id)) {
-                line.field();
-            } else if (what == Numbered::element && id > 0) {
-                elements.include(id);
-                if (own) own->own_elements.insert(id);
-            }
-        }
-        element.end_line(line.ends_with_comma());
-    }
+    while (line.next_data_line())
+        if (line.integer(id) && id > 0) scope.node_list.push_back(id);
 }
 
-void scan_numbers(const Card& card, FlatScope& scope, bool is_assembly) {
-    if (card.keyword == "NODE" || card.keyword == "ELEMENT")
-        scan_numbers(card, scope.nodes, scope.elements, is_assembly ? &scope : nullptr);
+/// The range of numbers; of the list, what has gaps stays.
+NumberRange range_of(std::vector<Index>& list) {
+    std::ranges::sort(list);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    if (list.empty()) return {};
+    const NumberRange out{list.front(), list.back()};
+    if (out.last - out.first + 1 == static_cast<Index>(list.size())) list = {};
+    return out;
+}
+
+void settle_numbers(FlatScope& scope) {
+    scope.nodes = range_of(scope.node_list);
+    scope.elements = range_of(scope.element_list);
+}
+
+bool has(const NumberRange& range, const std::vector<Index>& list, Index number) {
+    return range.contains(number) && (list.empty() || std::ranges::binary_search(list, number));
 }
 
 /// The least number of one digit and zeros, at least one, that is not less.
@@ -72,6 +70,26 @@ std::string prefixed(const std::string& instance, const std::string& name,
 }
 
 }  // namespace
+
+std::vector<Index> elements_of(const Card& card) {
+    std::vector<Index> out;
+    CardReader line(card);
+    ElementLines element(card);
+    Index id = 0;
+    while (line.next_data_line()) {
+        element.start_line();
+        for (bool more = true; more && !line.at_end();) {
+            const auto what = element.next();
+            more = what.has_value();
+            if (!line.integer(id))
+                line.field();
+            else if (what == Numbered::element && id > 0)
+                out.push_back(id);
+        }
+        element.end_line(line.ends_with_comma());
+    }
+    return out;
+}
 
 std::optional<Index> whole_number(std::string_view field) {
     while (!field.empty() && (field.front() == ' ' || field.front() == '\t')) field.remove_prefix(1);
@@ -135,23 +153,22 @@ void FlatNames::find_numbers(const PartDeck& deck) {
         FlatScope& scope = instances_[i];
         for (const Card* card : deck.instances[i].cards) {
             const auto [it, is_new] = of_card.try_emplace(card);
-            if (is_new) scan_numbers(*card, it->second, false);
-            for (const auto& [from, to] :
-                 {std::pair(&it->second.nodes, &scope.nodes), {&it->second.elements, &scope.elements}})
-                if (from->first > 0) {
-                    to->include(from->first);
-                    to->include(from->last);
-                }
+            if (is_new) scan_numbers(*card, it->second);
+            const FlatScope& from = it->second;
+            scope.node_list.insert(scope.node_list.end(), from.node_list.begin(), from.node_list.end());
+            scope.element_list.insert(scope.element_list.end(), from.element_list.begin(), from.element_list.end());
         }
+        settle_numbers(scope);
         number_scope(scope, done, deck.instances[i].card->where());
         all_keep_ = all_keep_ && scope.offset == 0;
     }
     std::string where;
     for (const DeckItem& item : deck.items)
         if (item.card && !item.is_bracket) {
-            scan_numbers(*item.card, assembly_, true);
-            if (where.empty() && assembly_.nodes.first > 0) where = item.card->where();
+            scan_numbers(*item.card, assembly_);
+            if (where.empty() && !assembly_.node_list.empty()) where = item.card->where();
         }
+    settle_numbers(assembly_);
     number_scope(assembly_, done, where);
     if (done.size() == 1)
         for (FlatScope& scope : instances_) scope.is_alone = &scope == done.front();
@@ -229,17 +246,21 @@ const FlatScope* FlatNames::find_instance(std::string_view name) const {
     return it == by_name_.end() ? nullptr : &instances_[it->second];
 }
 
-Index FlatNames::number(const FlatScope& scope, Index number, Numbered what, const Fail& fail) {
-    const bool has = (what != Numbered::element && scope.nodes.contains(number)) ||
-                     (what != Numbered::node && scope.elements.contains(number));
-    if (!has && number != 0 && !scope.is_alone) {  // it could be a number of another
+bool FlatScope::has_node(Index number) const { return has(nodes, node_list, number); }
+
+bool FlatScope::has_element(Index number) const { return has(elements, element_list, number); }
+
+Index FlatNames::number(const FlatScope& scope, Index number, Numbered what, bool by_name, const Fail& fail) {
+    const bool is_there =
+        (what != Numbered::element && scope.has_node(number)) || (what != Numbered::node && scope.has_element(number));
+    if (!is_there && number != 0 && (by_name || !scope.is_alone)) {  // it could be a number of another
         const NumberRange& range = what == Numbered::element ? scope.elements : scope.nodes;
         const std::string kind = what == Numbered::element ? "element" : "node";
         fail(scope.label + " has no " + kind + (what == Numbered::either ? " and no element " : " ") +
              std::to_string(number) +
-             (range.first > 0
-                  ? ": its " + kind + "s are " + std::to_string(range.first) + " to " + std::to_string(range.last)
-                  : ": it has no " + kind + "s"));
+             (range.first > 0 ? ": its " + kind + "s are " + std::to_string(range.first) + " to " +
+                                    std::to_string(range.last) + (range.contains(number) ? ", with gaps" : "")
+                              : ": it has no " + kind + "s"));
     }
     return number == 0 ? 0 : number + scope.offset;
 }
@@ -265,7 +286,7 @@ std::optional<std::string> FlatNames::if_reference(std::string_view field) const
         if (const auto it = scope->names.find(name_key(rest)); it != scope->names.end()) return it->second;
         if (const auto id = whole_number(rest)) {
             bool good = true;
-            const Index flat = number(*scope, *id, Numbered::either, [&](const std::string&) { good = false; });
+            const Index flat = number(*scope, *id, Numbered::either, true, [&](const std::string&) { good = false; });
             if (good) out = std::to_string(flat);
         }
     }
@@ -296,9 +317,9 @@ std::optional<std::string> FlatNames::number_or_name(const FlatScope& scope, std
         if (*id == 0) return {};
         Index flat = *id;
         if (!in_assembly) {
-            flat = number(scope, *id, what, fail);
-        } else if ((what != Numbered::element && assembly_.own_nodes.contains(*id)) ||
-                   (what != Numbered::node && assembly_.own_elements.contains(*id))) {
+            flat = number(scope, *id, what, false, fail);
+        } else if ((what != Numbered::element && assembly_.has_node(*id)) ||
+                   (what != Numbered::node && assembly_.has_element(*id))) {
             flat += assembly_.offset;
         } else if (!all_keep_) {
             fail("number " + std::to_string(*id) +
@@ -315,7 +336,7 @@ std::optional<std::string> FlatNames::number_or_name(const FlatScope& scope, std
                                                                                 : std::optional(it->second);
     if (const auto reference = split_reference(field)) {
         const auto& [other, rest] = *reference;
-        if (const auto id = whole_number(rest)) return std::to_string(number(*other, *id, what, fail));
+        if (const auto id = whole_number(rest)) return std::to_string(number(*other, *id, what, true, fail));
         const auto it = other->names.find(name_key(rest));
         if (it != other->names.end()) return it->second;
         fail(other->label + " has no set, surface or orientation '" + rest + "'");

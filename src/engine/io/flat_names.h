@@ -33,14 +33,17 @@ struct NumberRange {
 
 /// How numbers and names of an instance, or of the assembly itself, are called in the flat deck.
 struct FlatScope {
-    std::string label;            ///< "instance 'A-1'", for messages
-    Index offset = 0;             ///< added to numbers
-    NumberRange nodes, elements;  ///< numbers it has, before that
+    std::string label;                           ///< "instance 'A-1'", for messages
+    Index offset = 0;                            ///< added to numbers
+    NumberRange nodes, elements;                 ///< numbers it has, before that
+    std::vector<Index> node_list, element_list;  ///< all of them, ascending; empty where the range has no gaps
     std::unordered_map<std::string, std::string>
-        names;  ///< sets, surfaces, orientations...: by name_key(), the new name
-    std::unordered_set<Index> own_nodes, own_elements;  ///< the assembly's numbers
-    Placement placement;                                ///< of its coordinates
-    bool is_alone = false;                              ///< no other scope has numbers
+        names;              ///< sets, surfaces, orientations...: by name_key(), the new name
+    Placement placement;    ///< of its coordinates
+    bool is_alone = false;  ///< no other scope has numbers
+
+    bool has_node(Index number) const;
+    bool has_element(Index number) const;
 };
 
 /// The name a card gives to something of its part, instance or assembly, if it does: a set, a surface, an orientation,
@@ -71,8 +74,9 @@ public:
     /// nothing fails.
     std::optional<std::string> if_reference(std::string_view field) const;
 
-    /// Checks that a number of `scope` is one it has, and gives that of the flat deck.
-    static Index number(const FlatScope& scope, Index number, Numbered what, const Fail& fail);
+    /// Checks that a number of `scope` is one it has, and gives that of the flat deck. `by_name`: as INSTANCE.NUMBER;
+    /// else numbers that nobody has are left to the reader where the scope is alone.
+    static Index number(const FlatScope& scope, Index number, Numbered what, bool by_name, const Fail& fail);
 
 private:
     void find_numbers(const PartDeck& deck);
@@ -88,6 +92,9 @@ private:
     std::string assembly_key_;
     bool all_keep_ = true;  // no instance has other numbers than its part
 };
+
+/// The numbers of the elements of an *ELEMENT card, in its order.
+std::vector<Index> elements_of(const Card& card);
 
 /// A field as a whole number; none if it is not one.
 std::optional<Index> whole_number(std::string_view field);

@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 #include <memory>
+#include <unordered_set>
 #include <utility>
 
 #include "io/flat_lines.h"
@@ -34,7 +35,11 @@ public:
             fit_head(card);
             if (card.keyword == "EQUATION") fit_terms(card);
             if (card.keyword == "BOUNDARY") fit_supports(card);
+            if (card.keyword == "RIGIDBODY") fit_rigid_body(card);
+            if (card.keyword == "KINEMATIC") fit_kinematic(card);
+            if (card.keyword == "DLOAD") fit_loads_of_all(card);
         }
+        if (!all_elements_.empty()) define_all_elements();
     }
 
 private:
@@ -89,11 +94,102 @@ private:
             if (support->freedoms[1].first != 0)
                 more += std::string(line.fields[0]) + ", " + range(support->freedoms[1]) + "\n";
         });
-        if (more.empty()) return;
+        if (!more.empty()) append_line(card, std::move(more));
+    }
+
+    /// Of TIE NSET= and PIN NSET= CalculiX takes no notice, and nothing is rigid.
+    void fit_rigid_body(Card& card) {
+        std::vector<CardParameter> parameters = card.parameters;
+        const auto of_nodes = std::ranges::find_if(
+            parameters, [](const CardParameter& p) { return p.name == "TIENSET" || p.name == "PINNSET"; });
+        if (of_nodes == parameters.end()) return;
+        const auto other = std::ranges::find_if(parameters, [&](const CardParameter& p) {
+            return &p != &*of_nodes &&
+                   (p.name == "NSET" || p.name == "ELSET" || p.name == "TIENSET" || p.name == "PINNSET");
+        });
+        if (other != parameters.end()) {
+            warnings_.push_back(card.where() + ": *RIGID BODY has " + other->name + "= and " + of_nodes->name +
+                                "=; CalculiX takes one set alone: put all of its nodes in one");
+            return;
+        }
+        if (of_nodes->name == "PINNSET")
+            warnings_.push_back(card.where() +
+                                ": PIN NSET= of *RIGID BODY becomes NSET=: CalculiX holds rotations of shells and "
+                                "beams there, too");
+        of_nodes->name = "NSET";
+        change_parameters(card, std::move(parameters));
+    }
+
+    /// Without lines all degrees of freedom are meant, of which CalculiX takes the translations; without lines it would
+    /// couple nothing, and with rotations it stops.
+    void fit_kinematic(Card& card) {
+        bool any = false, translates = false, rotates = false;
+        change_lines(card, [&](LineFields& line, std::size_t /*number*/, const Where& /*where*/) {
+            const auto first = whole_number(line.fields[0]);
+            if (!first) return;
+            any = true;
+            const Index last = line.has(1) ? whole_number(line.fields[1]).value_or(*first) : *first;
+            translates = translates || *first <= 3;
+            rotates = rotates || last > 3;
+            if (last <= 3) return;
+            if (*first <= 3)
+                line.put(1, "3");
+            else
+                line.put(0, "** " + std::string(line.fields[0]));
+        });
+        if (any && !rotates) return;
+        if (!any) append_line(card, "1, 3\n");
+        warnings_.push_back(card.where() + (any && !translates
+                                                ? ": *KINEMATIC of rotations alone: CalculiX couples translations, and "
+                                                  "stops here; say another constraint"
+                                                : ": *KINEMATIC: CalculiX couples degrees of freedom 1 to 3 alone; "
+                                                  "rotations of shells and beams there are free"));
+    }
+
+    static void append_line(Card& card, std::string line) {
         const DeckText last = card.text.back();
-        if (!last.text.ends_with('\n')) more.insert(0, "\n");
-        const auto file = std::make_shared<const DeckFile>(DeckFile{last.file->path, std::move(more)});
+        if (!last.text.ends_with('\n')) line.insert(0, "\n");
+        const auto file = std::make_shared<const DeckFile>(DeckFile{last.file->path, std::move(line)});
         card.text.push_back({file, file->text, last.line});
+    }
+
+    /// Loads without a set are those of the whole model; CalculiX ends without a word there.
+    void fit_loads_of_all(Card& card) {
+        change_lines(card, [&](LineFields& line, std::size_t /*number*/, const Where& where) {
+            if (line.has(0) || !line.has(1)) return;
+            if (all_elements_.empty()) {
+                name_all_elements();
+                warnings_.push_back(
+                    where() +
+                    "a load without a set is that of the whole model; CalculiX wants a set: " + all_elements_);
+            }
+            line.put(0, all_elements_);
+        });
+    }
+
+    void name_all_elements() {
+        std::unordered_set<std::string> taken;
+        for (const Card& card : cards_)
+            if (const CardParameter* name = defined_name(card)) taken.insert(name_key(name->value));
+        all_elements_ = "ALL_ELEMENTS";
+        for (int n = 2; taken.contains(all_elements_); ++n) all_elements_ = "ALL_ELEMENTS_" + std::to_string(n);
+    }
+
+    /// All that have mass, before the first step.
+    void define_all_elements() {
+        std::string text = "*ELSET, ELSET=" + all_elements_ + "\n";
+        for (const Card& card : cards_) {
+            const std::string* type = card.keyword == "ELEMENT" ? card.parameter("TYPE") : nullptr;
+            const std::string label = type ? deck_key(*type) : "";
+            if (!type || label.starts_with("SPRING") || label.starts_with("DASHPOT") || label.starts_with("GAP") ||
+                label.starts_with("CONN") || label.starts_with("DCOUP"))
+                continue;
+            for (const Index id : elements_of(card)) text += std::to_string(id) + ",\n";
+        }
+        auto at = std::ranges::find(cards_, "STEP", &Card::keyword);
+        Card set;
+        set.set_text(std::move(text));
+        cards_.insert(at, std::move(set));
     }
 
     /// Nodes of a set by number; of what else is in it, which are never single nodes, no more than twice 0.
@@ -118,6 +214,7 @@ private:
 
     std::vector<Card>& cards_;
     std::vector<std::string>& warnings_;
+    std::string all_elements_;  // name of the set of them; empty while none is wanted
 };
 
 }  // namespace

@@ -20,7 +20,9 @@ namespace femscalpel {
 /// - C3D8 and C3D20 whose upper nodes are one: pyramids; what write_inp() added for them goes.
 /// - User elements, network elements without an end node (0), element numbers of a submodel's global
 ///   model, surface faces of beams: kept beside the mesh (OtherElement, DeckSet::unheld).
-/// - Everything else is kept verbatim, in place, in Mesh::companion, a SolverInput. Includes are resolved.
+/// - Everything else is kept verbatim, in place, in Mesh::companion, a SolverInput. Includes are resolved, also lines
+/// of
+///   data that stand in a file (*NODE, INPUT=), and decks of parts put together (flatten_parts.h).
 ///
 /// Names compare as in CalculiX: case and blanks do not count. A group has the first spelling.
 /// Sets may name numbers the deck does not define; as in CalculiX this is only a warning

@@ -7,6 +7,8 @@
 
 #include "cancel.h"
 #include "error.h"
+#include "io/abaqus_cards.h"
+#include "io/flat_lines.h"
 #include "io/inp_file.h"
 
 namespace femscalpel {
@@ -72,7 +74,7 @@ private:
             std::vector<CardParameter> parameters;
             parse_keyword(head, keyword, parameters);
             if (keyword == "INCLUDE") {
-                include(file->path + ":" + std::to_string(line) + ": ", path, parameters);
+                include(file->path + ":" + std::to_string(line) + ": ", keyword, path, parameters);
                 piece = head_end;
                 piece_line = line + head_lines;
             } else {
@@ -82,6 +84,12 @@ private:
                 cards_.back().head = static_cast<std::size_t>(head_end - p);
                 piece = p;
                 piece_line = line;
+                if (has_data_in_file(cards_.back().keyword) && cards_.back().parameter("INPUT")) {
+                    finish_piece(head_end);
+                    read_data_file(path);
+                    piece = head_end;
+                    piece_line = line + head_lines;
+                }
             }
             p = head_end;
             line += head_lines;
@@ -116,12 +124,24 @@ private:
         return word == "GENERATE";
     }
 
-    void include(const std::string& where, const fs::path& from, const std::vector<CardParameter>& parameters) {
+    /// The last card's lines of data stand in a file: now they stand here.
+    void read_data_file(const fs::path& from) {
+        Card& card = cards_.back();
+        const std::string where = card.where() + ": ", keyword = card.keyword;
+        const std::vector<CardParameter> all = card.parameters;
+        std::vector<CardParameter> rest = all;
+        std::erase_if(rest, [](const CardParameter& p) { return p.name == "INPUT"; });
+        change_parameters(card, std::move(rest));
+        include(where, keyword, from, all);
+    }
+
+    void include(const std::string& where, const std::string& keyword, const fs::path& from,
+                 const std::vector<CardParameter>& parameters) {
         std::string name;
         for (const CardParameter& p : parameters)
             if (p.name == "INPUT") name = p.value;
         if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-        if (name.empty()) throw ReadError(where + "*INCLUDE needs INPUT=file");
+        if (name.empty()) throw ReadError(where + "*" + keyword + " needs INPUT=file");
         std::string bare = name;
         std::erase(bare, ' ');  // CalculiX reads file names without blanks
         std::error_code error;
@@ -135,7 +155,11 @@ private:
                 read(path);
                 return;
             }
-        throw ReadError(where + "the included file '" + name + "' does not exist");
+        throw ReadError(where +
+                        (keyword == "INCLUDE"
+                             ? "the included file '" + name + "' does not exist"
+                             : "the file '" + name + "' with the lines of *" + keyword + " does not exist") +
+                        "; put it beside the deck, or leave the card out");
     }
 
     fs::path folder_;

@@ -9,6 +9,7 @@
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
+#include "io/abaqus_cards.h"
 #include "io/flatten_parts.h"
 #include "io/inp.h"
 #include "io/inp_cards.h"
@@ -24,6 +25,7 @@ class DeckReader {
 public:
     explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
         input_->cards() = read_cards(path);
+        refuse_generated_mesh(input_->cards());
         flatten_parts(*input_);
         input_->set_ties_orders(remove_edge_ties(input_->cards()));
         fs::path stem = path.filename();
@@ -35,7 +37,10 @@ public:
         declare_groups();
         read_nodes();
         read_elements();
+        list_nodes_of_element_sets(mesh_, *input_);
         read_sets();
+        warn_of_idle_constraints(*input_);
+        warn_of_newer_cards(*input_);
         mesh_.companion = input_;
         return std::move(mesh_);
     }
@@ -189,9 +194,18 @@ private:
             else if (deck_key(*label).starts_with('U'))
                 read_user_elements(c, card, nodes);
             else
-                throw ReadError(card.where() + ": elements of type " + *label + " are not known to CalculiX");
+                refuse_type(card, *label);
         }
         check_element_numbers();
+    }
+
+    [[noreturn]] static void refuse_type(const Card& card, const std::string& label) {
+        const std::string key = deck_key(label);
+        throw ReadError(card.where() + ": elements of type " + label + " are not known to CalculiX" +
+                        (key.starts_with("COH") || key.starts_with("GK")
+                             ? ", and nothing here knows which of their sides may open; leave them out, and join what "
+                               "they join by *TIE or *CONTACT PAIR"
+                             : "; take a type that CalculiX has, or leave them out"));
     }
 
     void read_card(std::size_t c, const Card& card, const DeckElementType& type, const NumberIndex& nodes) {
@@ -309,7 +323,7 @@ private:
         for (const OtherElement& e : input_->other_elements())
             if (numbers.cell(e.number) || !others.insert(e.number).second) twice = e.number;
         if (!twice) return;
-        Index seen = 0;
+        std::string first;
         for (const Card& card : input_->cards()) {
             if (card.keyword != "ELEMENT") continue;
             const auto type = deck_element_type(*card.parameter("TYPE"));
@@ -317,8 +331,10 @@ private:
             while (line.next_data_line()) {
                 Index id = 0;
                 line.integer(id);
-                if (id == *twice && ++seen == 2)
-                    throw ReadError(line.where() + "element number " + std::to_string(id) + " is used before");
+                if (id == *twice && !first.empty())
+                    throw ReadError(line.where() + "element number " + std::to_string(id) + " is used before (" +
+                                    first + "); give one of the two elements another number");
+                if (id == *twice) first = line.where().substr(0, line.where().size() - 2);
                 for (int k = 0; type && k < traits(type->cell).nodes;) {
                     Index unused = 0;
                     if (!line.at_end())

@@ -5,15 +5,11 @@
 
 namespace femscalpel {
 
-/// Values of elements by number: *DISTRIBUTION, *INITIAL CONDITIONS of stresses, plastic strains and state variables.
-/// Parts of an element get what the element has.
+/// Values of elements by number: *DISTRIBUTION. Parts of an element get what the element has.
 class ElementValues : public CardRule {
 public:
     bool takes(const Card& card) const override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
-
-private:
-    static Index lines_per_record(const Card& card, const Carrying& carrying);
 };
 
 }  // namespace femscalpel

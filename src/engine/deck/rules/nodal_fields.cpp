@@ -9,6 +9,8 @@ bool NodalFields::takes(const Card& card) const {
     return card.keyword == "TEMPERATURE" || card.keyword == "NODALTHICKNESS" || card.keyword == "INITIALCONDITIONS";
 }
 
+bool NodalFields::tells_of_made(const Card& card) const { return card.keyword == "INITIALCONDITIONS"; }
+
 std::optional<NodalRule::Values> NodalFields::read_values(CardReader& line, const Card& /*card*/,
                                                           Remarks& /*remarks*/) const {
     Values out;

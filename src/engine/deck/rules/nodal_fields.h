@@ -14,6 +14,7 @@ public:
 protected:
     std::optional<Values> read_values(CardReader& line, const Card& card, Remarks& remarks) const override;
     std::vector<std::string> lines(Index number, const Values& wanted, const Values& given) const override;
+    bool tells_of_made(const Card& card) const override;
 };
 
 }  // namespace femscalpel

@@ -19,15 +19,22 @@ void NodalRule::end_carrying(Carrying& carrying) {
         const std::size_t last = cards.back();
         const Card& card = carrying.old().cards()[last];
         const auto& nodes = carrying.origins().nodes();
+        std::vector<Index> made;
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             check_cancelled();
             if (nodes[k].spans && !is_along_beams()) continue;
             const Values wanted = wanted_values(pool, carrying, k);
             if (wanted.empty()) continue;
             const Values given = values_of(pool, carrying.after(), false, carrying.new_numbers(), nodes[k].number);
-            for (const std::string& line : lines(nodes[k].number, wanted, given))
-                carrying.edits(last).append(card, line);
+            const std::vector<std::string> added = lines(nodes[k].number, wanted, given);
+            for (const std::string& line : added) carrying.edits(last).append(card, line);
+            if (!added.empty() && nodes[k].ancestors.size() > 1) made.push_back(nodes[k].number);
         }
+        if (!made.empty() && tells_of_made(card))
+            carrying.remarks().add_note(card.where() + ": *" + card.keyword + ", TYPE=" + type_of(card) + ": " +
+                                        std::to_string(made.size()) + " new node(s), the first is " +
+                                        std::to_string(std::ranges::min(made)) +
+                                        ", have values between those of the nodes around them");
     }
 }
 

@@ -33,6 +33,9 @@ protected:
     /// Whether new nodes of beams have what both ends have, in between.
     virtual bool is_along_beams() const { return true; }
 
+    /// Whether it is told that new nodes got values that no node had.
+    virtual bool tells_of_made(const Card& /*card*/) const { return false; }
+
     /// Whether a value is there, but for rounding.
     static bool has(const Values& given, int key, double value);
     static bool has_all(const Values& given, const Values& wanted);

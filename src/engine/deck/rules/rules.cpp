@@ -16,6 +16,7 @@
 #include "deck/rules/nodal_fields.h"
 #include "deck/rules/node_loads.h"
 #include "deck/rules/normals.h"
+#include "deck/rules/point_values.h"
 #include "deck/rules/reference_nodes.h"
 #include "deck/rules/submodels.h"
 #include "deck/rules/supports.h"
@@ -37,6 +38,7 @@ constexpr Make table[] = {
     make<MeshCards>,       //
     make<Supports>,        //
     make<InitialMotions>,  // of *INITIAL CONDITIONS, as the next
+    make<PointValues>,     //
     make<ElementValues>,   //
     make<NodalFields>,     // and of all other *INITIAL CONDITIONS
     make<Submodels>,       //
