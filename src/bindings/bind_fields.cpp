@@ -29,9 +29,8 @@ py::array_t<T> values_of(const std::vector<T>& values, const FieldPart& part, st
 /// (support, element type or "", numbers, values, localization, profile)
 py::tuple to_python(const Field& field, const FieldPart& part, const py::object& owner) {
     const bool of_nodes = part.support == FieldSupport::node;
-    const py::object values = field.whole()
-                                  ? py::object(values_of(part.integers, part, field.components.size(), owner))
-                                  : py::object(values_of(part.reals, part, field.components.size(), owner));
+    const py::object values = field.whole() ? py::object(values_of(part.integers, part, field.components.size(), owner))
+                                            : py::object(values_of(part.reals, part, field.components.size(), owner));
     return py::make_tuple(std::string(to_string(part.support)),
                           of_nodes ? std::string() : std::string(traits(part.type).name),
                           view(part.numbers->data(), {part.size()}, owner), values, part.localization, part.profile);
@@ -59,9 +58,8 @@ py::list localizations_of(const Mesh& mesh) {
     py::list out;
     if (mesh.fields)
         for (const FieldLocalization& l : mesh.fields->localizations)
-            out.append(py::make_tuple(l.name, std::string(traits(l.type).name), l.dimension,
-                                      copied<double>(l.element), copied<double>(l.points),
-                                      copied<double>(l.weights)));
+            out.append(py::make_tuple(l.name, std::string(traits(l.type).name), l.dimension, copied<double>(l.element),
+                                      copied<double>(l.points), copied<double>(l.weights)));
     return out;
 }
 
@@ -69,8 +67,8 @@ FieldPart part_from(const Field& field, const py::tuple& given) {
     FieldPart part;
     const auto support = given[0].cast<std::string>();
     bool known = false;
-    for (const FieldSupport s : {FieldSupport::node, FieldSupport::element, FieldSupport::element_nodes,
-                                 FieldSupport::element_points})
+    for (const FieldSupport s :
+         {FieldSupport::node, FieldSupport::element, FieldSupport::element_nodes, FieldSupport::element_points})
         if (to_string(s) == support) part.support = s, known = true;
     if (!known)
         throw Error("field '" + field.name + "': unknown support '" + support +

@@ -71,7 +71,7 @@ TEST_F(Bdf, WhatWriteBdfWroteComesBackExactly) {
 }
 
 TEST_F(Bdf, NumbersAreTheNearestThatAFieldHolds) {
-    Random random(7);
+    checks::Random random(7);
     Mesh mesh;
     for (int n = 0; n < 2000; ++n) {
         const auto number = [&] {
@@ -120,19 +120,20 @@ TEST_F(Bdf, CardsGoOnInFurtherLines) {
     EXPECT_THAT(mesh.block(CellType::tetra10).connectivity, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
     EXPECT_THAT(mesh.block(CellType::tetra).ids, ElementsAre(2, 3));
     expect_error("+AB            7       8\n" + triangle_nodes, ":1: this line goes on with a card, but there is none");
-    expect_error("CTETRA         1       1       1       2       3       4       5       6+AB\n"
-                 "+CD            7       8       9      10\n",
-                 ":2: this line goes on with the card of mark 'AB', but its own is 'CD'");
+    expect_error(
+        "CTETRA         1       1       1       2       3       4       5       6+AB\n"
+        "+CD            7       8       9      10\n",
+        ":2: this line goes on with the card of mark 'AB', but its own is 'CD'");
 }
 
 TEST_F(Bdf, NodesAreInTheirCoordinateSystems) {
     const Mesh mesh = read(
         "GRDSET,,3\n"
         "GRID,1,0,1.,2.,3.\n"
-        "GRID,2,,1.,0.,0.\n"          // of GRDSET
-        "GRID,3,5,2.,90.,1.\n"        // cylindrical, in system 3
-        "GRID,4,6,2.,90.,-90.\n"      // spherical
-        "GRID,5,7,1.,0.,0.\n"         // by nodes
+        "GRID,2,,1.,0.,0.\n"      // of GRDSET
+        "GRID,3,5,2.,90.,1.\n"    // cylindrical, in system 3
+        "GRID,4,6,2.,90.,-90.\n"  // spherical
+        "GRID,5,7,1.,0.,0.\n"     // by nodes
         "GRID,11,0,1.,0.,0.\nGRID,12,0,1.,0.,2.\nGRID,13,0,1.,3.,0.\n"
         "CORD2C,5,3,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n"
         "CORD2R,3,0,10.,0.,0.,10.,0.,1.,\n,10.,1.,0.\n"  // x is the basic y, y the basic -x
@@ -187,13 +188,14 @@ TEST_F(Bdf, PropertiesSetsAndSupportsAreGroups) {
     EXPECT_THAT(members(mesh, "SPC_1_123", GroupKind::node), ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(members(mesh, "SPC_1_3456", GroupKind::node), ElementsAre(4));
     EXPECT_THAT(members(mesh, "SPC_2_3", GroupKind::node), ElementsAre(1, 2));
-    EXPECT_THAT(remarks(mesh),
-                AllOf(HasSubstr(":6: group 'SET_2' names 1 nodes or elements that the file does not define"),
-                      HasSubstr(":9: nothing says whether set 4 is of nodes or of elements; there is a group of each"),
-                      HasSubstr(":10: set 5 is not read: it lists no numbers"),
-                      HasSubstr("there are 3 other statements"), HasSubstr("(orientation, offsets, thickness) is not "
-                                                                           "read: CBAR, CONROD"),
-                      HasSubstr("supports (SPC, SPC1) are read as groups of their nodes alone")));
+    EXPECT_THAT(
+        remarks(mesh),
+        AllOf(HasSubstr(":6: group 'SET_2' names 1 nodes or elements that the file does not define"),
+              HasSubstr(":9: nothing says whether set 4 is of nodes or of elements; there is a group of each"),
+              HasSubstr(":10: set 5 is not read: it lists no numbers"), HasSubstr("there are 3 other statements"),
+              HasSubstr("(orientation, offsets, thickness) is not "
+                        "read: CBAR, CONROD"),
+              HasSubstr("supports (SPC, SPC1) are read as groups of their nodes alone")));
 }
 
 TEST_F(Bdf, WhatIsNotReadIsNamed) {
@@ -241,11 +243,11 @@ TEST_F(Bdf, WritingRefusesWhatNastranHasNot) {
 }
 
 TEST_F(Bdf, DamagedFilesAreRefusedOrRead) {
-    Random random(11);
+    checks::Random random(11);
     Mesh mesh = checks::one_of_each(not_in_bdf);
     read_damaged(written(mesh), 1500, "0123456789+-.,*$ \nTHRUSEC", random);
-    read_damaged(four_elements + "CORD2R,3,0,10.,0.,0.,10.,0.,1.,\n,10.,1.,0.\nGRID,8,3,1.\nSPC1,1,123,1,THRU,3\n", 1500,
-                 "0123456789+-.,*$ \nTHRU", random);
+    read_damaged(four_elements + "CORD2R,3,0,10.,0.,0.,10.,0.,1.,\n,10.,1.,0.\nGRID,8,3,1.\nSPC1,1,123,1,THRU,3\n",
+                 1500, "0123456789+-.,*$ \nTHRU", random);
     EXPECT_GT(refused_, 500);
     EXPECT_GT(read_well_, 200);
 }

@@ -149,12 +149,11 @@ TEST_F(MedFields, InDamagedFilesAreReadOrLeftOut) {
     read();
     std::ifstream in(path_, std::ios::binary);
     const std::string whole{std::istreambuf_iterator<char>(in), {}};
-    Random random(5);
+    checks::Random random(5);
     int read_well = 0, left_out = 0, refused = 0;
     for (int round = 0; round < 300; ++round) {
         std::string bytes = whole;
-        for (int k = 0; k < 1 + round % 8; ++k)
-            bytes[random.bits() % bytes.size()] = static_cast<char>(random.bits());
+        for (int k = 0; k < 1 + round % 8; ++k) bytes[random.bits() % bytes.size()] = static_cast<char>(random.bits());
         fs::remove(path_);
         std::ofstream(path_, std::ios::binary) << bytes;
         try {

@@ -10,6 +10,8 @@
 namespace femscalpel {
 namespace FILE_NAMESPACE {
 
+using checks::Random;
+
 double between(Random& random, double low, double high) {
     return low + (high - low) * static_cast<double>(random.bits() % 1000001) / 1e6;
 }

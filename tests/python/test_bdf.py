@@ -87,7 +87,9 @@ def test_losses_are_told(tmp_path):
     mesh.unit = "mm"
     moved = fs.Mesh(mesh.points + 1 / 3e6 + 1000, mesh.cells)
     moved.add_group("SIDE", "facet", [(1, 1)])
-    with pytest.warns(UserWarning, match="facet group 'SIDE'; the last digits of the coordinates of 210 nodes .they are off by"):
+    with pytest.warns(
+        UserWarning, match="facet group 'SIDE'; the last digits of the coordinates of 210 nodes .they are off by"
+    ):
         fs.write(moved, tmp_path / "box.nas")
     with pytest.warns(UserWarning, match="box.dat does not hold the unit 'mm'"):
         fs.write(mesh, tmp_path / "box.dat")

@@ -92,7 +92,10 @@ def flat(mesh):
     return [  # files have them by name
         (f[:3], f.time_unit, f.dtype)
         + tuple(
-            (s[:3], sorted([tuple(map(plain, p[:4])) + tuple(map(plain, p.localization or ())) + p[5:] for p in s.parts]))
+            (
+                s[:3],
+                sorted([tuple(map(plain, p[:4])) + tuple(map(plain, p.localization or ())) + p[5:] for p in s.parts]),
+            )
             for s in f.steps
         )
         for f in sorted(mesh.fields, key=lambda f: f.name)
@@ -194,7 +197,15 @@ def test_file_keeps_every_field(tmp_path, make):
 def test_file_keeps_types_of_values(tmp_path, dtype):
     mesh = grid_box((2, 2, 2))
     values = np.linspace(-1e6, 1e6, mesh.node_count).astype(dtype)[:, None]
-    mesh.fields = [fs.Field("V", ("X",), ("",), (fs.FieldStep(-1, -1, 0, (fs.FieldPart("node", "", mesh.node_ids, values),)),), dtype=dtype)]
+    mesh.fields = [
+        fs.Field(
+            "V",
+            ("X",),
+            ("",),
+            (fs.FieldStep(-1, -1, 0, (fs.FieldPart("node", "", mesh.node_ids, values),)),),
+            dtype=dtype,
+        )
+    ]
     fs.write(mesh, tmp_path / "a.med")
     back = fs.read(tmp_path / "a.med").fields[0]
     assert back.dtype == dtype
@@ -265,3 +276,170 @@ def test_integral_of_an_element_field_is_kept_where_elements_are_split(size):
 
     assert out.cell_count > 1.5 * mesh.cell_count
     np.testing.assert_allclose(integral(out), integral(mesh), rtol=1e-9)
+
+
+def test_doubled_nodes_have_what_their_original_has():
+    mesh = box_with_groups()
+    mesh.fields = fields_of(mesh, seed=4)
+    result = fs.crack(mesh, PLANE, name="C")
+    out = result.mesh
+    by_place = {}
+    for number, point in zip(out.node_ids.tolist(), out.points):
+        by_place.setdefault(point.tobytes(), []).append(number)
+    pairs = [numbers for numbers in by_place.values() if len(numbers) == 2]
+    assert len(pairs) == result.report.nodes_doubled > 10
+    p = part(out, "DEPL")
+    values = dict(zip(p.ids.tolist(), map(bytes, p.values)))
+    assert all(values[a] == values[b] for a, b in pairs)
+    record = next(r for r in result.report.fields if r.name == "DEPL")
+    assert record.doubled == 2 * len(pairs) and record.steps == 2
+    assert record.kept + record.doubled + record.made == 2 * out.node_count
+    assert "DEPL (node, 2 steps): kept" in result.report.to_text()
+
+
+def test_lips_of_an_earlier_crack_keep_to_their_own_side():
+    """A field that jumps across the lips, in nodes, elements and integration points, after a crack across them."""
+    first = fs.crack(grid_box(), fs.Plane(origin=(3, 2.5, 2.2), normal=(0, 0, 1)), name="A").mesh
+    up = lambda x: np.repeat((x[..., 2:] > 2.2).astype(float), 2, axis=-1)  # noqa: E731
+    first.fields = fields_of(first, up)
+    # Nodes and corners of elements on the plane belong to the side of their elements.
+    cells, ids = first.cells["tetra"], first.cell_ids["tetra"]
+    above = first.points[cells].mean(axis=1)[:, 2] > 2.2
+    upper = np.zeros(first.node_count, bool)
+    upper[cells[above].ravel()] = True
+    node = np.repeat(upper.astype(float)[:, None], 2, axis=1)
+    corners = np.repeat(np.repeat(above.astype(float)[:, None, None], 4, axis=1), 2, axis=2)
+    fields = {f.name: f for f in first.fields}
+    names = (("X", "Y"), ("", ""))
+    first.fields = [
+        fs.Field("DEPL", *names, (fs.FieldStep(-1, -1, 0, (fs.FieldPart("node", "", first.node_ids, node),)),)),
+        fs.Field("ELNO", *names, (fs.FieldStep(-1, -1, 0, (fs.FieldPart("element nodes", "tetra", ids, corners),)),)),
+        fields["SIEF_ELEM"],
+        fields["SIEF_ELGA"],
+    ]
+    out = fs.crack(first, fs.Plane(origin=(2.9, 2.5, 2), normal=(1, 0.2, 0.1)), name="B").mesh
+    cells = out.cells["tetra"]
+    above = out.points[cells].mean(axis=1)[:, 2] > 2.2
+    for name in ("SIEF_ELEM", "SIEF_ELGA", "ELNO"):
+        values = part(out, name, cell_type="tetra").values
+        expected = np.broadcast_to(above.reshape((-1,) + (1,) * (values.ndim - 1)), values.shape)
+        np.testing.assert_allclose(values, expected, rtol=0, atol=1e-12)
+    upper = np.zeros(out.node_count, bool)
+    upper[cells[above].ravel()] = True
+    np.testing.assert_allclose(part(out, "DEPL").values[:, 0], upper, rtol=0, atol=1e-12)
+
+
+def test_values_that_are_not_there_stay_absent():
+    mesh = box_with_groups()
+    near = mesh.node_ids[mesh.points[:, 0] < 3]
+    values = linear(mesh.points[mesh.points[:, 0] < 3])
+    mesh.fields = [
+        fs.Field("F", ("A", "B"), ("", ""), (fs.FieldStep(1, 1, 1, (fs.FieldPart("node", "", near, values),)),))
+    ]
+    out = fs.crack(mesh, PLANE, name="C")
+    p = part(out.mesh, "F")
+    at = out.mesh.points[rows_of(out.mesh.node_ids, p.ids)]
+    assert 50 < len(p.ids) < out.mesh.node_count and out.report.fields[0].absent > 0
+    assert at[:, 0].max() < 4
+    np.testing.assert_allclose(p.values, linear(at), rtol=0, atol=1e-11)
+
+
+def test_what_is_merged_has_no_values(tmp_path):
+    mesh, rib = grid_box((6, 5, 4)), grid_box((3, 3, 2), (2.0, 2.0, 2.0))
+    mesh.fields = fields_of(mesh)
+    rib = fs.Mesh(rib.points + (2.03, 1.4, 3.98), rib.cells)
+    rib.fields = fields_of(rib)[:1]
+    result = fs.merge(mesh, rib, name="RIB")
+    check_linear(result.mesh, complete=False)
+    added = set(result.mesh.groups["RIB_ADDED", "element"].ids.tolist())
+    assert added and not added & set(part(result.mesh, "SIEF_ELEM", cell_type="tetra").ids.tolist())
+    text = "\n".join(result.report.warnings)
+    assert "the addition's field 'DEPL' is left behind: what is added has no values" in text
+    assert re.search(r"field 'DEPL' \(node\): \d+ new nodes or elements have no value", text)
+    fs.write(result.mesh, tmp_path / "merged.med")
+    assert flat(fs.read(tmp_path / "merged.med"))[0][0] == flat(result.mesh)[0][0]
+
+
+@pytest.mark.parametrize(
+    "operator",
+    [
+        lambda mesh: fs.reshape(mesh, "WALL", by=(0, 0, 0.05), name="R"),
+        lambda mesh: fs.crack(mesh, fs.Faces("MIDDLE"), name="F"),
+        lambda mesh: fs.fillet(mesh, [(6, 0, 0), (6, 2.5, 0), (6, 5, 0)], 0.5, name="E"),
+    ],
+)
+def test_other_operators_carry_fields(operator):
+    mesh = grid_box()
+    top = mesh.node_ids[mesh.points[:, 2] == 4]
+    mesh.add_group("WALL", "node", top)
+    mesh.add_group("MIDDLE", "node", mesh.node_ids[mesh.points[:, 0] == 3])
+    mesh.fields = fields_of(mesh)
+    result = operator(mesh)
+    assert {r.name for r in result.report.fields} == {f.name for f in mesh.fields}
+    assert sum(r.kept for r in result.report.fields) > 0
+    check_linear(result.mesh)
+
+
+def test_other_formats_say_that_fields_are_lost(tmp_path):
+    mesh = grid_box((2, 2, 2))
+    mesh.fields = fields_of(mesh)[:2]
+    for suffix in {e for f in fs.formats() if f.writes for e in f.extensions} - {".med", ".mmed", ".rmed"}:
+        with pytest.warns(UserWarning, match="does not hold .*the field 'DEPL'; the field 'SIEF_ELEM'"):
+            fs.write(mesh, tmp_path / ("a" + suffix))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fs.write(mesh, tmp_path / "a.med")
+
+
+def test_fields_that_do_not_fit_are_refused():
+    mesh = grid_box((2, 2, 2))
+    good = fields_of(mesh)
+    mesh.fields = good
+    step = good[0].steps[0]
+
+    def changed(**changes):
+        return [good[0]._replace(steps=(step._replace(parts=(step.parts[0]._replace(**changes),)),))]
+
+    for fields, error, message in [
+        (changed(ids=mesh.node_ids + 1), fs.Error, "field 'DEPL': the mesh has no node 28"),
+        (
+            changed(values=np.zeros((27, 3))),
+            ValueError,
+            r"field 'DEPL' on 'node' must have the shape \(ids, components\)",
+        ),
+        (changed(support="edge"), fs.Error, "field 'DEPL': unknown support 'edge'"),
+        (changed(values=np.full((27, 2), "x")), TypeError, "values of field 'DEPL' must be float64"),
+        ([good[0]._replace(dtype="int32")], TypeError, "values of field 'DEPL' must be int32"),
+        ([good[0], good[0]], fs.Error, "field 'DEPL': there are two of this name"),
+        (["DEPL"], TypeError, "fields must be Field"),
+    ]:
+        with pytest.raises(error, match=message):
+            mesh.fields = fields
+        assert len(mesh.fields) == len(good)
+    with pytest.raises(ValueError, match="read-only"):
+        mesh.fields[0].steps[0].parts[0].values[0] = 1
+
+
+def test_names_that_med_cannot_hold_are_refused(tmp_path):
+    mesh = grid_box((2, 2, 2))
+    mesh.fields = [fields_of(mesh)[0]._replace(components=("a component of many letters", "B"))]
+    path = tmp_path / "a.med"
+    with pytest.raises(
+        fs.WriteError,
+        match="the component of field 'DEPL' 'a component of many letters': it has 27 bytes, MED allows 16",
+    ):
+        fs.write(mesh, path)
+    assert not path.exists()
+
+
+def test_files_are_as_h5py_reads_them(tmp_path):
+    h5py = pytest.importorskip("h5py", reason="h5py is not installed")
+    mesh = box_with_groups()
+    mesh.fields = fields_of(mesh, seed=5)
+    fs.write(mesh, tmp_path / "a.med")
+    with h5py.File(tmp_path / "a.med") as file:
+        step = file["CHA/DEPL"][f"{1:020d}{0:020d}"]
+        assert step.attrs["PDT"] == 0.5
+        values = step["NOE/MED_NO_PROFILE_INTERNAL/CO"][:].reshape(2, -1).T
+        np.testing.assert_array_equal(values, part(mesh, "DEPL").values)
+        assert file["GAUSS/FPG4"].attrs["NBR"] == 4

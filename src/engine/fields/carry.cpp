@@ -50,8 +50,8 @@ public:
     /// Appends one row as it is.
     void copy(const FieldPart& from, Index row) { take(from, row * from.points, from.points); }
 
-    /// Appends the value of one point: `shares` of points of `from`, counted through all its rows. Of whole numbers that
-    /// of the largest share.
+    /// Appends the value of one point: `shares` of points of `from`, counted through all its rows. Of whole numbers
+    /// that of the largest share.
     void mix(const FieldPart& from, const Shares& shares) {
         if (whole_ || shares.size() == 1) {
             const auto largest = std::ranges::max_element(shares, {}, [](const auto& s) { return s.second; });
@@ -76,7 +76,8 @@ public:
 
 private:
     void take(const FieldPart& from, Index first, Index count) {
-        const auto begin = first * static_cast<Index>(components_), end = begin + count * static_cast<Index>(components_);
+        const auto begin = first * static_cast<Index>(components_),
+                   end = begin + count * static_cast<Index>(components_);
         if (whole_)
             part_.integers.insert(part_.integers.end(), from.integers.begin() + begin, from.integers.begin() + end);
         else
@@ -103,8 +104,12 @@ struct Growing {
 class Carrier {
 public:
     explicit Carrier(const FieldCarrying& c)
-        : lineage_(c.before, c.after, c.stages, c.added), before_(c.before), after_(c.after), numbers_(c.before),
-          after_numbers_(c.after), fields_(*c.before.fields) {}
+        : lineage_(c.before, c.after, c.stages, c.added),
+          before_(c.before),
+          after_(c.after),
+          numbers_(c.before),
+          after_numbers_(c.after),
+          fields_(*c.before.fields) {}
 
     std::shared_ptr<const Fields> run(std::vector<FieldRecord>& records) {
         auto out = std::make_shared<Fields>();
@@ -131,8 +136,8 @@ public:
 private:
     void carry_step(const Field& field, const FieldStep& step, FieldStep& out,
                     std::map<FieldSupport, FieldRecord>& records) {
-        for (const FieldSupport support : {FieldSupport::node, FieldSupport::element, FieldSupport::element_nodes,
-                                           FieldSupport::element_points}) {
+        for (const FieldSupport support :
+             {FieldSupport::node, FieldSupport::element, FieldSupport::element_nodes, FieldSupport::element_points}) {
             std::vector<const FieldPart*> parts;
             for (const FieldPart& part : step.parts)
                 if (part.support == support) parts.push_back(&part);
@@ -150,8 +155,8 @@ private:
     void count_removed(const std::vector<const FieldPart*>& parts, FieldRecord& record) const {
         for (const FieldPart* part : parts)
             for (const Index number : *part->numbers)
-                record.removed += part->support == FieldSupport::node ? !after_numbers_.node(number)
-                                                                      : !after_numbers_.cell(number);
+                record.removed +=
+                    part->support == FieldSupport::node ? !after_numbers_.node(number) : !after_numbers_.cell(number);
     }
 
     static void count_outside(double off, FieldRecord& record) {
@@ -281,8 +286,7 @@ private:
         SparseCheck check(1 << 10);
         for (const Growing::Entry& e : g.entries) {
             check();
-            const FieldLineage::Parent& parent =
-                lineage_.parents(block.type)[static_cast<std::size_t>(e.cell)];
+            const FieldLineage::Parent& parent = lineage_.parents(block.type)[static_cast<std::size_t>(e.cell)];
             g.filling.add_number(block.ids[static_cast<std::size_t>(e.cell)]);
             ++(parent.same ? record.kept : record.parts);
             if (parent.same || e.from->support == FieldSupport::element)
@@ -301,17 +305,47 @@ private:
         std::vector<Index> rows;
     };
 
-    /// Where a point of an element has its values from: the element of the input that it lies in, or else the one that
-    /// it is a part of.
-    std::pair<CellRef, Growing::Entry> source_at(const Vec3& point, const Vec3& middle, CellRef was,
-                                                 const Growing::Entry& e) {
-        const CellRef there = lineage_.element_at(was, point, middle);
-        if (there == was) return {was, e};
-        for (const Source& s : sources_)
-            if (s.part->type == there.type)
-                if (const Index row = s.rows[static_cast<std::size_t>(there.cell)]; row >= 0)
-                    return {there, {e.cell, s.part, row}};
-        return {was, e};
+    /// Where a point of an element has its values from: an element of the input, and shares of what that has.
+    struct PointSource {
+        CellRef cell;
+        std::vector<double> shares;
+        double off = 0;  ///< InElement::outside
+        std::string localization;
+    };
+    /// The same for every step and field on elements' nodes, or points of one localization.
+    using KnownSources = std::map<std::pair<CellType, Index>, std::vector<PointSource>>;
+
+    /// Appends the values of a point, from the element that it lies in or, if that has none, the one that it is a part
+    /// of. `find` gives the shares in either.
+    template <class Find>
+    void add_point(Filling& filling, PointSource& known, const Vec3& at, const Vec3& middle, CellRef was,
+                   const Growing::Entry& e, FieldRecord* record, Find find) {
+        const auto row_in = [&](CellRef cell) -> std::pair<const FieldPart*, Index> {
+            for (const Source& s : sources_)
+                if (s.part->type == cell.type)
+                    if (const Index row = s.rows[static_cast<std::size_t>(cell.cell)]; row >= 0) return {s.part, row};
+            return {e.from, e.row};
+        };
+        if (known.shares.empty()) known.cell = lineage_.element_at(was, at, middle);
+        auto [part, row] = row_in(known.cell);
+        PointSource other;
+        PointSource* source = &known;
+        if (known.cell != was && part == e.from && row == e.row) {
+            // What it lies in has no values.
+            other.cell = was;
+            source = &other;
+        }
+        if (source->shares.empty() || source->localization != part->localization) {
+            source->shares.clear();
+            source->off = 0;
+            find(*source, *part);
+            source->localization = part->localization;
+        }
+        Shares shares;
+        for (std::size_t k = 0; k < source->shares.size(); ++k)
+            shares.emplace_back(row * part->points + static_cast<Index>(k), source->shares[k]);
+        filling.mix(*part, shares);
+        if (record) count_outside(source->off, *record);
     }
 
     Vec3 middle_of(CellRef cell) const {
@@ -325,43 +359,42 @@ private:
         const Vec3 middle = middle_of(now);
         const auto old_nodes = before_.block(was.type).nodes(was.cell);
         const Index first = e.row * e.from->points;
-        double off = 0;
-        for (const Index n : after_.block(now.type).nodes(now.cell)) {
-            const Vec3& at = after_.points[n];
-            const auto in_place =
-                std::ranges::find_if(old_nodes, [&](Index old) { return before_.points[old] == at; });
+        const auto nodes = after_.block(now.type).nodes(now.cell);
+        std::vector<PointSource>& known = at_nodes_[{now.type, now.cell}];
+        known.resize(nodes.size());
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const Vec3& at = after_.points[nodes[k]];
+            const auto in_place = std::ranges::find_if(old_nodes, [&](Index old) { return before_.points[old] == at; });
             if (in_place != old_nodes.end()) {
                 filling.mix(*e.from, {{first + (in_place - old_nodes.begin()), 1.}});
                 continue;
             }
-            const auto [there, source] = source_at(at, middle, was, e);
-            const Index start = source.row * source.from->points;
-            Shares shares;
-            if (const auto in = FieldLineage::shares_in(before_, there, at, off))
-                for (Eigen::Index k = 0; k < in->size(); ++k) shares.emplace_back(start + k, (*in)[k]);
-            else
-                for (Index k = 0; k < source.from->points; ++k)
-                    shares.emplace_back(start + k, 1. / source.from->points);
-            filling.mix(*source.from, shares);
+            add_point(filling, known[k], at, middle, was, e, &record, [&](PointSource& to, const FieldPart& part) {
+                if (const auto in = FieldLineage::shares_in(before_, to.cell, at, to.off))
+                    to.shares.assign(in->begin(), in->end());
+                else
+                    to.shares.assign(static_cast<std::size_t>(part.points), 1. / part.points);
+            });
         }
-        count_outside(off, record);
     }
 
     void at_points(Filling& filling, CellRef now, CellRef was, const Growing::Entry& e) {
         const Eigen::MatrixXd* const to = reference(filling.part().localization);
         const Vec3 middle = middle_of(now);
-        const Index points = filling.part().points;
-        Eigen::Matrix3Xd at = middle.replicate(1, points);
+        const auto points = static_cast<std::size_t>(filling.part().points);
+        Eigen::Matrix3Xd at = middle.replicate(1, filling.part().points);
         if (to) at = places_of(after_, now, *to);
-        for (Index p = 0; p < points; ++p) {
-            const auto [there, source] = source_at(at.col(p), middle, was, e);
-            const Eigen::MatrixXd* const from = reference(source.from->localization);
-            const Index start = source.row * source.from->points, count = source.from->points;
-            Eigen::RowVectorXd weights = Eigen::RowVectorXd::Constant(count, 1. / static_cast<double>(count));
-            if (from && to) weights = linear_shares(places_of(before_, there, *from), at.col(p));
-            Shares shares;
-            for (Index k = 0; k < count; ++k) shares.emplace_back(start + k, weights[k]);
-            filling.mix(*source.from, shares);
+        std::vector<PointSource>& known = at_points_[filling.part().localization][{now.type, now.cell}];
+        known.resize(points);
+        for (std::size_t p = 0; p < points; ++p) {
+            const Vec3 place = at.col(static_cast<Eigen::Index>(p));
+            add_point(filling, known[p], place, middle, was, e, nullptr, [&](PointSource& s, const FieldPart& part) {
+                const Eigen::MatrixXd* const from = reference(part.localization);
+                s.shares.assign(static_cast<std::size_t>(part.points), 1. / part.points);
+                if (!from || !to) return;
+                const Eigen::RowVectorXd weights = linear_shares(places_of(before_, s.cell, *from), place);
+                s.shares.assign(weights.begin(), weights.end());
+            });
         }
     }
 
@@ -372,6 +405,8 @@ private:
     Fields* made_ = nullptr;
     std::map<std::string, std::optional<Eigen::MatrixXd>> references_;
     std::vector<Source> sources_;  // of the support being carried
+    KnownSources at_nodes_;
+    std::map<std::string, KnownSources> at_points_;  // by localization
 };
 
 }  // namespace

@@ -17,22 +17,22 @@ struct FieldRecord {
     std::string name;
     FieldSupport support = FieldSupport::node;
     Index steps = 0;
-    Index kept = 0;     ///< bit for bit: of entities that the operator did not touch
-    Index doubled = 0;  ///< new nodes with their original's value
-    Index parts = 0;    ///< elements that changed or are new: their own or their parent's value, or made of that
-    Index made = 0;     ///< nodes that are new or moved: interpolated at their place
-    Index outside = 0;  ///< of all these, farther off the input than it tells: the nearest point's value
-    Index absent = 0;   ///< new nodes and elements without a value
-    Index removed = 0;  ///< values of nodes and elements that are gone
+    Index kept = 0;       ///< bit for bit: of entities that the operator did not touch
+    Index doubled = 0;    ///< new nodes with their original's value
+    Index parts = 0;      ///< elements that changed or are new: their own or their parent's value, or made of that
+    Index made = 0;       ///< nodes that are new or moved: interpolated at their place
+    Index outside = 0;    ///< of all these, farther off the input than it tells: the nearest point's value
+    Index absent = 0;     ///< new nodes and elements without a value
+    Index removed = 0;    ///< values of nodes and elements that are gone
     double farthest = 0;  ///< how far those outside are off, in the mesh's unit
 };
 
 /// What is to be carried over.
 struct FieldCarrying {
-    const Mesh& before;              ///< with its fields
-    const Mesh& after;               ///< what an operator made of it
-    std::span<const Changes> stages; ///< step by step, as far as known
-    std::optional<GroupIndex> added; ///< group of `after` of elements that are not the input's, if there are any
+    const Mesh& before;               ///< with its fields
+    const Mesh& after;                ///< what an operator made of it
+    std::span<const Changes> stages;  ///< step by step, as far as known
+    std::optional<GroupIndex> added;  ///< group of `after` of elements that are not the input's, if there are any
 };
 
 /// The fields of `before` on `after`. Values of what was not touched stay bit for bit. For the rest:

@@ -19,8 +19,7 @@ std::optional<Eigen::MatrixXd> reference_points(const FieldLocalization& localiz
     Eigen::MatrixXd from(d + 1, t.corners);
     from << nodes.leftCols(t.corners), Eigen::RowVectorXd::Ones(t.corners);
     const Eigen::MatrixXd to = ReferenceElement::of(localization.type).nodes().leftCols(t.corners);
-    const Eigen::MatrixXd map =
-        from.transpose().completeOrthogonalDecomposition().solve(to.transpose()).transpose();
+    const Eigen::MatrixXd map = from.transpose().completeOrthogonalDecomposition().solve(to.transpose()).transpose();
     if ((map * from - to).cwiseAbs().maxCoeff() > 1e-6) return {};
     Eigen::MatrixXd at(d + 1, points);
     at << Eigen::Map<const Eigen::MatrixXd>(localization.points.data(), d, points), Eigen::RowVectorXd::Ones(points);

@@ -53,7 +53,8 @@ std::vector<std::pair<Index, double>> with_nodes(std::span<const Index> nodes, c
 }
 
 Vec3 middle(const Mesh& mesh, CellRef cell) {
-    const auto nodes = mesh.block(cell.type).nodes(cell.cell).first(static_cast<std::size_t>(traits(cell.type).corners));
+    const auto nodes =
+        mesh.block(cell.type).nodes(cell.cell).first(static_cast<std::size_t>(traits(cell.type).corners));
     Vec3 sum = Vec3::Zero();
     for (const Index n : nodes) sum += mesh.points[n];
     return sum / static_cast<double>(nodes.size());
@@ -223,8 +224,7 @@ void FieldLineage::look_around(Found& found, const Vec3& point) {
             for (const Index n :
                  before_.block(c.type).nodes(c.cell).first(static_cast<std::size_t>(traits(c.type).corners)))
                 adjacency_->around(n, [&](CellType type, Index cell) {
-                    if (traits(type).dimension == found.dimension &&
-                        seen.emplace(static_cast<int>(type), cell).second)
+                    if (traits(type).dimension == found.dimension && seen.emplace(static_cast<int>(type), cell).second)
                         next.push_back({type, cell});
                 });
         for (const CellRef& c : next)
@@ -257,8 +257,7 @@ std::optional<FieldLineage::Made> FieldLineage::make(Index node, const std::vect
     return Made{node, with_nodes(nodes, value.shares), with_nodes(nodes, value.cornered), value.outside};
 }
 
-std::optional<Eigen::VectorXd> FieldLineage::shares_in(const Mesh& mesh, CellRef cell, const Vec3& point,
-                                                       double& off) {
+std::optional<Eigen::VectorXd> FieldLineage::shares_in(const Mesh& mesh, CellRef cell, const Vec3& point, double& off) {
     const std::optional<InElement> in = find_in_element(mesh, cell, point);
     if (!in) return {};
     const Value value = value_at(mesh, cell, point, *in);
@@ -310,8 +309,7 @@ void FieldLineage::make_nodes(std::span<const Changes> stages) {
             out.node = n;
             out.doubled = true;
             made_.push_back(std::move(out));
-        } else if (std::optional<Made> out =
-                       parents == around.end() ? std::nullopt : make(n, parents->second)) {
+        } else if (std::optional<Made> out = parents == around.end() ? std::nullopt : make(n, parents->second)) {
             out->doubled = true;
             made_.push_back(std::move(*out));
         } else {

@@ -23,10 +23,11 @@ class FieldLineage {
 public:
     /// A node that is new or has moved, where a field of the input has its value.
     struct Made {
-        Index node;                                          ///< in `after`
-        std::vector<std::pair<Index, double>> shares;        ///< nodes of `before`, by index
-        std::vector<std::pair<Index, double>> corner_shares; ///< the same by the element's corners alone
-        double outside = 0;  ///< how far it is off the input's elements, where their value at the nearest point is taken
+        Index node;                                           ///< in `after`
+        std::vector<std::pair<Index, double>> shares;         ///< nodes of `before`, by index
+        std::vector<std::pair<Index, double>> corner_shares;  ///< the same by the element's corners alone
+        double outside =
+            0;  ///< how far it is off the input's elements, where their value at the nearest point is taken
         bool doubled = false;
     };
     static constexpr Index unknown = -1;
@@ -48,7 +49,8 @@ public:
     /// Those that are `made`, in the order of `after`.
     const std::vector<Made>& made_nodes() const { return made_; }
 
-    /// Index, in the block of parent_type(), of the element of `before` that each is or is a part of; `unknown` if none.
+    /// Index, in the block of parent_type(), of the element of `before` that each is or is a part of; `unknown` if
+    /// none.
     struct Parent {
         CellType type = CellType::vertex;
         Index cell = unknown;

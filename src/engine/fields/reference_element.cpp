@@ -13,29 +13,44 @@ namespace {
 /// Corners of the reference elements, in our order.
 std::vector<Vec3> reference_corners(CellType linear) {
     switch (linear) {
-        case CellType::vertex: return {Vec3::Zero()};
-        case CellType::line: return {{-1, 0, 0}, {1, 0, 0}};
-        case CellType::triangle: return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-        case CellType::quad: return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-        case CellType::tetra: return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        case CellType::pyramid: return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
-        case CellType::wedge: return {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+        case CellType::vertex:
+            return {Vec3::Zero()};
+        case CellType::line:
+            return {{-1, 0, 0}, {1, 0, 0}};
+        case CellType::triangle:
+            return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        case CellType::quad:
+            return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        case CellType::tetra:
+            return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        case CellType::pyramid:
+            return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
+        case CellType::wedge:
+            return {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
         default:
-            return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                    {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+            return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
     }
 }
 
 /// Corners whose middles the nodes in faces and in the volume are, in the order of the nodes.
 std::vector<std::vector<int>> middle_corners(CellType type) {
     switch (type) {
-        case CellType::triangle7: return {{0, 1, 2}};
-        case CellType::quad9: return {{0, 1, 2, 3}};
-        case CellType::wedge18: return {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+        case CellType::triangle7:
+            return {{0, 1, 2}};
+        case CellType::quad9:
+            return {{0, 1, 2, 3}};
+        case CellType::wedge18:
+            return {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
         case CellType::hexahedron27:
-            return {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7},
-                    {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}};
-        default: return {};
+            return {{0, 3, 7, 4},
+                    {1, 2, 6, 5},
+                    {0, 1, 5, 4},
+                    {3, 2, 6, 7},
+                    {0, 1, 2, 3},
+                    {4, 5, 6, 7},
+                    {0, 1, 2, 3, 4, 5, 6, 7}};
+        default:
+            return {};
     }
 }
 
@@ -159,10 +174,10 @@ double ReferenceElement::inside(const Eigen::VectorXd& at) const {
         case Form::product:
             for (const double x : at) out = std::min(out, within(x));
             return out;
-        case Form::prism: return std::min({at[0], at[1], 1 - at[0] - at[1], within(at[2])});
+        case Form::prism:
+            return std::min({at[0], at[1], 1 - at[0] - at[1], within(at[2])});
         default:
-            return std::min(
-                {at[2], (1 - at[2] - std::abs(at[0])) / 2, (1 - at[2] - std::abs(at[1])) / 2});
+            return std::min({at[2], (1 - at[2] - std::abs(at[0])) / 2, (1 - at[2] - std::abs(at[1])) / 2});
     }
 }
 
@@ -172,7 +187,9 @@ Eigen::VectorXd ReferenceElement::clamped(Eigen::VectorXd at) const {
         if (const double sum = part.sum(); sum > 1) part /= sum;
     };
     switch (form_) {
-        case Form::simplex: into_simplex(at.head(at.size())); break;
+        case Form::simplex:
+            into_simplex(at.head(at.size()));
+            break;
         case Form::product:
             for (double& x : at) x = std::clamp(x, -1., 1.);
             break;

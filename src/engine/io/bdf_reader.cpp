@@ -140,8 +140,8 @@ private:
     Vec3 place(Index node, const BdfCard& asked_by) {
         const auto found = grid_of_.find(node);
         if (found == grid_of_.end())
-            source_.fail(asked_by.at, asked_by.name + " names node " + std::to_string(node) +
-                                          ", which the file does not define");
+            source_.fail(asked_by.at,
+                         asked_by.name + " names node " + std::to_string(node) + ", which the file does not define");
         return place(grids_[found->second]);
     }
 
@@ -262,9 +262,9 @@ private:
         for (auto& [property, ids] : properties_) {
             const auto name = names.properties.find(property);
             std::ranges::sort(ids);
-            add_group(property == 0                          ? "CONROD"
+            add_group(property == 0                                             ? "CONROD"
                       : name != names.properties.end() && !name->second.empty() ? name->second
-                                                             : "PID_" + std::to_string(property),
+                                                                                : "PID_" + std::to_string(property),
                       GroupKind::element, std::move(ids), nullptr);
         }
     }
@@ -282,8 +282,10 @@ private:
         std::string more;
         for (const std::string& name : with_more_) more += (more.empty() ? "" : ", ") + name;
         if (!more.empty())
-            remark(nullptr, "what cards of elements have beside nodes and property (orientation, offsets, thickness) is "
-                            "not read: " + more);
+            remark(nullptr,
+                   "what cards of elements have beside nodes and property (orientation, offsets, thickness) is "
+                   "not read: " +
+                       more);
         if (!supports_.empty())
             remark(supports_.front().at, "supports (SPC, SPC1) are read as groups of their nodes alone");
         if (other_statements_ > 0)
@@ -291,8 +293,9 @@ private:
                                 std::to_string(other_statements_) + " other statements");
         for (const auto& [name, where] : rest_) {
             const std::string_view what = bdf_description(name);
-            remark(where.first, name + " is not read" + (what.empty() ? "" : ": " + std::string(what)) +
-                                    (where.second > 1 ? " (there are " + std::to_string(where.second) + " of them)" : ""));
+            remark(where.first,
+                   name + " is not read" + (what.empty() ? "" : ": " + std::string(what)) +
+                       (where.second > 1 ? " (there are " + std::to_string(where.second) + " of them)" : ""));
         }
     }
 

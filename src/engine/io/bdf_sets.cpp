@@ -82,8 +82,7 @@ std::vector<Index> BdfNumbers::among(const std::vector<Index>& sorted) const {
         if (std::ranges::binary_search(sorted, n)) out.push_back(n);
     for (const Range& r : ranges_)
         for (auto at = std::ranges::lower_bound(sorted, r.first); at != sorted.end() && *at <= r.last; ++at)
-            if ((*at - r.first) % r.step == 0 && std::ranges::find(r.except, *at) == r.except.end())
-                out.push_back(*at);
+            if ((*at - r.first) % r.step == 0 && std::ranges::find(r.except, *at) == r.except.end()) out.push_back(*at);
     std::ranges::sort(out);
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;

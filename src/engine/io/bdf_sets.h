@@ -35,7 +35,7 @@ private:
 struct BdfSet {
     Index number = 0;
     const char* at = nullptr;
-    std::optional<BdfNumbers> numbers;  ///< none where they are all, or no whole numbers
+    std::optional<BdfNumbers> numbers;           ///< none where they are all, or no whole numbers
     bool of_nodes = false, of_elements = false;  ///< as output requests use it
 };
 
@@ -49,9 +49,9 @@ struct BdfNames {
         GroupKind kind;
         std::string name;
     };
-    std::vector<Set> sets;                     ///< of HyperMesh, in the file's order
-    std::map<Index, std::string> properties;   ///< by number
-    bool stand_ins = false;                    ///< properties stand for no groups (write_bdf())
+    std::vector<Set> sets;                    ///< of HyperMesh, in the file's order
+    std::map<Index, std::string> properties;  ///< by number
+    bool stand_ins = false;                   ///< properties stand for no groups (write_bdf())
 };
 BdfNames bdf_names(const BdfSource& source);
 

@@ -133,8 +133,9 @@ bool BdfSource::next(BdfCard& card) {
                        (line[0] == ' ' && bdf_trim(line.substr(0, std::min(line.find(','), small_bdf_width))).empty()));
         if (card.at && !blank && !goes_on) break;
         if (goes_on && !card.at)
-            fail(at_, "this line goes on with a card, but there is none before it: continuation lines have to follow "
-                      "their card; have the deck written in this order");
+            fail(at_,
+                 "this line goes on with a card, but there is none before it: continuation lines have to follow "
+                 "their card; have the deck written in this order");
         if (!blank) {
             if (!card.at) card.at = at_;
             add_line(line, card);
@@ -147,8 +148,7 @@ bool BdfSource::next(BdfCard& card) {
         at_ = end_;
         return false;
     }
-    if (card.name == "INCLUDE")
-        fail(card.at, "INCLUDE is not followed: put the file's lines in its place");
+    if (card.name == "INCLUDE") fail(card.at, "INCLUDE is not followed: put the file's lines in its place");
     if (card.name == "BEGIN")
         fail(card.at, "this deck has several parts of bulk data (superelements), which are not read; export one");
     return true;
@@ -174,9 +174,8 @@ void BdfSource::add_free(std::string_view line, bool first, BdfCard& card) const
     const bool large = words[0].find('*') != words[0].npos;
     if (first) card.name = bdf_capitals(bdf_trim(words[0].substr(0, words[0].find('*'))));
     const std::size_t count = large ? 4 : 8;
-    if (words.size() > count + 2 &&
-        std::any_of(words.begin() + static_cast<std::ptrdiff_t>(count) + 2, words.end(),
-                    [](std::string_view w) { return !w.empty(); }))
+    if (words.size() > count + 2 && std::any_of(words.begin() + static_cast<std::ptrdiff_t>(count) + 2, words.end(),
+                                                [](std::string_view w) { return !w.empty(); }))
         fail(line.data(), "this line has more than " + std::to_string(count) + " fields and a mark");
     for (std::size_t k = 1; k <= count; ++k) card.fields.push_back(k < words.size() ? words[k] : std::string_view());
 }
@@ -206,14 +205,13 @@ void BdfSource::add_columns(std::string_view line, bool first, BdfCard& card) co
 
 Index BdfSource::integer(const BdfCard& card, std::size_t field, const char* what) const {
     std::string_view text = card.field(field);
-    if (text.empty())
-        fail(card.at, card.name + " lacks " + what + " (field " + std::to_string(field + 2) + ")");
+    if (text.empty()) fail(card.at, card.name + " lacks " + what + " (field " + std::to_string(field + 2) + ")");
     if (text.starts_with('+')) text.remove_prefix(1);
     Index value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || stop != text.data() + text.size())
-        fail(card.at, card.name + ": " + what + " (field " + std::to_string(field + 2) + ") is " + shown_bdf_field(text) +
-                          ", not a whole number");
+        fail(card.at, card.name + ": " + what + " (field " + std::to_string(field + 2) + ") is " +
+                          shown_bdf_field(text) + ", not a whole number");
     return value;
 }
 
@@ -226,8 +224,8 @@ double BdfSource::real(const BdfCard& card, std::size_t field, const char* what)
     if (text.empty()) return 0;
     const std::optional<double> value = bdf_real(text);
     if (!value)
-        fail(card.at, card.name + ": " + what + " (field " + std::to_string(field + 2) + ") is " + shown_bdf_field(text) +
-                          ", not a number");
+        fail(card.at, card.name + ": " + what + " (field " + std::to_string(field + 2) + ") is " +
+                          shown_bdf_field(text) + ", not a number");
     return *value;
 }
 

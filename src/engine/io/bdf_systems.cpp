@@ -42,7 +42,8 @@ bool BdfSystems::add(const BdfCard& card) {
 
 void BdfSystems::resolve(Index number, System& s) {
     if (s.open)
-        source_.fail(s.card.at, "coordinate system " + std::to_string(number) + " is given in itself, by way of others");
+        source_.fail(s.card.at,
+                     "coordinate system " + std::to_string(number) + " is given in itself, by way of others");
     s.open = true;
     Vec3 points[3];
     if (s.card.name[4] == '1') {

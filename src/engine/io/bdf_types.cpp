@@ -11,33 +11,22 @@ using T = CellType;
 
 /// Of cards of one type the first is written.
 constexpr BdfElement bdf_elements[] = {
-    {"CBAR", T::line, T::line, true},
-    {"CBEAM", T::line, T::line, true},
-    {"CROD", T::line, T::line, true},
-    {"CTUBE", T::line, T::line, true},
-    {"CBEND", T::line, T::line, true},
-    {"CONROD", T::line, T::line, false},
-    {"CBEAM3", T::line3, T::line3, true},
-    {"CTRIA3", T::triangle, T::triangle, true},
-    {"CTRIAR", T::triangle, T::triangle, true},
-    {"CTRIA6", T::triangle, T::triangle6, true},
-    {"CQUAD4", T::quad, T::quad, true},
-    {"CQUADR", T::quad, T::quad, true},
-    {"CSHEAR", T::quad, T::quad, true},
-    {"CQUAD8", T::quad, T::quad8, true},
-    {"CQUAD", T::quad, T::quad9, true},
-    {"CTETRA", T::tetra, T::tetra10, true},
-    {"CPYRAM", T::pyramid, T::pyramid13, true},
-    {"CPYRA", T::pyramid, T::pyramid13, true},
-    {"CPENTA", T::wedge, T::wedge15, true},
-    {"CHEXA", T::hexahedron, T::hexahedron20, true},
+    {"CBAR", T::line, T::line, true},           {"CBEAM", T::line, T::line, true},
+    {"CROD", T::line, T::line, true},           {"CTUBE", T::line, T::line, true},
+    {"CBEND", T::line, T::line, true},          {"CONROD", T::line, T::line, false},
+    {"CBEAM3", T::line3, T::line3, true},       {"CTRIA3", T::triangle, T::triangle, true},
+    {"CTRIAR", T::triangle, T::triangle, true}, {"CTRIA6", T::triangle, T::triangle6, true},
+    {"CQUAD4", T::quad, T::quad, true},         {"CQUADR", T::quad, T::quad, true},
+    {"CSHEAR", T::quad, T::quad, true},         {"CQUAD8", T::quad, T::quad8, true},
+    {"CQUAD", T::quad, T::quad9, true},         {"CTETRA", T::tetra, T::tetra10, true},
+    {"CPYRAM", T::pyramid, T::pyramid13, true}, {"CPYRA", T::pyramid, T::pyramid13, true},
+    {"CPENTA", T::wedge, T::wedge15, true},     {"CHEXA", T::hexahedron, T::hexahedron20, true},
 };
 
-constexpr std::string_view foreign_bdf[] = {"CTRIAX",   "CTRIAX6",  "CTRAX3",   "CTRAX6",   "CQUADX",  "CQUADX4", "CQUADX8",
-                                        "CPLSTN3",  "CPLSTN4",  "CPLSTN6",  "CPLSTN8",  "CPLSTS3", "CPLSTS4", "CPLSTS6",
-                                        "CPLSTS8",  "CHEXCZ",   "CPENTCZ",  "CIFHEX",   "CIFPENT", "CIFQUAD", "CIFQDX",
-                                        "CAXIFi",   "CCONEAX",  "CTRIM6",   "CHEXA1",   "CHEXA2",  "CIHEX1",  "CIHEX2",
-                                        "CQUADTS",  "CTRIATS"};
+constexpr std::string_view foreign_bdf[] = {
+    "CTRIAX",  "CTRIAX6", "CTRAX3",  "CTRAX6",  "CQUADX",  "CQUADX4", "CQUADX8", "CPLSTN3", "CPLSTN4", "CPLSTN6",
+    "CPLSTN8", "CPLSTS3", "CPLSTS4", "CPLSTS6", "CPLSTS8", "CHEXCZ",  "CPENTCZ", "CIFHEX",  "CIFPENT", "CIFQUAD",
+    "CIFQDX",  "CAXIFi",  "CCONEAX", "CTRIM6",  "CHEXA1",  "CHEXA2",  "CIHEX1",  "CIHEX2",  "CQUADTS", "CTRIATS"};
 
 constexpr std::pair<std::string_view, std::string_view> bdf_descriptions[] = {
     {"CELAS1", "springs"},
@@ -82,8 +71,8 @@ const BdfElement* bdf_element(std::string_view name) {
 }
 
 std::string_view bdf_card(CellType type) {
-    const auto* const found = std::ranges::find_if(
-        bdf_elements, [&](const BdfElement& e) { return e.type == type || e.quadratic == type; });
+    const auto* const found =
+        std::ranges::find_if(bdf_elements, [&](const BdfElement& e) { return e.type == type || e.quadratic == type; });
     return found == std::end(bdf_elements) ? std::string_view() : found->name;
 }
 

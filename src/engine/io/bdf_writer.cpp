@@ -99,9 +99,8 @@ private:
                              ", the mesh has " + std::to_string(largest));
         for (const Group& group : mesh_.groups)
             if (!group.hidden && group.kind != GroupKind::facet &&
-                (group.name.empty() || std::ranges::any_of(group.name, [](char c) {
-                    return c == '"' || (c >= 0 && c < ' ');
-                })))
+                (group.name.empty() ||
+                 std::ranges::any_of(group.name, [](char c) { return c == '"' || (c >= 0 && c < ' '); })))
                 throw WriteError(shown_ +
                                  ": names of groups in Nastran decks are not empty and have no quotation marks or "
                                  "control characters; rename the group '" +

@@ -77,12 +77,23 @@ private:
         }
         field.time_unit = cut_out(time_unit, 0, MED_SNAME_SIZE);
         switch (type) {
-            case MED_FLOAT64: field.values = FieldValues::float64; break;
-            case MED_FLOAT32: field.values = FieldValues::float32; break;
-            case MED_INT32: field.values = FieldValues::int32; break;
-            case MED_INT64: field.values = FieldValues::int64; break;
-            case MED_INT: field.values = sizeof(med_int) == 4 ? FieldValues::int32 : FieldValues::int64; break;
-            default: throw Unread{"its values are neither real nor whole numbers"};
+            case MED_FLOAT64:
+                field.values = FieldValues::float64;
+                break;
+            case MED_FLOAT32:
+                field.values = FieldValues::float32;
+                break;
+            case MED_INT32:
+                field.values = FieldValues::int32;
+                break;
+            case MED_INT64:
+                field.values = FieldValues::int64;
+                break;
+            case MED_INT:
+                field.values = sizeof(med_int) == 4 ? FieldValues::int32 : FieldValues::int64;
+                break;
+            default:
+                throw Unread{"its values are neither real nor whole numbers"};
         }
         for (int s = 1; s <= steps; ++s) read_step(s, field);
         return !source_.old || steps == 0 || !field.steps.empty();
@@ -138,22 +149,22 @@ private:
         std::string mesh = source_.mesh, profile(text_size, '\0'), localization(text_size, '\0');
         mesh.resize(text_size);
         const auto number = static_cast<med_int>(step.number), iteration = static_cast<med_int>(step.iteration);
-        const med_int profiles =
-            source_.old ? MEDfield23nProfile(fid_, field.name.c_str(), number, iteration, entity, geometry, 1,
-                                             mesh.data(), profile.data(), localization.data())
-                        : MEDfieldnProfile(fid_, field.name.c_str(), number, iteration, entity, geometry,
-                                           profile.data(), localization.data());
+        const med_int profiles = source_.old
+                                     ? MEDfield23nProfile(fid_, field.name.c_str(), number, iteration, entity, geometry,
+                                                          1, mesh.data(), profile.data(), localization.data())
+                                     : MEDfieldnProfile(fid_, field.name.c_str(), number, iteration, entity, geometry,
+                                                        profile.data(), localization.data());
         if (source_.old && profiles > 0 && source_.mesh != mesh.c_str()) return;
         for (int p = 1; p <= profiles; ++p) {
             Chunk chunk;
             std::string name(text_size, '\0'), at(text_size, '\0');
-            chunk.count = source_.old
-                              ? MEDfield23nValueWithProfile(fid_, field.name.c_str(), number, iteration, entity,
-                                                            geometry, source_.mesh.c_str(), p, MED_COMPACT_STMODE,
-                                                            name.data(), &chunk.size, at.data(), &chunk.points)
-                              : MEDfieldnValueWithProfile(fid_, field.name.c_str(), number, iteration, entity, geometry,
-                                                          p, MED_COMPACT_STMODE, name.data(), &chunk.size, at.data(),
-                                                          &chunk.points);
+            chunk.count =
+                source_.old
+                    ? MEDfield23nValueWithProfile(fid_, field.name.c_str(), number, iteration, entity, geometry,
+                                                  source_.mesh.c_str(), p, MED_COMPACT_STMODE, name.data(), &chunk.size,
+                                                  at.data(), &chunk.points)
+                    : MEDfieldnValueWithProfile(fid_, field.name.c_str(), number, iteration, entity, geometry, p,
+                                                MED_COMPACT_STMODE, name.data(), &chunk.size, at.data(), &chunk.points);
             if (chunk.count == 0) continue;
             chunk.profile = name.c_str();
             chunk.localization = at.c_str();
@@ -165,7 +176,8 @@ private:
                         const CellTraits* type, const Chunk& chunk) {
         FieldPart part;
         const std::string who = type ? std::string(med_type(type->type).name) + " elements" : "nodes";
-        if (chunk.count < 0 || chunk.points < 1 || chunk.points > 10000) throw Unread{"its values on " + who + " are damaged"};
+        if (chunk.count < 0 || chunk.points < 1 || chunk.points > 10000)
+            throw Unread{"its values on " + who + " are damaged"};
         if (type) part.type = type->type;
         part.points = static_cast<int>(chunk.points);
         part.localization = chunk.localization;
@@ -284,13 +296,12 @@ private:
         const auto number = static_cast<med_int>(step.number), iteration = static_cast<med_int>(step.iteration);
         auto* const bytes = reinterpret_cast<unsigned char*>(raw.data());
         const med_err read =
-            source_.old
-                ? MEDfield23ValueWithProfileRd(fid_, field.name.c_str(), number, iteration, entity, geometry,
-                                               source_.mesh.c_str(), MED_COMPACT_STMODE, profile.c_str(),
-                                               MED_FULL_INTERLACE, MED_ALL_CONSTITUENT, bytes)
-                : MEDfieldValueWithProfileRd(fid_, field.name.c_str(), number, iteration, entity, geometry,
-                                             MED_COMPACT_STMODE, profile.c_str(), MED_FULL_INTERLACE,
-                                             MED_ALL_CONSTITUENT, bytes);
+            source_.old ? MEDfield23ValueWithProfileRd(fid_, field.name.c_str(), number, iteration, entity, geometry,
+                                                       source_.mesh.c_str(), MED_COMPACT_STMODE, profile.c_str(),
+                                                       MED_FULL_INTERLACE, MED_ALL_CONSTITUENT, bytes)
+                        : MEDfieldValueWithProfileRd(fid_, field.name.c_str(), number, iteration, entity, geometry,
+                                                     MED_COMPACT_STMODE, profile.c_str(), MED_FULL_INTERLACE,
+                                                     MED_ALL_CONSTITUENT, bytes);
         if (read < 0) throw Unread{"its values on " + who + " are damaged"};
         out.assign(raw.begin(), raw.end());
     }
@@ -303,10 +314,18 @@ private:
             read_as<Stored>(field, step, entity, geometry, profile, who, count, out);
         };
         switch (field.values) {
-            case FieldValues::float64: as(double(), part.reals); break;
-            case FieldValues::float32: as(float(), part.reals); break;
-            case FieldValues::int32: as(std::int32_t(), part.integers); break;
-            case FieldValues::int64: as(std::int64_t(), part.integers); break;
+            case FieldValues::float64:
+                as(double(), part.reals);
+                break;
+            case FieldValues::float32:
+                as(float(), part.reals);
+                break;
+            case FieldValues::int32:
+                as(std::int32_t(), part.integers);
+                break;
+            case FieldValues::int64:
+                as(std::int64_t(), part.integers);
+                break;
         }
     }
 

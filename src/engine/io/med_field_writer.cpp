@@ -55,9 +55,8 @@ private:
             for (std::size_t a = 0; a < d; ++a)
                 element[static_cast<std::size_t>(type.order[k]) * d + a] = l.element[k * d + a];
         check(MEDlocalizationWr(target_.fid, fitting(l.name, MED_NAME_SIZE, "the localization").c_str(), type.geometry,
-                                l.dimension, element.data(), MED_FULL_INTERLACE,
-                                static_cast<med_int>(l.weights.size()), l.points.data(), l.weights.data(),
-                                MED_NO_INTERPOLATION, MED_NO_MESH_SUPPORT),
+                                l.dimension, element.data(), MED_FULL_INTERLACE, static_cast<med_int>(l.weights.size()),
+                                l.points.data(), l.weights.data(), MED_NO_INTERPOLATION, MED_NO_MESH_SUPPORT),
               "the localization '" + l.name + "'");
     }
 
@@ -150,10 +149,14 @@ private:
     std::vector<unsigned char> bytes_of(const Field& field, const FieldPart& part, const Choice& choice) const {
         const std::size_t components = field.components.size();
         switch (field.values) {
-            case FieldValues::float64: return bytes_of<double>(part, choice, components, part.reals);
-            case FieldValues::float32: return bytes_of<float>(part, choice, components, part.reals);
-            case FieldValues::int32: return bytes_of<std::int32_t>(part, choice, components, part.integers);
-            default: return bytes_of<std::int64_t>(part, choice, components, part.integers);
+            case FieldValues::float64:
+                return bytes_of<double>(part, choice, components, part.reals);
+            case FieldValues::float32:
+                return bytes_of<float>(part, choice, components, part.reals);
+            case FieldValues::int32:
+                return bytes_of<std::int32_t>(part, choice, components, part.integers);
+            default:
+                return bytes_of<std::int64_t>(part, choice, components, part.integers);
         }
     }
 

@@ -34,10 +34,10 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
 
     A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
     them in place. A deck of parts and instances (Abaqus/CAE) becomes a flat one, with a UserWarning that says how its
-    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. What a .msh, .unv or .bdf holds
-    beside a mesh with groups is told in a UserWarning, too (:attr:`Mesh.input_warnings`). Of a .med with several meshes `mesh`
-    names the one; without it the first is read, with a UserWarning that lists them, as what is written later holds that
-    one alone (:func:`meshes_in`).
+    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. What a file of another format holds
+    beside a mesh with groups and, in a .med, fields is told in a UserWarning, too (:attr:`Mesh.input_warnings`). Of a
+    .med with several meshes `mesh` names the one; without it the first is read, with a UserWarning that lists them, as
+    what is written later holds that one alone (:func:`meshes_in`).
 
     Raises :class:`femscalpel.ReadError`, which names the file and, for text, the line.
     """
