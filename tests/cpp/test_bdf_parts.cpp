@@ -76,13 +76,14 @@ TEST(BdfNamesOfComments, AreThoseOfPreprocessors) {
     EXPECT_EQ(names.sets[0].kind, GroupKind::node);
     EXPECT_EQ(names.sets[1].number, 5);
     EXPECT_EQ(names.sets[1].kind, GroupKind::element);
-    EXPECT_THAT(names.properties, ElementsAre(std::pair(3, "the web"), std::pair(8, "flange"),
-                                              std::pair(11, "bottom plate")));
+    EXPECT_THAT(names.properties,
+                ElementsAre(std::pair(3, "the web"), std::pair(8, "flange"), std::pair(11, "bottom plate")));
     EXPECT_FALSE(names.stand_ins);
 }
 
 TEST(BdfCards, AreReadOneByOne) {
-    const Deck deck("SOL 101\nCEND\nTITLE = x\nSET 1 = 1,\n 2\nBEGIN BULK\nGRID,1,,2.\n$ no card\n\nFORCE         1\nENDDATA\nx");
+    const Deck deck(
+        "SOL 101\nCEND\nTITLE = x\nSET 1 = 1,\n 2\nBEGIN BULK\nGRID,1,,2.\n$ no card\n\nFORCE         1\nENDDATA\nx");
     BdfSource source(deck.path);
     BdfCard card;
     ASSERT_TRUE(source.next(card));

@@ -33,7 +33,8 @@ TEST(ReferenceElement, FunctionsAreOneAtTheirNodeAndAddUpToOne) {
         for (int k = 0; k < t.nodes; ++k) {
             const Eigen::VectorXd values = element.values(element.nodes().col(k));
             EXPECT_LT((values - Eigen::VectorXd::Unit(t.nodes, k)).cwiseAbs().maxCoeff(), 1e-14) << t.name << " " << k;
-            if (t.dimension > 0) EXPECT_NEAR(element.inside(element.nodes().col(k)), k < t.corners ? 0 : 0.25, 0.251);
+            const double inside = element.inside(element.nodes().col(k));
+            EXPECT_TRUE(t.dimension == 0 || std::abs(inside) < 1e-15 || (k >= t.corners && inside < 0.6)) << inside;
         }
         if (t.dimension == 0) continue;
         for (int k = 0; k < 20; ++k) {

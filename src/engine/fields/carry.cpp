@@ -371,11 +371,19 @@ private:
             }
             add_point(filling, known[k], at, middle, was, e, &record, [&](PointSource& to, const FieldPart& part) {
                 if (const auto in = FieldLineage::shares_in(before_, to.cell, at, to.off))
-                    to.shares.assign(in->begin(), in->end());
+                    to.shares = *in;
                 else
                     to.shares.assign(static_cast<std::size_t>(part.points), 1. / part.points);
             });
         }
+    }
+
+    /// Of the values at an element's integration points, which serves all its parts.
+    const LinearFit& fit_of(CellRef cell, const std::string& localization, const Eigen::MatrixXd& points) {
+        auto& known = fits_[localization];
+        const auto found = known.find({cell.type, cell.cell});
+        if (found != known.end()) return found->second;
+        return known.emplace(std::pair(cell.type, cell.cell), places_of(before_, cell, points)).first->second;
     }
 
     void at_points(Filling& filling, CellRef now, CellRef was, const Growing::Entry& e) {
@@ -390,10 +398,10 @@ private:
             const Vec3 place = at.col(static_cast<Eigen::Index>(p));
             add_point(filling, known[p], place, middle, was, e, nullptr, [&](PointSource& s, const FieldPart& part) {
                 const Eigen::MatrixXd* const from = reference(part.localization);
-                s.shares.assign(static_cast<std::size_t>(part.points), 1. / part.points);
-                if (!from || !to) return;
-                const Eigen::RowVectorXd weights = linear_shares(places_of(before_, s.cell, *from), place);
-                s.shares.assign(weights.begin(), weights.end());
+                if (from && to)
+                    s.shares = fit_of(s.cell, part.localization, *from).shares(place);
+                else
+                    s.shares.assign(static_cast<std::size_t>(part.points), 1. / part.points);
             });
         }
     }
@@ -406,7 +414,8 @@ private:
     std::map<std::string, std::optional<Eigen::MatrixXd>> references_;
     std::vector<Source> sources_;  // of the support being carried
     KnownSources at_nodes_;
-    std::map<std::string, KnownSources> at_points_;  // by localization
+    std::map<std::string, KnownSources> at_points_;                                // by localization
+    std::map<std::string, std::map<std::pair<CellType, Index>, LinearFit>> fits_;  // by localization
 };
 
 }  // namespace

@@ -43,19 +43,24 @@ FieldLocalization middle_point(CellType type) {
     return out;
 }
 
-Eigen::MatrixXd linear_shares(const Eigen::Matrix3Xd& known, const Eigen::Matrix3Xd& wanted) {
+LinearFit::LinearFit(const Eigen::Matrix3Xd& known)
+    : middle_(known.rowwise().mean()), slopes_(Eigen::Matrix3Xd::Zero(3, known.cols())) {
     const Eigen::Index n = known.cols();
-    const Vec3 middle = known.rowwise().mean();
-    const Eigen::Matrix3Xd around = known.colwise() - middle, there = wanted.colwise() - middle;
-    Eigen::MatrixXd out = Eigen::MatrixXd::Constant(wanted.cols(), n, 1. / static_cast<double>(n));
-    if (n == 1) return out;
+    if (n == 1) return;
     // Around the middle the mean is the constant part; slopes are zero across what the points span.
+    const Eigen::Matrix3Xd around = known.colwise() - middle_;
     Eigen::JacobiSVD<Eigen::MatrixXd> solver(around.transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
     solver.setThreshold(1e-9);
     Eigen::MatrixXd centred = Eigen::MatrixXd::Identity(n, n);
     centred.array() -= 1. / static_cast<double>(n);
-    const Eigen::MatrixXd slopes = solver.solve(centred);  // 3 x n
-    return out + there.transpose() * slopes;
+    slopes_ = solver.solve(centred);
+}
+
+std::vector<double> LinearFit::shares(const Vec3& wanted) const {
+    const Eigen::RowVectorXd out =
+        (wanted - middle_).transpose() * slopes_ +
+        Eigen::RowVectorXd::Constant(slopes_.cols(), 1. / static_cast<double>(slopes_.cols()));
+    return {out.begin(), out.end()};
 }
 
 Eigen::Matrix3Xd places_of(const Mesh& mesh, CellRef cell, const Eigen::MatrixXd& points) {

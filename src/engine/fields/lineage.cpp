@@ -22,7 +22,7 @@ constexpr int most_rings = 4;
 
 /// What a place in an element means for a field's value.
 struct Value {
-    Eigen::VectorXd shares, cornered;  ///< of nodes, and of corners alone
+    InElement::PerNode shares, cornered;  ///< of nodes, and of corners alone
     double outside = 0;
 };
 
@@ -33,7 +33,7 @@ Value value_at(const Mesh& mesh, CellRef cell, const Vec3& at, const InElement& 
     Value out{in.shares, in.cornered, 0};
     if (!beyond && in.inside < rounding) {
         // Curved elements' functions go astray outside; a linear field is what their corners have, there, too.
-        out.shares = Eigen::VectorXd::Zero(in.shares.size());
+        out.shares.setZero();
         out.shares.head(in.cornered.size()) = in.cornered;
     }
     if (beyond) {
@@ -45,7 +45,7 @@ Value value_at(const Mesh& mesh, CellRef cell, const Vec3& at, const InElement& 
     return out;
 }
 
-std::vector<std::pair<Index, double>> with_nodes(std::span<const Index> nodes, const Eigen::VectorXd& shares) {
+std::vector<std::pair<Index, double>> with_nodes(std::span<const Index> nodes, const InElement::PerNode& shares) {
     std::vector<std::pair<Index, double>> out;
     for (Eigen::Index k = 0; k < shares.size(); ++k)
         if (shares[k] != 0) out.emplace_back(nodes[static_cast<std::size_t>(k)], shares[k]);
@@ -257,12 +257,13 @@ std::optional<FieldLineage::Made> FieldLineage::make(Index node, const std::vect
     return Made{node, with_nodes(nodes, value.shares), with_nodes(nodes, value.cornered), value.outside};
 }
 
-std::optional<Eigen::VectorXd> FieldLineage::shares_in(const Mesh& mesh, CellRef cell, const Vec3& point, double& off) {
+std::optional<std::vector<double>> FieldLineage::shares_in(const Mesh& mesh, CellRef cell, const Vec3& point,
+                                                           double& off) {
     const std::optional<InElement> in = find_in_element(mesh, cell, point);
     if (!in) return {};
     const Value value = value_at(mesh, cell, point, *in);
     off = std::max(off, value.outside);
-    return value.shares;
+    return std::vector<double>(value.shares.begin(), value.shares.end());
 }
 
 void FieldLineage::make_nodes(std::span<const Changes> stages) {

@@ -64,7 +64,7 @@ public:
 
     /// Shares of an element's nodes in a value at a point, as they are of Made; `off` becomes the larger of itself and
     /// how far the point is beyond what the element tells of. Nothing for an element of no size.
-    static std::optional<Eigen::VectorXd> shares_in(const Mesh& mesh, CellRef cell, const Vec3& point, double& off);
+    static std::optional<std::vector<double>> shares_in(const Mesh& mesh, CellRef cell, const Vec3& point, double& off);
 
     /// An element of `before` and where a point is in it.
     struct Found;

@@ -232,15 +232,24 @@ bool find_foot(const ReferenceElement& element, const Eigen::MatrixXd& nodes, co
     return Eigen::VectorXd(slopes.colPivHouseholderQr().solve(off)).norm() < 1e-10;
 }
 
-/// Of a straight simplex with corners at 0 and 1.
-bool find_in_simplex(const Eigen::MatrixXd& corners, const Vec3& point, Eigen::VectorXd& at) {
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, corners.cols() - 1);
-    for (Eigen::Index k = 0; k < edges.cols(); ++k) edges.col(k) = corners.col(k + 1) - corners.col(0);
-    const auto solver = edges.colPivHouseholderQr();
-    if (solver.rank() < edges.cols()) return false;
-    at = solver.solve(point - corners.col(0));
-    at += solver.solve(point - corners.col(0) - edges * at);
-    return at.allFinite();
+/// In a simplex of first order, whose corners are at 0 and 1: false if it has no size.
+template <int dimension>
+bool find_in_simplex(const Mesh& mesh, std::span<const Index> nodes, const Vec3& point, InElement& out) {
+    using Edges = Eigen::Matrix<double, 3, dimension>;
+    Edges edges;
+    for (int k = 0; k < dimension; ++k) edges.col(k) = mesh.points[nodes[k + 1]] - mesh.points[nodes[0]];
+    const Vec3 way = point - mesh.points[nodes[0]];
+    const Eigen::ColPivHouseholderQR<Edges> solver(edges);
+    if (solver.rank() < dimension) return false;
+    Eigen::Matrix<double, dimension, 1> at = solver.solve(way);
+    at += solver.solve(way - edges * at);
+    if (!at.allFinite()) return false;
+    out.at = at;
+    out.cornered.resize(dimension + 1);
+    out.cornered << 1 - at.sum(), at;
+    out.inside = std::min(1.0, out.cornered.minCoeff());
+    out.shares = out.cornered;
+    return true;
 }
 
 }  // namespace
@@ -248,16 +257,26 @@ bool find_in_simplex(const Eigen::MatrixXd& corners, const Vec3& point, Eigen::V
 std::optional<InElement> find_in_element(const Mesh& mesh, CellRef cell, const Vec3& point) {
     const CellTraits& t = traits(cell.type);
     if (t.dimension == 0) return {};
-    const ReferenceElement &element = ReferenceElement::of(cell.type), &straight = ReferenceElement::of(t.linear);
-    const Eigen::MatrixXd nodes = places(mesh, mesh.block(cell.type).nodes(cell.cell));
-    const Eigen::MatrixXd corners = nodes.leftCols(t.corners);
-    Eigen::VectorXd first = straight.nodes().rowwise().mean();
+    const auto numbers = mesh.block(cell.type).nodes(cell.cell);
     InElement out;
-    const bool simplex = t.linear == CellType::triangle || t.linear == CellType::tetra;
-    if (!(simplex ? find_in_simplex(corners, point, first) : find_foot(straight, corners, point, first))) return {};
-    out.cornered = straight.values(first);
-    out.at = first;
-    if (t.nodes > t.corners && !find_foot(element, nodes, point, out.at)) out.at = first;
+    const bool tetra = t.linear == CellType::tetra, simplex = tetra || t.linear == CellType::triangle;
+    if (simplex) {
+        if (!(tetra ? find_in_simplex<3>(mesh, numbers, point, out) : find_in_simplex<2>(mesh, numbers, point, out)))
+            return {};
+        if (t.nodes == t.corners) return out;
+    }
+    const ReferenceElement& element = ReferenceElement::of(cell.type);
+    const Eigen::MatrixXd nodes = places(mesh, numbers);
+    Eigen::VectorXd at;
+    if (!simplex) {
+        const ReferenceElement& straight = ReferenceElement::of(t.linear);
+        at = straight.nodes().rowwise().mean();
+        if (!find_foot(straight, nodes.leftCols(t.corners), point, at)) return {};
+        out.cornered = straight.values(at);
+        out.at = at;
+    }
+    at = out.at;
+    if (t.nodes > t.corners && find_foot(element, nodes, point, at)) out.at = at;
     out.inside = element.inside(out.at);
     out.shares = element.values(out.at);
     return out;

@@ -50,10 +50,13 @@ private:
 
 /// Where a point is in an element, by Newton's method on its shape functions.
 struct InElement {
-    Eigen::VectorXd at;        ///< in coordinates of the reference element
-    double inside = 0;         ///< ReferenceElement::inside()
-    Eigen::VectorXd shares;    ///< of the element's nodes in a field's value there
-    Eigen::VectorXd cornered;  ///< of its corners alone, as if it were straight
+    /// One for each node or corner; on the stack, as there are millions of them.
+    using PerNode = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 27, 1>;
+
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> at;  ///< in coordinates of the reference element
+    double inside = 0;                                     ///< ReferenceElement::inside()
+    PerNode shares;                                        ///< of the element's nodes in a field's value there
+    PerNode cornered;                                      ///< of its corners alone, as if it were straight
 };
 
 /// Of a point off a shell or beam that of its foot. Nothing for points, and for elements of no size.

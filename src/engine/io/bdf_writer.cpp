@@ -60,7 +60,7 @@ std::string real_field(double value) {
             error = off;
         }
     };
-    const bool plain = value == 0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e12);
+    const bool plain = value == 0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e15);
     if (plain) look(nastran_form(value, std::chars_format::fixed, -1));
     if (error > 0) look(nastran_form(value, std::chars_format::scientific, -1));
     for (int digits = 16; error > 0 && digits > 8; --digits) {
