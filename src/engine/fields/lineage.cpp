@@ -15,6 +15,8 @@ namespace {
 
 /// What is farther outside, in the element's dimensions, is on its border by rounding.
 constexpr double rounding = -1e-9;
+/// A node that is no farther outside belongs to its own elements: a crack's lips lie on each other.
+constexpr double beside = -0.02;
 /// A value is followed so far beyond an element, as its nodes have it; farther off it is that of the nearest point.
 constexpr double farthest_outside = -0.25;
 /// Rings of elements around its own that a node is looked for in.
@@ -31,7 +33,7 @@ Value value_at(const Mesh& mesh, CellRef cell, const Vec3& at, const InElement& 
     const bool beyond = found.inside < farthest_outside;
     const InElement in = beyond ? held_inside(found, cell.type) : found;
     Value out{in.shares, in.cornered, 0};
-    if (!beyond && in.inside < rounding) {
+    if (!beyond && in.inside < beside) {
         // Curved elements' functions go astray outside; a linear field is what their corners have, there, too.
         out.shares.setZero();
         out.shares.head(in.cornered.size()) = in.cornered;
@@ -214,10 +216,13 @@ std::optional<FieldLineage::Made> FieldLineage::copy_in_place(Index node, const 
     return {};
 }
 
-void FieldLineage::look_around(Found& found, const Vec3& point) {
+/// Among elements of one dimension, ring by ring until the point is inside one; `also_outside`: those beside it as
+/// well.
+void FieldLineage::look_around(Found& found, const Vec3& point, bool also_outside) {
     std::vector<CellRef> ring{found.cell};
     std::set<std::pair<int, Index>> seen{{static_cast<int>(found.cell.type), found.cell.cell}};
-    for (int k = 0; k < most_rings && !found.is_inside(); ++k) {
+    const double enough = also_outside ? beside : rounding;
+    for (int k = 0; k < most_rings && found.in->inside < enough; ++k) {
         if (!adjacency_) adjacency_ = std::make_unique<Adjacency>(before_);
         std::vector<CellRef> next;
         for (const CellRef& c : ring)
@@ -228,7 +233,7 @@ void FieldLineage::look_around(Found& found, const Vec3& point) {
                         next.push_back({type, cell});
                 });
         for (const CellRef& c : next)
-            if (k == 0 || box(before_, c).contains(point)) found.look(before_, c, point);
+            if ((k == 0 && also_outside) || box(before_, c).contains(point)) found.look(before_, c, point);
         ring = std::move(next);
     }
 }
@@ -241,7 +246,7 @@ CellRef FieldLineage::element_at(CellRef start, const Vec3& point, const Vec3& t
     found = {};
     const Vec3 at = point + aside * (towards - point);
     found.look(before_, start, at);
-    look_around(found, at);
+    if (found.in) look_around(found, at, false);
     return found.is_inside() ? found.cell : start;
 }
 
@@ -251,7 +256,7 @@ std::optional<FieldLineage::Made> FieldLineage::make(Index node, const std::vect
     for (const CellRef& c : around) found.look(before_, c, at);
     if (!found.in) return {};
     // Nodes that moved can be beyond the elements that their own are parts of.
-    look_around(found, at);
+    look_around(found, at, true);
     const auto nodes = before_.block(found.cell.type).nodes(found.cell.cell);
     const Value value = value_at(before_, found.cell, at, *found.in);
     return Made{node, with_nodes(nodes, value.shares), with_nodes(nodes, value.cornered), value.outside};

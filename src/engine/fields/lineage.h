@@ -76,7 +76,7 @@ private:
     bool is_same(const CellBlock& block, Index cell, CellRef was) const;
     void make_nodes(std::span<const Changes> stages);
     std::unordered_map<Index, std::vector<CellRef>> parents_around_made() const;
-    void look_around(Found& found, const Vec3& point);
+    void look_around(Found& found, const Vec3& point, bool also_outside);
     std::optional<Made> make(Index node, const std::vector<CellRef>& around);
     std::optional<Made> copy_in_place(Index node, const std::vector<CellRef>& around) const;
 
