@@ -260,6 +260,7 @@ void bind_mesh(py::module_& module) {
     bind_properties(mesh);
     bind_functions(mesh);
     bind_groups_of(mesh);
+    bind_fields(mesh);
 }
 
 }  // namespace femscalpel::bindings

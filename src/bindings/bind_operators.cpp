@@ -94,6 +94,11 @@ py::dict to_dict(const Report& report) {
         poor.append(place);
     }
     out["poor"] = poor;
+    py::list fields;
+    for (const FieldRecord& r : report.fields)
+        fields.append(py::make_tuple(r.name, std::string(to_string(r.support)), r.steps, r.kept, r.doubled, r.parts,
+                                     r.made, r.outside, r.absent, r.removed, r.farthest));
+    out["fields"] = fields;
     out["refinement"] = py::none();
     if (const auto& r = report.refinement)
         out["refinement"] = py::make_tuple(r->size, r->elements_before, r->elements_after);

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "mesh/mesh.h"
@@ -17,6 +18,8 @@ void bind_errors(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_groups(pybind11::module_& module);
 void bind_tools(pybind11::module_& module);
+/// Adds what fields need to the class of meshes.
+void bind_fields(pybind11::class_<Mesh, std::shared_ptr<Mesh>>& mesh);
 void bind_io(pybind11::module_& module);
 void bind_operators(pybind11::module_& module);
 

@@ -16,12 +16,13 @@ ENGINE = ROOT / "src" / "engine"
 MAY_USE = {
     "mesh": set(),
     "groups": {"mesh"},
+    "fields": {"mesh"},
     "deck": {"mesh", "groups"},
     "tools": set(),
     "deformation": {"mesh", "groups", "tools"},
     "cutting": {"mesh", "groups", "deck", "tools", "deformation"},
-    "operators": {"mesh", "groups", "deck", "tools", "deformation", "cutting"},
-    "io": {"mesh", "groups", "deck"},
+    "operators": {"mesh", "groups", "fields", "deck", "tools", "deformation", "cutting"},
+    "io": {"mesh", "groups", "fields", "deck"},
 }
 
 

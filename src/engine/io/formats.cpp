@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "io/bdf.h"
 #include "io/inp.h"
 #include "io/med.h"
 #include "io/msh.h"
@@ -13,7 +14,7 @@ namespace femscalpel {
 namespace {
 
 constexpr Format table[] = {
-    {"MED: Code_Aster, SALOME", {".med", ".mmed", ".rmed"}, read_med, write_med, med_meshes},
+    {"MED: Code_Aster, SALOME", {".med", ".mmed", ".rmed"}, read_med, write_med, med_meshes, nullptr, true},
     {"CalculiX",
      {".inp", ".inp.gz"},
      [](const std::filesystem::path& path, const std::string&) { return read_inp(path); },
@@ -34,6 +35,12 @@ constexpr Format table[] = {
      write_unv,
      nullptr,
      unv_losses},
+    {"Nastran",
+     {".bdf", ".nas", ".dat"},
+     [](const std::filesystem::path& path, const std::string&) { return read_bdf(path); },
+     write_bdf,
+     nullptr,
+     bdf_losses},
 };
 
 /// The extension in lower case; of a packed file with the one before: ".inp.gz".

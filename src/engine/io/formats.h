@@ -26,6 +26,8 @@ struct Format {
     /// What of a mesh its files do not hold, a line each, to be told to who writes one; null where nothing is said.
     std::vector<std::string> (*losses)(const Mesh&) = nullptr;
 
+    bool fields = false;  ///< its files hold fields
+
     /// The extensions without the empty ones.
     std::span<const std::string_view> extensions() const;
 };

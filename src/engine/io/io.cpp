@@ -4,6 +4,7 @@
 #include <string>
 
 #include "error.h"
+#include "fields/field.h"
 #include "io/formats.h"
 
 namespace femscalpel {
@@ -48,7 +49,11 @@ void write(const Mesh& mesh, const std::filesystem::path& path) {
 
 std::vector<std::string> losses(const Mesh& mesh, const std::filesystem::path& path) {
     const Format* format = format_of(path);
-    return format && format->losses ? format->losses(mesh) : std::vector<std::string>();
+    if (!format) return {};
+    std::vector<std::string> out = format->losses ? format->losses(mesh) : std::vector<std::string>();
+    if (mesh.fields && !format->fields)
+        for (const Field& field : mesh.fields->fields) out.push_back("the field '" + field.name + "'");
+    return out;
 }
 
 }  // namespace femscalpel

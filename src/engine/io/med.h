@@ -10,7 +10,7 @@
 namespace femscalpel {
 
 /// Reads the unstructured mesh of that name, or the first if `mesh` is empty, of a MED file (SALOME, Code_Aster, Gmsh,
-/// FreeCAD), at its first computation step. Files of MED 2.2 to 4.1; fields and profiles are not read.
+/// FreeCAD), at its first computation step; where it has several, that is in Mesh::remarks. Files of MED 2.2 to 4.1.
 ///
 /// Nodes: coordinates bit for bit, z (and y) = 0 where the file is 2-D (1-D). Cartesian axes only. The
 /// unit of the first axis becomes Mesh::unit.
@@ -28,6 +28,10 @@ namespace femscalpel {
 /// two groups, one of each kind. Groups of families no entity uses are kept, empty; their kind is the
 /// family number's sign (positive: nodes). Trailing blanks of names are dropped.
 ///
+/// Fields on nodes, elements, elements' nodes and integration points, with profiles, localizations and all time steps,
+/// of real and whole numbers, become Mesh::fields. Those on edges and faces that are no elements, and damaged ones, are
+/// left out, and named in Mesh::remarks.
+///
 /// Throws ReadError that names the file and what is wrong with it: missing, not a MED file, truncated,
 /// damaged, contradictory. The mesh returned is valid (Mesh::validate).
 /// MED-fichier and HDF5 are not thread-safe: calls of read_med and write_med wait for each other.
@@ -44,6 +48,8 @@ std::vector<std::string> med_meshes(const std::filesystem::path& path);
 /// (If an element group has that name already, "_SURF" is appended.) Its normal points out of the volume
 /// element, or, for the sides of a shell, away from the shell on that side. This is what Code_Aster
 /// applies pressures to; on reading back, such a group is an element group.
+///
+/// Fields are written with profiles where not all nodes or elements of a type have values.
 ///
 /// Hidden groups are not written. Mesh names are cut to MED's 64 bytes and lose characters HDF5 forbids.
 /// Written by way of AtomicFile. The mesh must be valid (Mesh::validate).

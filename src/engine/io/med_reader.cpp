@@ -13,6 +13,7 @@
 #include "cancel.h"
 #include "error.h"
 #include "io/med.h"
+#include "io/med_fields.h"
 #include "io/med_library.h"
 #include "io/med_soundness.h"
 
@@ -95,6 +96,7 @@ public:
         } catch (const Error& e) {
             fail(std::string("contradictory or damaged: ") + e.what());
         }
+        mesh_.fields = read_med_fields({fid_, path_, name_, is_old_, largest_array()}, mesh_);
         return std::move(mesh_);
     }
 
@@ -184,6 +186,9 @@ private:
                 fail("mesh '" + std::string(name_) + "' is declared but has no nodes, or the file is damaged");
             dimension_ = static_cast<int>(header.axes);
             mesh_.name = name_;
+            if (header.steps > 1)
+                mesh_.remarks.push_back(path_ + ": mesh '" + mesh_.name + "' has " + std::to_string(header.steps) +
+                                        " time steps of its own, of which the first is read");
             mesh_.unit = header.unit;
             return;
         }

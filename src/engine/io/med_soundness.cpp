@@ -2,6 +2,7 @@
 #include "io/med_soundness.h"
 
 #include <cstring>
+#include <initializer_list>
 
 #include "io/med_library.h"
 
@@ -19,6 +20,24 @@ herr_t check_attribute(hid_t object, const char* name, const H5A_info_t*, void*)
     if (space >= 0) H5Sclose(space);
     H5Aclose(attribute);
     return single ? 0 : -1;
+}
+
+/// Texts that the library copies into buffers of fixed size; but for components it asks for the memory.
+herr_t check_field_attribute(hid_t object, const char* name, const H5A_info_t* info, void* more) {
+    if (check_attribute(object, name, info, more) < 0) return -1;
+    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    if (attribute < 0) return -1;
+    const hid_t type = H5Aget_type(attribute);
+    bool good = type >= 0;
+    if (good && H5Tget_class(type) == H5T_STRING) {
+        const bool of_components = std::strcmp(name, "NOM") == 0 || std::strcmp(name, "UNI") == 0;
+        const std::size_t most = of_components ? longest_med_attribute : MED_COMMENT_SIZE + 1;
+        const bool short_one = std::strcmp(name, "DES") != 0 && !of_components;
+        good = H5Tis_variable_str(type) == 0 && H5Tget_size(type) <= (short_one ? MED_NAME_SIZE + 1 : most);
+    }
+    if (type >= 0) H5Tclose(type);
+    H5Aclose(attribute);
+    return good ? 0 : -1;
 }
 
 bool check_dataset(hid_t object) {
@@ -44,7 +63,7 @@ bool check_creation_order(hid_t group) {
            H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_NATIVE, &first, visit_link, nullptr) >= 0;
 }
 
-herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void*) {
+herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void* of_fields) {
     const char* slash = std::strrchr(path, '/');
     if (std::strlen(slash ? slash + 1 : path) > MED_NAME_SIZE || std::strlen(path) > longest_path) return -1;
     const bool family_list = slash && (std::strcmp(slash, "/ELEME") == 0 || std::strcmp(slash, "/NOEUD") == 0);
@@ -52,7 +71,8 @@ herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void*)
     const hid_t object = H5Oopen(root, path, H5P_DEFAULT);
     if (object < 0) return -1;
     hsize_t first = 0;
-    bool good = H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &first, check_attribute, nullptr) >= 0;
+    bool good = H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &first,
+                            of_fields ? check_field_attribute : check_attribute, nullptr) >= 0;
     if (good && info->type == H5O_TYPE_DATASET) good = check_dataset(object);
     if (good && family_list) good = check_creation_order(object);
     H5Oclose(object);
@@ -65,24 +85,28 @@ constexpr auto visit_objects = H5Ovisit3;
 constexpr auto visit_objects = H5Ovisit2;
 #endif
 
-}  // namespace
-
-bool is_sound_med(const std::string& path) {
+bool are_sound(const std::string& path, std::initializer_list<const char*> parts, bool of_fields) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) return false;
     MedFile closer(file);
-    for (const char* part : {"INFOS_GENERALES", "ENS_MAA", "FAS"}) {
+    for (const char* part : parts) {
         const htri_t there = H5Lexists(file, part, H5P_DEFAULT);
         if (there < 0) return false;
         if (there == 0) continue;
         const hid_t group = H5Gopen2(file, part, H5P_DEFAULT);
         if (group < 0) return false;
-        const herr_t walked = visit_objects(group, H5_INDEX_NAME, H5_ITER_NATIVE, check_object, nullptr,
-                                            H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS);
+        const herr_t walked = visit_objects(group, H5_INDEX_NAME, H5_ITER_NATIVE, check_object,
+                                            of_fields ? &of_fields : nullptr, H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS);
         H5Gclose(group);
         if (walked < 0) return false;
     }
     return true;
 }
+
+}  // namespace
+
+bool is_sound_med(const std::string& path) { return are_sound(path, {"INFOS_GENERALES", "ENS_MAA", "FAS"}, false); }
+
+bool are_sound_med_fields(const std::string& path) { return are_sound(path, {"CHA", "PROFILS", "GAUSS"}, true); }
 
 }  // namespace femscalpel

@@ -11,6 +11,7 @@
 #include "error.h"
 #include "io/atomic_file.h"
 #include "io/med.h"
+#include "io/med_fields.h"
 #include "io/med_library.h"
 #include "mesh/facet_element.h"
 
@@ -34,6 +35,10 @@ public:
         write_families();
         write_nodes();
         for (const CellTraits& t : all_cell_types()) write_elements(t);
+        write_med_fields(
+            mesh_,
+            {fid_, name_, [this](CellType type) { return mesh_.block(type).size() + facets_.block(type).size(); },
+             [this](const std::string& what) { check(-1, what.c_str()); }});
         check_cancelled();
         if (!file.close()) fail("closing it failed; the disk may be full");
         target.commit();

@@ -19,6 +19,7 @@
 namespace femscalpel {
 
 class Companion;
+struct Fields;
 
 /// Numbers, counts and indices of nodes and elements.
 using Index = std::int64_t;
@@ -82,6 +83,9 @@ public:
     std::vector<std::string> remarks;
     /// What the file this mesh was read from says besides, if there is any (mesh/companion.h).
     std::shared_ptr<const Companion> companion;
+    /// Values on nodes and elements (fields/field.h); null where there are none. They go with numbers, so that copies
+    /// can share them while they are changed.
+    std::shared_ptr<const Fields> fields;
 
     CellBlock& block(CellType type) { return blocks_[static_cast<int>(type)]; }
     const CellBlock& block(CellType type) const { return blocks_[static_cast<int>(type)]; }

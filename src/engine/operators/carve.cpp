@@ -17,6 +17,7 @@
 #include "deck/solver_sets.h"
 #include "deformation/deformation.h"
 #include "operators/driver.h"
+#include "operators/follow_fields.h"
 #include "operators/raise_order.h"
 #include "tools/cylinder.h"
 
@@ -353,7 +354,9 @@ double Body::depth(const Vec3& x) const {
 Result carve(const char* kind, const Mesh& input, std::span<const Body> bodies, const OperatorOptions& options,
              const std::array<const char*, 4>& sets, const Prepared& prepared) {
     Carve recipe(kind, bodies, options, sets);
-    return with_order_raised(input, perform(recipe, input, options, prepared), options);
+    Result result = with_order_raised(input, perform(recipe, input, options, prepared), options);
+    follow_fields(input, options.band_only, result);
+    return result;
 }
 
 }  // namespace femscalpel

@@ -21,6 +21,7 @@
 #include "deformation/relaxation.h"
 #include "operators/crack_faces.h"
 #include "operators/driver.h"
+#include "operators/follow_fields.h"
 #include "operators/raise_order.h"
 #include "tools/face.h"
 
@@ -286,9 +287,14 @@ private:
 
 Result crack(const Mesh& input, const Tool& tool, const CrackOptions& options, const Prepared& prepared) {
     if (!options.within)
-        if (auto between = crack_between_elements(input, tool, options, prepared)) return std::move(*between);
+        if (auto between = crack_between_elements(input, tool, options, prepared)) {
+            follow_fields(input, options.band_only, *between);
+            return std::move(*between);
+        }
     Crack recipe(tool, options);
-    return with_order_raised(input, perform(recipe, input, options, prepared), options);
+    Result result = with_order_raised(input, perform(recipe, input, options, prepared), options);
+    follow_fields(input, options.band_only, result);
+    return result;
 }
 
 }  // namespace femscalpel

@@ -20,6 +20,7 @@
 #include "mesh/rounding.h"
 #include "mesh/stopwatch.h"
 #include "operators/driver.h"
+#include "operators/follow_fields.h"
 #include "operators/weld_first.h"
 
 namespace femscalpel {
@@ -149,6 +150,7 @@ std::optional<Result> opened(
         std::ranges::move(warnings_of(deck, options.strict), std::back_inserter(result.report.warnings));
     result.mesh = options.band_only ? changed_part(marked, parted->mesh) : std::move(parted->mesh);
     remove_marks(result.mesh);
+    result.stages.push_back(std::move(parted->changes));
     result.report.seconds = {{"part", Stopwatch::since(started)}};
     return result;
 }
@@ -159,10 +161,12 @@ Result crack_along_faces(const Mesh& mesh, const std::string& faces, const Opera
                          const Prepared& prepared) {
     check_options(options);
     (void)drifting_groups(mesh, options.preserve);  // whose names may be unknown
-    return *opened(mesh, options, prepared,
-                   [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) {
-                       return part_along(marked, group_of_faces(marked, faces), names, numbering);
-                   });
+    Result result =
+        *opened(mesh, options, prepared, [&](const Mesh& marked, const PartedNames& names, const Numbering& numbering) {
+            return part_along(marked, group_of_faces(marked, faces), names, numbering);
+        });
+    follow_fields(mesh, options.band_only, result);
+    return result;
 }
 
 std::optional<Result> crack_between_elements(const Mesh& mesh, const Tool& tool, const OperatorOptions& options,

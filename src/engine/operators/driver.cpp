@@ -145,6 +145,7 @@ std::optional<Result> attempt(Recipe& recipe, const Mesh& mesh, const OperatorOp
         if (refined) known.stages->push_back(refined->trace.changes);
         known.stages->push_back(std::move(edited.rebuilt.changes));
     } else {
+        result.stages.push_back(std::move(edited.rebuilt.changes));
         remove_marks(result.mesh);
     }
     watch.lap("report");
@@ -239,8 +240,13 @@ Result perform_on(Recipe& recipe, const Mesh& input, const OperatorOptions& opti
         if (tried) started = Stopwatch::now();
         if (tried && changed) recipe.start(first->mesh);
         if (auto result = attempt(recipe, changed ? first->mesh : input, options, known_of(changed ? first : nullptr),
-                                  first, started, refine))
+                                  first, started, refine)) {
+            if (changed && !known.stages) {
+                Changes& before = (refined ? refined : converted)->trace.changes;
+                result->stages.insert(result->stages.begin(), std::move(before));
+            }
             return std::move(*result);
+        }
     }
 }
 

@@ -27,6 +27,7 @@
 #include "operators/fillet_corner.h"
 #include "operators/fillet_path.h"
 #include "operators/fillet_vertex.h"
+#include "operators/follow_fields.h"
 #include "operators/raise_order.h"
 #include "operators/seven_nodes.h"
 #include "operators/weld_first.h"
@@ -467,6 +468,7 @@ Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletO
     whole.band_only = false;
     const auto as_asked = [&](Result result) {
         if (options.band_only) result.mesh = changed_part(mesh, result.mesh);
+        follow_fields(mesh, options.band_only, result);
         return result;
     };
     if (SevenNodes seven(mesh); seven) {
@@ -491,7 +493,9 @@ Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletO
     }
     Result result = run(mesh, options, prepared);
     if (!options.band_only) keep(result);
-    return with_order_raised(mesh, std::move(result), options);
+    result = with_order_raised(mesh, std::move(result), options);
+    follow_fields(mesh, options.band_only, result);
+    return result;
 }
 
 }  // namespace femscalpel

@@ -27,6 +27,7 @@
 #include "mesh/surface_tree.h"
 #include "operators/attach.h"
 #include "operators/driver.h"
+#include "operators/follow_fields.h"
 #include "operators/joint.h"
 #include "operators/merge_checks.h"
 #include "operators/merge_refining.h"
@@ -393,7 +394,9 @@ UniteNames names_of(const MergeOptions& options) {
     return {options.prefix.empty() ? options.name + "_" : options.prefix, options.join_groups};
 }
 
-Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
+namespace {
+
+Result merge_meshes(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
     Stopwatch::Time started = Stopwatch::now();
     check(mesh, other, options);
     check_names(mesh, other, options.name, options.tie);
@@ -445,6 +448,18 @@ Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, c
     if (!solids && mesh.dimension() == 3) warn_of_inside(mesh, out.mesh, options.name + "_ADDED", out.report);
     if (solids) warn_of_buried(out.mesh, options.name + "_ADDED", out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
+    return out;
+}
+
+}  // namespace
+
+Result merge(const Mesh& mesh, const Mesh& other, const MergeOptions& options, const Prepared& known) {
+    Result out = merge_meshes(mesh, other, options, known);
+    follow_fields(mesh, options.band_only, out, options.name + "_ADDED");
+    if (other.fields)
+        for (const Field& field : other.fields->fields)
+            out.report.warnings.push_back("the addition's field '" + field.name + "' is left behind: what is added " +
+                                          "has no values");
     return out;
 }
 

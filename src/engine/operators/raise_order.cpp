@@ -130,6 +130,7 @@ Result raise_near(const Mesh& input, Result result, const OperatorOptions& optio
     tie_orders(out.mesh);
     std::erase_if(result.report.warnings, is_about_stiffness);
     join(result.report, out, options.strict);
+    result.stages.push_back(std::move(out.trace.changes));
     result.mesh = std::move(out.mesh);
     return result;
 }

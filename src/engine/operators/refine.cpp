@@ -22,6 +22,7 @@
 #include "mesh/stopwatch.h"
 #include "operators/changed_quality.h"
 #include "operators/edit.h"
+#include "operators/follow_fields.h"
 #include "operators/raise_order.h"
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
@@ -300,7 +301,9 @@ Result refine(const Mesh& input, const DistanceField& distance, const RefineOpti
     SevenNodes seven(input);
     Result result =
         refine_pairs(seven ? seven.mesh() : input, distance, options, seven ? *seven.known().stages : stages);
+    result.stages = std::move(stages);
     if (seven) seven.finish(result);
+    follow_fields(input, false, result);
     tell_of_ties(input, options.strict, result);
     return result;
 }

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "fields/carry.h"
 #include "groups/group_report.h"
+#include "mesh/changes.h"
 #include "mesh/mesh.h"
 
 namespace femscalpel {
@@ -84,6 +86,7 @@ struct Report {
     QualitySummary quality_before;  ///< of the band's elements before
     QualitySummary quality_after;   ///< of the same elements and their children after
     std::vector<GroupRecord> groups;
+    std::vector<FieldRecord> fields;  ///< of a mesh with fields, one for each support
     HeldNodes held;
     StraightenedEdges straightened;
     std::vector<PoorPlace> poor;           ///< empty when all is well
@@ -116,6 +119,7 @@ void for_each_record(const Mesh& before, Report& report, auto visit) {
 struct Result {
     Mesh mesh;
     Report report;
+    std::vector<Changes> stages = {};  ///< what became of nodes and elements, step by step, where that is known
 };
 
 }  // namespace femscalpel

@@ -21,6 +21,7 @@
 #include "operators/changed_quality.h"
 #include "operators/driver.h"
 #include "operators/edit.h"
+#include "operators/follow_fields.h"
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/warnings.h"
@@ -255,7 +256,8 @@ Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOption
     if (known.stages)
         known.stages->push_back(std::move(edited.rebuilt.changes));
     else
-        remove_marks(result.mesh);
+        result.stages.push_back(std::move(edited.rebuilt.changes));
+    if (!known.stages) remove_marks(result.mesh);
     watch.lap("report");
     result.report.seconds = seconds.list();
     return result;
@@ -333,6 +335,7 @@ Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOpti
         try {
             Result result = on(converted->mesh, known.renewed ? known.renewed(converted->mesh) : Prepared{});
             add_conversion(*converted, options.strict, result.report);
+            if (!known.stages) result.stages.insert(result.stages.begin(), converted->trace.changes);
             result.report.seconds.insert(result.report.seconds.begin(), {"convert", seconds});
             return result;
         } catch (const UnsupportedElementError&) {
@@ -346,6 +349,10 @@ Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOpti
 }  // namespace
 
 Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Prepared& known) {
+    const auto with_fields = [&](Result result) {
+        follow_fields(input, false, result);
+        return result;
+    };
     check(options);
     Naming naming;
     naming.front = options.name + "_WALL";
@@ -354,14 +361,14 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     if (SevenNodes seven(input); seven) {
         Result result = reshape(seven.mesh(), group, options, seven.known());
         seven.finish(result);
-        return result;
+        return with_fields(std::move(result));
     }
     WeldFirst weld(input, known);
     if (weld) {
         Result result = reshape_on(weld.mesh(), group, options, naming, weld.known(), weld.faces());
-        if (weld.finish(result, options.strict)) return result;
+        if (weld.finish(result, options.strict)) return with_fields(std::move(result));
     }
-    return reshape_on(input, group, options, naming, known);
+    return with_fields(reshape_on(input, group, options, naming, known));
 }
 
 }  // namespace femscalpel

@@ -75,6 +75,7 @@ void SevenNodes::finish(Result& result) {
     const auto held = std::ranges::find(result.mesh.node_ids, placeholder_);
     if (placeholder_ > 0 && held != result.mesh.node_ids.end()) *held = 0;
     put_middles(result.mesh, result.report);
+    result.stages = stages_;
     sort_nodes(result.mesh);
     report_groups(result.mesh, result.report);
 }

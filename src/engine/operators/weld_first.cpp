@@ -313,6 +313,7 @@ bool WeldFirst::finish(Result& result, bool strict) {
     remove_marks(mesh);
     if (outer_stages_) outer_stages_->push_back(changes);
     report_pairs(mesh, unwelded, static_cast<Index>(changes.copies.size()), result.report);
+    result.stages = {std::move(changes)};
     auto& seconds = result.report.seconds;
     seconds.insert(seconds.begin(), {"weld", seconds_ + Stopwatch::since(started)});
     return true;

@@ -21,6 +21,7 @@ from . import tools  # noqa: E402
 from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, UnsupportedElementError, WriteError
 from .cancel import CancelToken
 from .connected import Piece, pieces
+from .fields import Field, FieldPart, FieldStep, Localization
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Instance, Mesh
@@ -31,6 +32,7 @@ from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
 from .report import (
     ElementQuality,
     Extent,
+    FieldRecord,
     GroupRecord,
     HeldNodes,
     PoorPlace,
@@ -59,6 +61,10 @@ __all__ = [
     "Error",
     "Extent",
     "Faces",
+    "Field",
+    "FieldPart",
+    "FieldRecord",
+    "FieldStep",
     "Format",
     "Group",
     "GroupRecord",
@@ -66,6 +72,7 @@ __all__ = [
     "HalfPlane",
     "HeldNodes",
     "Instance",
+    "Localization",
     "Mesh",
     "Piece",
     "Polygon",

@@ -7,6 +7,7 @@ from typing import Dict, NamedTuple, Optional, Tuple, Union
 import numpy as np
 
 from . import _arguments, _engine
+from .fields import Field, fields_of, set_fields
 
 KINDS = ("node", "element", "facet")
 
@@ -292,6 +293,20 @@ class Mesh:
     def groups(self) -> Groups:
         """The groups by name; see :class:`Groups`. Bookkeeping groups of a file format are not shown."""
         return Groups(self._engine_mesh)
+
+    @property
+    def fields(self) -> Tuple[Field, ...]:
+        """Values on nodes and elements, as a .med file has them; see :class:`Field`. Operators carry them over
+        (`Result.report.fields` says what was kept and what made), and :func:`femscalpel.write` writes them to .med.
+
+        Can be set to other fields. Raises :class:`femscalpel.Error`, TypeError or ValueError, and changes nothing, when
+        they do not fit the mesh.
+        """
+        return fields_of(self._engine_mesh)
+
+    @fields.setter
+    def fields(self, value: Iterable):
+        set_fields(self._engine_mesh, value)
 
     @property
     def instances(self) -> Tuple[Instance, ...]:

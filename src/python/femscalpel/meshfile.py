@@ -34,20 +34,18 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
 
     A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
     them in place. A deck of parts and instances (Abaqus/CAE) becomes a flat one, with a UserWarning that says how its
-    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. What a .msh or .unv holds beside
-    a mesh with groups is told in a UserWarning, too (:attr:`Mesh.input_warnings`). Of a .med with several meshes `mesh`
-    names the one; without it the first is read, with a UserWarning that lists them, as what is written later holds that
-    one alone (:func:`meshes_in`).
+    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. What a file of another format holds
+    beside a mesh with groups and, in a .med, fields is told in a UserWarning, too (:attr:`Mesh.input_warnings`). Of a
+    .med with several meshes `mesh` names the one; without it the first is read, with a UserWarning that lists them, as
+    what is written later holds that one alone (:func:`meshes_in`).
 
     Raises :class:`femscalpel.ReadError`, which names the file and, for text, the line.
     """
     file = _arguments.path(path, "path")
-    if mesh is not None:
-        return Mesh._wrap(_engine.read(file, _arguments.text(mesh, "mesh")))
-    out = Mesh._wrap(_engine.read(file))
+    out = Mesh._wrap(_engine.read(file, "" if mesh is None else _arguments.text(mesh, "mesh")))
     if out.input_warnings and (out.instances or not out._engine_mesh.has_solver_input):
         warnings.warn("\n".join(out.input_warnings), stacklevel=2)
-    names = _engine.meshes_in(file)
+    names = _engine.meshes_in(file) if mesh is None else []
     if len(names) > 1:
         listed = ", ".join(repr(name) for name in names)
         warnings.warn(
@@ -67,8 +65,8 @@ def meshes_in(path: Path) -> List[str]:
 def write(mesh: Mesh, path: Path) -> None:
     """Writes a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
-    The file is complete or, after an error, what it was before. What a .msh (Gmsh) or .unv (SALOME) cannot hold - facet
-    groups, the cards of a deck, the unit - is told in a UserWarning.
+    The file is complete or, after an error, what it was before. What a format other than .med cannot hold - facet
+    groups, the cards of a deck, the unit, fields - is told in a UserWarning.
 
     Raises :class:`femscalpel.WriteError` when the file cannot be written or its format cannot hold the mesh.
     """

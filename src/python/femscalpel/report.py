@@ -109,6 +109,22 @@ class PoorPlace:
     room: float  #: how large that would have to be for good elements
 
 
+class FieldRecord(NamedTuple):
+    """What became of a field's values on one support. Nodes or elements are counted over all time steps."""
+
+    name: str
+    support: str  #: "node", "element", "element nodes" or "element points"
+    steps: int
+    kept: int  #: bit for bit: of what the operator did not touch
+    doubled: int  #: new nodes with the value of the one they double
+    parts: int  #: elements that changed or are new: their own or their parent's value, or made of that
+    made: int  #: nodes that are new or moved: interpolated in the mesh as it was
+    outside: int  #: of all these, at places where there was nothing: the value of the nearest point of the mesh
+    absent: int  #: new nodes and elements without a value, as there was nothing
+    removed: int  #: values of nodes and elements that are gone
+    farthest: float  #: how far those outside are off, in the mesh's unit
+
+
 class Extent(NamedTuple):
     """How long, or large, something is that an operator has made."""
 
@@ -163,6 +179,7 @@ class Report:
     elements_added: int
     elements_removed: int
     max_displacement: float
+    fields: List[FieldRecord]  #: of a mesh with fields: one for each field and support
     seconds: Dict[str, float]  #: by step, in order
     warnings: List[str]
     #: Of a mesh from a deck of parts: which numbers are whose, as the mesh was read. See :attr:`Mesh.instances`.
@@ -175,6 +192,7 @@ class Report:
         groups = [GroupRecord(**g) for g in fields.pop("groups")]
         fields["held"] = HeldNodes(**fields["held"])
         fields["straightened"] = StraightenedEdges(**fields["straightened"])
+        fields["fields"] = [FieldRecord(*f) for f in fields["fields"]]
         fields["poor"] = [PoorPlace(**p) for p in fields["poor"]]
         if fields["refinement"] is not None:
             fields["refinement"] = Refinement(*fields["refinement"])
@@ -241,6 +259,10 @@ class Report:
             facts.insert(0, ("converted", f"first, to triangles or tetrahedra: {_counts(self.converted)}"))
         if self.beams_cut:
             facts.insert(0, ("beams", f"cut in {self.beams_cut} places"))
+        for field in self.fields:
+            counts = {key: count for key, count in field._asdict().items() if isinstance(count, int) and count}
+            counts.pop("steps", None)
+            facts.append(("field", f"{field.name} ({field.support}, {field.steps} steps): {_counts(counts)}"))
         title = f"{self.operation} {self.name}".rstrip()
         lines = [f"{title}: method {self.method}, transition {self.transition}"]
         lines += [f"  {label:<12} {fact}" for label, fact in facts]
