@@ -76,6 +76,12 @@ class Expressions:
             path: now.get(path) for path in sorted({*now, *self._before}) if now.get(path) != self._before.get(path)
         }
 
+    def document_changed(self):
+        """Steps may have been undone that there were at first."""
+        steps = self._obj.Document.UndoCount
+        if steps < self._steps:
+            self._steps, self._before = steps, _expressions_of(self._obj)
+
     def put_back(self):
         """Sets the expressions there were at first, and takes back the steps to undo that FreeCAD has made."""
         try:
@@ -158,6 +164,9 @@ class NewExpressions(EventFilter):
         """Expressions by path, for `obj`."""
         texts = {_path(box, obj): box.property(fields.EXPRESSION) for box in _boxes(forms)}
         return {path: text for path, text in texts.items() if text and path.split(".")[0] in obj.PropertiesList}
+
+    def document_changed(self):
+        """Nothing of it concerns an object that is yet to be made."""
 
     def put_back(self):
         """Nothing was changed yet."""

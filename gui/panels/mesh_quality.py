@@ -129,7 +129,7 @@ class MeshQualityPanel(InspectionPanel):
 
     def _zoom(self):
         rows = self.panel.worst.selectionModel().selectedRows()
-        if not rows:
+        if not rows or self.source is None:
             self.scene.label.hide()
             self._draw()
             return

@@ -51,6 +51,9 @@ class PanelInput(QtCore.QObject):
         """The label for messages about the geometry."""
         return self.form.geometryError
 
+    def list_groups(self, source_object):
+        """The mesh object has other groups now."""
+
     def add_handles(self, view):
         """Puts what can be seen of it into a 3-D view."""
 

@@ -48,8 +48,8 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
     _refining = QtCore.Signal(object)  # a Cost, from the other thread
 
     def __init__(self, source_object, edited=None):
-        super().__init__(source_object)
-        self.edited, self._pieces = edited, PiecesText(source_object)
+        super().__init__(source_object, edited)
+        self._pieces = PiecesText(source_object)
         self.shown = None  # PreviewData of the newest request, None while it is not there or was an error
         self._ticket, self._settled = 0, 0
         self._ok = True  # whether the button is enabled
@@ -66,12 +66,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._question = RefinementQuestion(self.form[0], self._refine_to, self._agree)
         self.add_inputs()
         if edited is not None:
-            self.read(edited)
-            if self.geometry.followed is not None:
-                self.geometry.followed.read(edited)
-                if following.is_expressed(edited):
-                    self.geometry.read_expressed(edited)
-                    self.enter_turn(edited.Turn.Value)
+            self._read_edited()
         self.expressions = Expressions(edited, self.form) if edited else NewExpressions(source_object, self.form)
         self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
@@ -86,6 +81,14 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._status(translate("FemScalpel", "Reading the mesh…"))
         self.start()
         self._hide_parts(True)
+
+    def _read_edited(self):
+        self.read(self.edited)
+        if self.geometry.followed is not None:
+            self.geometry.followed.read(self.edited)
+            if following.is_expressed(self.edited):
+                self.geometry.read_expressed(self.edited)
+                self.enter_turn(self.edited.Turn.Value)
 
     # What subclasses say.
 
@@ -200,7 +203,31 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.update()
 
     def not_loaded(self, error):
+        self.scene.hide_all()
         self._no_result(str(error))
+        self._say_settled()
+
+    def reading_again(self):
+        self._end_foresight()
+        self.geometry.stop_picking()
+        self.worker.cancel()
+        self.shown, self._ticket, self._settled = None, 0, 0
+        self.result.status.setProperty(SETTLED, False)
+        self._status(translate("FemScalpel", "Reading the mesh…"))
+        self.geometry.list_groups(self.source_object)
+        self._preserve.list_groups(self._group_names())
+
+    def document_changed(self, stepped):
+        self.expressions.document_changed()
+        picking = self.geometry.is_picking()
+        if picking:
+            self._meshes.pickable(self.pickable())
+        self._hide_parts(not picking)
+        was_broken = self.geometry.followed is not None and self.geometry.followed.look_again()
+        if stepped:
+            self._read_edited()
+        if stepped or was_broken:
+            self.update()
 
     def update(self):
         """Asks for a new preview of what is entered now."""
