@@ -202,6 +202,9 @@ class ViewPanel(QtCore.QObject):
             self.view.removeEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._keys)
         except (RuntimeError, AttributeError):  # the view is gone
             pass
+        bar = FreeCADGui.getMainWindow().statusBar()
+        if bar.currentMessage().endswith("…"):  # what the panel was waiting for
+            bar.clearMessage()
         self._give_up_forms()
         self.form = None
         self.forget_widgets()
