@@ -20,6 +20,9 @@ from .view_panel import abort_transaction
 # How the names of the steps begin that FreeCAD makes for an expression.
 _STEP = "Set expression"
 
+# FreeCAD's icons of fields without and with an expression.
+_UNSET, _SET = ":/icons/bound-expression-unset.svg", ":/icons/bound-expression.svg"
+
 #: Fields, and the paths of the properties that they are of.
 PATHS = {
     **{f"normal{axis}": f"Direction.{axis.lower()}" for axis in "XYZ"},
@@ -115,8 +118,18 @@ class NewExpressions(EventFilter):
     def __init__(self, source, forms):
         super().__init__()
         self._source = source
+        self._marks = {box.objectName(): self._mark(box) for box in _boxes(forms)}
         for box in _boxes(forms):
             box.installEventFilter(self)
+
+    def _mark(self, box):
+        """The f(x) icon, as FreeCAD has it in the fields of objects that are there already."""
+        line = box.findChild(QtGui.QLineEdit)
+        action = line.addAction(QtGui.QIcon(_UNSET), QtGui.QLineEdit.TrailingPosition)
+        action.setObjectName("expression")
+        action.setToolTip(translate("FemScalpel", "Enter an expression (=)"))
+        action.triggered.connect(lambda *_: self._ask(box))
+        return action
 
     def filtered(self, box, event):
         if event.type() != QtCore.QEvent.KeyPress or event.key() != QtCore.Qt.Key_Equal:
@@ -142,6 +155,11 @@ class NewExpressions(EventFilter):
             box.setProperty("rawValue", number)  # which tells the panel
             box.setProperty(fields.EXPRESSION, text.strip())
         box.setReadOnly(number is not None)
+        mark = self._marks[box.objectName()]
+        mark.setIcon(QtGui.QIcon(_UNSET if number is None else _SET))
+        mark.setToolTip(
+            translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}"
+        )
         if number is not None:
             box.setToolTip(f"= {text.strip()}")
         box.valueChanged.emit(box.property("rawValue"))

@@ -1777,7 +1777,7 @@
     </message>
     <message>
       <source>Flip</source>
-      <translation>Umkehren</translation>
+      <translation>Wenden</translation>
     </message>
     <message>
       <source>Geometry</source>

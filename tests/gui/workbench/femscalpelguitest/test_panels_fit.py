@@ -17,6 +17,12 @@ def scroll_area():
     return next(area for area in areas if area.isVisible() and area.isAncestorOf(status))
 
 
+def cut_off(area):
+    """Texts of the buttons and boxes to tick that are wider than these."""
+    boxes = [b for b in area.findChildren(QtGui.QAbstractButton) if b.isVisible()]
+    return [b.text() for b in boxes if b.fontMetrics().boundingRect(b.text()).width() > b.width() - 4]
+
+
 class EveryPanel(GuiTest):
     def setUp(self):
         super().setUp()
@@ -24,8 +30,8 @@ class EveryPanel(GuiTest):
         self.add_mesh(long_box())
 
     def test_nothing_is_cut_off(self):
-        """In the dock as it is 1280 pixels wide, in English and German, with all sections open."""
-        for language in ("en", "de"):
+        """In the dock as it is 1280 pixels wide, in every language, with all sections open."""
+        for language in ("en", "de", "fr"):
             FreeCADGui.setLocale(language)
             spin(0.2)
             for command in COMMANDS:
@@ -42,6 +48,7 @@ class EveryPanel(GuiTest):
                         spin(0.1)
                         bar = scroll_area().horizontalScrollBar()
                         self.assertEqual(bar.maximum(), 0, "wider than the dock")
+                        self.assertEqual(cut_off(scroll_area()), [])
                         screenshot(f"fits_{language}_{command.page()}")
                     finally:
                         press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
