@@ -157,9 +157,7 @@ class NewExpressions(EventFilter):
         box.setReadOnly(number is not None)
         mark = self._marks[box.objectName()]
         mark.setIcon(QtGui.QIcon(_UNSET if number is None else _SET))
-        mark.setToolTip(
-            translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}"
-        )
+        mark.setToolTip(translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}")
         if number is not None:
             box.setToolTip(f"= {text.strip()}")
         box.valueChanged.emit(box.property("rawValue"))

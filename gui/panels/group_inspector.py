@@ -206,6 +206,7 @@ class GroupInspectorPanel(InspectionPanel):
                 self._shapes[key] = self._shape(self.entries[row], part)
             shapes.append((self._shapes[key], self._colour(row)))
         self.scene.show(shapes)
+        self.legend_in_view.show_entries([(self._colour(row), self.entries[row].name) for row in self.ticked()])
 
     def _shape(self, entry, part):
         mesh = self.source.mesh

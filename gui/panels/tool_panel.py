@@ -303,7 +303,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.histogram.show_counts(report.quality.after.histogram, report.quality.before.histogram)
         group_table.fill(self.result.groups, report.groups, self._table_tools)
         self.result.report.setEnabled(True)
-        self.legend.show_entries(entries_of(self.scene, value))
+        self._show_legend()
         self._light_up()
         self._summary = summary(report) + self._pieces(value.parting)
         self._status(self._summary)
@@ -332,7 +332,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self.scene.show_whole(self.source.whole(), self.beside())
         self.scene.highlight(None)
         self.histogram.clear()
-        self.legend.show_entries([])
+        self._show_legend()
         self.result.report.setEnabled(False)
         self.result.groups.setRowCount(0)
         self._status(status)
@@ -392,7 +392,12 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.scene.show_moved, self.scene.show_worst = r.moved.isChecked(), r.worst.isChecked()
         self.scene.redraw()
         if self.shown is not None:
-            self.legend.show_entries(entries_of(self.scene, self.shown))
+            self._show_legend()
+
+    def _show_legend(self):
+        entries = entries_of(self.scene, self.shown) if self.shown is not None else []
+        self.legend.show_entries(entries)
+        self.legend_in_view.show_entries(entries)
 
     def _show_report(self):
         """The report of what is shown, to be read, copied and saved."""

@@ -14,6 +14,7 @@ from femscalpelobjects import contents
 from .. import help
 from ..latest_wins import LatestWins
 from ..translate import translate
+from ..view.legend_in_view import LegendInView
 from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
 from .document_watch import DocumentWatch, is_gone
@@ -56,6 +57,7 @@ class ViewPanel(QtCore.QObject):
             name_fields(form)
         self._fields, self._steady = FieldFilter(self.form), Steady(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
+        self.legend_in_view = LegendInView(self.view)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
         self.worker = LatestWins(self._arrived, self._broke)
         # FreeCAD can take the panel away without asking, as when the document is closed.
@@ -197,6 +199,7 @@ class ViewPanel(QtCore.QObject):
         self._steady.close()
         self.worker.close()
         self.clear_view()
+        self.legend_in_view.close()
         self._meshes.restore()
         try:
             self.view.removeEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._keys)

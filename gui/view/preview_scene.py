@@ -161,7 +161,7 @@ class PreviewScene(Picture):
         if by_quality:
             rgb = colours.quality_rgb(np.concatenate([s.quality for s in surfaces]))
         elif data is not None and self.colouring == "groups":
-            palette = np.array([colours.group_rgb(names) for names in data.families])
+            palette = colours.families_rgb(data.families)
             rgb = palette[np.concatenate([s.family for s in surfaces])]
         part.show(np.concatenate(points), np.concatenate(faces), rgb)
 
