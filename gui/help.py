@@ -8,11 +8,12 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .event_filter import EventFilter
-from .translate import FOLDER, translate
+from .translate import FOLDER, QT_TRANSLATE_NOOP, translate
 
 PAGES = os.path.join(FOLDER, "resources", "docs", "commands")
 _PREFIX = "femscalpel:"  # of What's This texts of widgets
 _NAME = "femscalpelHelp"
+_LANGUAGE = QT_TRANSLATE_NOOP("FemScalpel", "These pages are in English.")  # told where FreeCAD is not
 
 
 def path_of(page):
@@ -41,6 +42,9 @@ def show(page):
     """Shows a page and returns the window."""
     main = FreeCADGui.getMainWindow()
     dialog = main.findChild(QtGui.QDialog, _NAME) or _make(main)
+    note = dialog.findChild(QtGui.QLabel, "helpLanguage")
+    note.setText(translate("FemScalpel", _LANGUAGE))
+    note.setVisible(note.text() != _LANGUAGE)
     dialog.findChild(QtGui.QTextBrowser).setSource(QtCore.QUrl.fromLocalFile(path_of(page)))
     dialog.show()
     dialog.raise_()
@@ -66,7 +70,11 @@ def _make(main):
         if available is not None:
             button.setEnabled(False)
             available.connect(button.setEnabled)
+    note = QtGui.QLabel()
+    note.setObjectName("helpLanguage")
+    note.setWordWrap(True)
     layout = QtGui.QVBoxLayout(dialog)
+    layout.addWidget(note)
     layout.addWidget(browser)
     layout.addWidget(buttons)
     dialog.resize(640, 600)
