@@ -122,5 +122,6 @@ class EngineTexts(GuiTest):
         pages.show("crack")
         spin(0.1)
         self.assertEqual(widget("helpLanguage").text(), "Diese Seiten sind auf Englisch.")
+        self.assertEqual(widget("helpBack").text(), "Zurück")
         screenshot("help_de")
         widget("femscalpelHelp").close()
