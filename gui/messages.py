@@ -165,9 +165,7 @@ TEMPLATES = (
     ),
     # Of names and numbers.
     QT_TRANSLATE_NOOP("FemScalpel", "name is empty; the new groups need one"),
-    QT_TRANSLATE_NOOP(
-        "FemScalpel", "name '%1' is taken: the mesh already has a group '%2'; choose another"
-    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "name '%1' is taken: the mesh already has a group '%2'; choose another"),
     QT_TRANSLATE_NOOP(
         "FemScalpel",
         "name '%1' is too long: group '%2' would have %3 characters, at most %4 are allowed",

@@ -127,15 +127,25 @@ class NewExpressions(EventFilter):
         line = box.findChild(QtGui.QLineEdit)
         action = line.addAction(QtGui.QIcon(_UNSET), QtGui.QLineEdit.TrailingPosition)
         action.setObjectName("expression")
+        action.setVisible(
+            False
+        )  # it takes room, so it is there only in the field that has the focus, or once it is set
         action.setToolTip(translate("FemScalpel", "Enter an expression (=)"))
         action.triggered.connect(lambda *_: self._ask(box))
         return action
 
     def filtered(self, box, event):
+        if event.type() in (QtCore.QEvent.FocusIn, QtCore.QEvent.FocusOut):
+            self._show_mark(box, event.type() == QtCore.QEvent.FocusIn)
         if event.type() != QtCore.QEvent.KeyPress or event.key() != QtCore.Qt.Key_Equal:
             return False
         QtCore.QTimer.singleShot(0, lambda: self._ask(box))  # not from within the key's event
         return True
+
+    def _show_mark(self, box, has_focus):
+        mark = self._marks.get(box.objectName())
+        if mark is not None:
+            mark.setVisible(has_focus or bool(box.property(fields.EXPRESSION)))
 
     def _ask(self, box):
         title = translate("FemScalpel", "Expression")
@@ -158,6 +168,7 @@ class NewExpressions(EventFilter):
         mark = self._marks[box.objectName()]
         mark.setIcon(QtGui.QIcon(_UNSET if number is None else _SET))
         mark.setToolTip(translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}")
+        self._show_mark(box, box.hasFocus())
         if number is not None:
             box.setToolTip(f"= {text.strip()}")
         box.valueChanged.emit(box.property("rawValue"))

@@ -53,6 +53,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.shown = None  # PreviewData of the newest request, None while it is not there or was an error
         self._ticket, self._settled = 0, 0
         self._ok = True  # whether the button is enabled
+        self._first = edited is None  # whether nothing was entered yet
         self._agreed, self._cost = 0, None  # elements that the user has agreed to; Cost of what is being refined
         self._summary = ""
         self._refining.connect(self._say_refining, QtCore.Qt.QueuedConnection)
@@ -294,6 +295,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             return
         self._settled = ticket
         self._say_settled()
+        self._first = False
         self._steady.hold()
         self._clear_errors()
         self._set_ok(True)
@@ -308,6 +310,8 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._summary = summary(report) + self._pieces(value.parting)
         self._status(self._summary)
         self._foresee_soon()
+        fields.show_first_digits(self.form)
+        self._fit_buttons()
 
     def failed(self, ticket, error):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
@@ -315,6 +319,11 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._settled = ticket
         self._say_settled()
         self._steady.hold()
+        if isinstance(error, femscalpel.ToolError) and self._first and ticket == self._ticket:
+            self._first = False
+            if self.geometry.move_into(self.source):  # it tells
+                return
+        self._first = False
         if isinstance(error, TooMuch):
             self._clear_errors()
             self._no_result(translate("FemScalpel", "No preview yet: see the question above."))

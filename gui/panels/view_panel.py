@@ -63,6 +63,8 @@ class ViewPanel(QtCore.QObject):
         # FreeCAD can take the panel away without asking, as when the document is closed.
         self._forms = list(self.form)
         self._forms[0].destroyed.connect(lambda *_: self._died())
+        for milliseconds in (0, 300):  # once FreeCAD shows the panel, and it is laid out
+            QtCore.QTimer.singleShot(milliseconds, self._fit_buttons)
         self._watch = DocumentWatch(self.document, self.edited, self._document_changed, self.is_busy)
         self._read()
 
@@ -74,6 +76,19 @@ class ViewPanel(QtCore.QObject):
         femmesh = self.source_object.FemMesh
         self.know_mesh()
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
+
+    def _fit_buttons(self):
+        """In themes with wide buttons, and languages with long words, Help is its icon alone: the panel would be wider
+        than its dock."""
+        if self._closed:
+            return
+        for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+            button = box.button(QtGui.QDialogButtonBox.Help) if box.isVisible() else None
+            area = _scroll_area_of(box) if button is not None else None
+            if area is not None and area.horizontalScrollBar().maximum() > 0 and button.text():
+                button.setToolTip(button.text().replace("&", ""))
+                button.setText("")
+                button.setStyleSheet("min-width: 0px; padding: 3px;")
 
     @classmethod
     def page(cls):
@@ -242,6 +257,11 @@ def abort_transaction(document):
     document.abortTransaction()
     # FreeCAD would still put the next change, such as one while undoing, into a new transaction of that name.
     FreeCAD.closeActiveTransaction(True)
+
+
+def _scroll_area_of(box):
+    areas = FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea)
+    return next((area for area in areas if area.isVisible() and area.isAncestorOf(box)), None)
 
 
 def _view(document):

@@ -289,7 +289,11 @@ class Following(GuiTest):
         self.assertNotEqual(picture(unset), picture(entered))
         self.open_panel("FemScalpel_Drill")
         for name in ("originX", "originY", "originZ", "normalX", "normalY", "normalZ", "radius"):
+            widget(name).setFocus()
+            spin(0)
             self.assertEqual(picture(mark(name).icon()), picture(unset), name)
+            self.assertTrue(mark(name).isVisible())
+        self.assertFalse(mark("originX").isVisible())  # not where it would hide digits
         icon_box = next(b for b in widget("radius").findChildren(QtGui.QToolButton) if b.isVisible())
 
         def press(box):
@@ -299,7 +303,12 @@ class Following(GuiTest):
         self.assertAlmostEqual(value("radius"), 0.66)
         self.assertEqual(picture(mark("radius").icon()), picture(entered))
         self.assertEqual(mark("radius").toolTip(), "= Box.Length / 5")
+        widget("originX").setFocus()
+        spin(0)
+        self.assertTrue(mark("radius").isVisible())
         screenshot("new_expression")
+        widget("radius").setFocus()
+        spin(0)
         self.answer_new_expression("radius", ("",), press)
         self.assertEqual(picture(mark("radius").icon()), picture(unset))
         self.wait_for_preview()
