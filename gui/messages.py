@@ -49,8 +49,8 @@ TEMPLATES = (
     ),
     QT_TRANSLATE_NOOP(
         "FemScalpel",
-        "the %1 only touches the mesh, on its outside: all elements there are on its %2 side, and there is nothing to part. "
-        "Move the %1 into the material",
+        "the %1 only touches the mesh, on its outside: all elements there are on its %2 side, and there is nothing to "
+        "part. Move the %1 into the material",
     ),
     QT_TRANSLATE_NOOP(
         "FemScalpel",
