@@ -93,9 +93,7 @@ class Bracket(GuiTest):
     def drill(self):
         self.window.press("FemScalpel_Drill")
         self.wait_for_panel()
-        self.window.enter(
-            originX="36", originY="15", originZ="8", normalX="0", normalY="0", normalZ="1", radius="4"
-        )
+        self.window.enter(originX="36", originY="15", originZ="8", normalX="0", normalY="0", normalZ="1", radius="4")
         self.wait_for_preview()
         self.shot("4_drill")
         self.window.press_ok()
