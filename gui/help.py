@@ -8,11 +8,12 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .event_filter import EventFilter
-from .translate import FOLDER, translate
+from .translate import FOLDER, QT_TRANSLATE_NOOP, translate
 
 PAGES = os.path.join(FOLDER, "resources", "docs", "commands")
 _PREFIX = "femscalpel:"  # of What's This texts of widgets
 _NAME = "femscalpelHelp"
+_LANGUAGE = QT_TRANSLATE_NOOP("FemScalpel", "These pages are in English.")  # told where FreeCAD is not
 
 
 def path_of(page):
@@ -41,6 +42,10 @@ def show(page):
     """Shows a page and returns the window."""
     main = FreeCADGui.getMainWindow()
     dialog = main.findChild(QtGui.QDialog, _NAME) or _make(main)
+    _label(dialog)
+    note = dialog.findChild(QtGui.QLabel, "helpLanguage")
+    note.setText(translate("FemScalpel", _LANGUAGE))
+    note.setVisible(note.text() != _LANGUAGE)
     dialog.findChild(QtGui.QTextBrowser).setSource(QtCore.QUrl.fromLocalFile(path_of(page)))
     dialog.show()
     dialog.raise_()
@@ -50,27 +55,40 @@ def show(page):
 def _make(main):
     dialog = QtGui.QDialog(main)
     dialog.setObjectName(_NAME)
-    dialog.setWindowTitle(translate("FemScalpel", "FemScalpel: help"))
     browser = QtGui.QTextBrowser()
     browser.setObjectName("helpText")
     browser.setOpenExternalLinks(True)
     buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Close)
     buttons.rejected.connect(dialog.reject)
-    for name, text, run, available in (
-        ("helpBack", translate("FemScalpel", "Back"), browser.backward, browser.backwardAvailable),
-        ("helpContents", translate("FemScalpel", "All commands"), lambda: show("index"), None),
+    for name, run, available in (
+        ("helpBack", browser.backward, browser.backwardAvailable),
+        ("helpContents", lambda: show("index"), None),
     ):
-        button = buttons.addButton(text, QtGui.QDialogButtonBox.ActionRole)
+        button = buttons.addButton("", QtGui.QDialogButtonBox.ActionRole)
         button.setObjectName(name)
         button.clicked.connect(lambda *_, run=run: run())
         if available is not None:
             button.setEnabled(False)
             available.connect(button.setEnabled)
+    note = QtGui.QLabel()
+    note.setObjectName("helpLanguage")
+    note.setWordWrap(True)
     layout = QtGui.QVBoxLayout(dialog)
+    layout.addWidget(note)
     layout.addWidget(browser)
     layout.addWidget(buttons)
     dialog.resize(640, 600)
     return dialog
+
+
+def _label(dialog):
+    """Gives it its texts in the language that FreeCAD has now."""
+    dialog.setWindowTitle(translate("FemScalpel", "FemScalpel: help"))
+    for name, text in (
+        ("helpBack", translate("FemScalpel", "Back")),
+        ("helpContents", translate("FemScalpel", "All commands")),
+    ):
+        dialog.findChild(QtGui.QPushButton, name).setText(text)
 
 
 class _WhatsThis(EventFilter):

@@ -437,9 +437,14 @@ def exportMesh(obj, path):
     """Writes the mesh of `obj` with its groups and numbers to a file whose ending says the format.
 
     femscalpel.formats() lists them. Raises femscalpel.WriteError when the file cannot be written or no format has its
-    ending.
+    ending. In FreeCAD's window it is written on another thread; femscalpel.Cancelled when the user ends that.
     """
-    femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
+    if FreeCAD.GuiUp:
+        from femscalpelgui import exporting
+
+        exporting.write(obj.FemMesh, path)
+    else:
+        femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
 
 
 def openExample():

@@ -8,6 +8,7 @@ from PySide import QtGui
 
 from femscalpelobjects.ours import made_of
 
+from .. import signs
 from ..translate import icon, translate
 
 
@@ -137,7 +138,8 @@ class Command:
 
     def run(self, mesh):
         """Does it."""
-        FreeCADGui.Control.showDialog(self.PANEL(mesh))
+        with signs.busy(translate("FemScalpel", "Opening the panel…")):
+            FreeCADGui.Control.showDialog(self.PANEL(mesh))
 
 
 class Operation(Command):

@@ -8,6 +8,8 @@ from PySide import QtGui
 import femscalpel
 
 from ..macro import record_import
+from ..panels.summary import sentence
+from ..panels.view_panel import TOLD
 from ..translate import QT_TRANSLATE_NOOP, translate
 from .base import Command, Unusable
 
@@ -55,5 +57,9 @@ class Export(Command):
         record_import()
         try:
             FreeCADGui.doCommand(f"ObjectsFemScalpel.exportMesh({document}.getObject({mesh.Name!r}), {path!r})")
+            said = translate("FemScalpel", "%1 was written.").replace("%1", path)
+        except femscalpel.Cancelled:
+            said = translate("FemScalpel", "Cancelled: no file was written.")
         except (femscalpel.Error, OSError, ValueError) as error:
-            raise Unusable(str(error)) from error
+            raise Unusable(sentence(str(error))) from error
+        FreeCADGui.getMainWindow().statusBar().showMessage(said, TOLD)

@@ -53,7 +53,7 @@ class AdditionInput(PanelInput):
         if chosen in self._others:
             self._choose(chosen)
         box.currentIndexChanged.connect(lambda *_: self._tell())
-        self._observer_of_document = _Changes(self._changed)
+        self._observer_of_document = _Changes(self._changed, self._deleted)
         FreeCAD.addDocumentObserver(self._observer_of_document)
 
     def _can_be_added(self, obj, edited):
@@ -73,6 +73,14 @@ class AdditionInput(PanelInput):
         if self.form is not None and obj == self.object() and prop in ("Placement", "FemMesh"):
             self._addition = None
             QtCore.QTimer.singleShot(0, self.changed.emit)
+
+    def _deleted(self, obj):
+        if self.form is None or obj not in self._others:
+            return
+        self._others.remove(obj)
+        index = self.form.addition.findData(obj.Name)
+        if index >= 0:
+            QtCore.QTimer.singleShot(0, lambda: self.form is not None and self.form.addition.removeItem(index))
 
     def object(self):
         """The object that is chosen, or None."""
@@ -124,8 +132,11 @@ class AdditionInput(PanelInput):
 class _Changes:
     """Tells of changes of document objects."""
 
-    def __init__(self, function):
-        self._function = function
+    def __init__(self, changed, deleted):
+        self._changed, self._deleted = changed, deleted
 
     def slotChangedObject(self, obj, prop):
-        self._function(obj, prop)
+        self._changed(obj, prop)
+
+    def slotDeletedObject(self, obj):
+        self._deleted(obj)

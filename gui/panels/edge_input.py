@@ -21,15 +21,22 @@ class EdgeInput(PanelInput):
         self.buttons = {"edge": self.form.pickEdge}
         self._connect_buttons()
         self.form.clearEdges.clicked.connect(lambda: self.set_along([]))
-        box = self.form.edge
+        self.list_groups(source_object)
+        self.form.edge.currentIndexChanged.connect(lambda *_: self._tell())
+
+    def list_groups(self, source_object):
+        box, femmesh = self.form.edge, source_object.FemMesh
+        chosen = box.currentData()
+        names = [femmesh.getGroupName(g) for g in femmesh.Groups if femmesh.getGroupElementType(g) in ("Edge", "Node")]
+        names += [chosen] if chosen else []  # which is an error where it is gone
+        blocked = box.blockSignals(True)
+        box.clear()
         box.addItem("", None)
-        femmesh = source_object.FemMesh
-        for name in dict.fromkeys(
-            femmesh.getGroupName(g) for g in femmesh.Groups if femmesh.getGroupElementType(g) in ("Edge", "Node")
-        ):
+        for name in dict.fromkeys(names):
             box.addItem(name, name)
+        box.setCurrentIndex(max(box.findData(chosen), 0) if chosen else 0)
+        box.blockSignals(blocked)
         self._show()
-        box.currentIndexChanged.connect(lambda *_: self._tell())
 
     def along(self):
         """The name of a group, or a list of points."""

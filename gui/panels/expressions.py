@@ -20,6 +20,9 @@ from .view_panel import abort_transaction
 # How the names of the steps begin that FreeCAD makes for an expression.
 _STEP = "Set expression"
 
+# FreeCAD's icons of fields without and with an expression.
+_UNSET, _SET = ":/icons/bound-expression-unset.svg", ":/icons/bound-expression.svg"
+
 #: Fields, and the paths of the properties that they are of.
 PATHS = {
     **{f"normal{axis}": f"Direction.{axis.lower()}" for axis in "XYZ"},
@@ -76,6 +79,12 @@ class Expressions:
             path: now.get(path) for path in sorted({*now, *self._before}) if now.get(path) != self._before.get(path)
         }
 
+    def document_changed(self):
+        """Steps may have been undone that there were at first."""
+        steps = self._obj.Document.UndoCount
+        if steps < self._steps:
+            self._steps, self._before = steps, _expressions_of(self._obj)
+
     def put_back(self):
         """Sets the expressions there were at first, and takes back the steps to undo that FreeCAD has made."""
         try:
@@ -109,14 +118,34 @@ class NewExpressions(EventFilter):
     def __init__(self, source, forms):
         super().__init__()
         self._source = source
+        self._marks = {box.objectName(): self._mark(box) for box in _boxes(forms)}
         for box in _boxes(forms):
             box.installEventFilter(self)
 
+    def _mark(self, box):
+        """The f(x) icon, as FreeCAD has it in the fields of objects that are there already."""
+        line = box.findChild(QtGui.QLineEdit)
+        action = line.addAction(QtGui.QIcon(_UNSET), QtGui.QLineEdit.TrailingPosition)
+        action.setObjectName("expression")
+        action.setVisible(
+            False
+        )  # it takes room, so it is there only in the field that has the focus, or once it is set
+        action.setToolTip(translate("FemScalpel", "Enter an expression (=)"))
+        action.triggered.connect(lambda *_: self._ask(box))
+        return action
+
     def filtered(self, box, event):
+        if event.type() in (QtCore.QEvent.FocusIn, QtCore.QEvent.FocusOut):
+            self._show_mark(box, event.type() == QtCore.QEvent.FocusIn)
         if event.type() != QtCore.QEvent.KeyPress or event.key() != QtCore.Qt.Key_Equal:
             return False
         QtCore.QTimer.singleShot(0, lambda: self._ask(box))  # not from within the key's event
         return True
+
+    def _show_mark(self, box, has_focus):
+        mark = self._marks.get(box.objectName())
+        if mark is not None:
+            mark.setVisible(has_focus or bool(box.property(fields.EXPRESSION)))
 
     def _ask(self, box):
         title = translate("FemScalpel", "Expression")
@@ -136,6 +165,10 @@ class NewExpressions(EventFilter):
             box.setProperty("rawValue", number)  # which tells the panel
             box.setProperty(fields.EXPRESSION, text.strip())
         box.setReadOnly(number is not None)
+        mark = self._marks[box.objectName()]
+        mark.setIcon(QtGui.QIcon(_UNSET if number is None else _SET))
+        mark.setToolTip(translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}")
+        self._show_mark(box, box.hasFocus())
         if number is not None:
             box.setToolTip(f"= {text.strip()}")
         box.valueChanged.emit(box.property("rawValue"))
@@ -158,6 +191,9 @@ class NewExpressions(EventFilter):
         """Expressions by path, for `obj`."""
         texts = {_path(box, obj): box.property(fields.EXPRESSION) for box in _boxes(forms)}
         return {path: text for path, text in texts.items() if text and path.split(".")[0] in obj.PropertiesList}
+
+    def document_changed(self):
+        """Nothing of it concerns an object that is yet to be made."""
 
     def put_back(self):
         """Nothing was changed yet."""

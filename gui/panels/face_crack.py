@@ -26,8 +26,19 @@ class FaceCrackPanel(ToolPanel):
         return source
 
     def loaded(self):
-        self.geometry.fill(self._names, self.edited.Group if self.edited is not None else None)
+        self._fill()
         super().loaded()
+
+    def _fill(self):
+        chosen = self.edited.Group if self.edited is not None else None
+        self.geometry.fill(self._names, self.geometry.group() or chosen)
+
+    def document_changed(self, stepped):
+        if stepped:
+            self.geometry.forget_group()
+            if self.source is not None:
+                self._fill()
+        super().document_changed(stepped)
 
     def own_errors(self):
         return {"group": self.geometry.form.geometryError}

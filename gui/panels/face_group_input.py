@@ -18,10 +18,17 @@ class FaceGroupInput(PanelInput):
         """The name that is chosen, or None."""
         return self.form.faceGroup.currentData()
 
+    def forget_group(self):
+        """Nothing is chosen any more, until fill() lists names."""
+        blocked = self.form.faceGroup.blockSignals(True)
+        self.form.faceGroup.clear()
+        self.form.faceGroup.blockSignals(blocked)
+
     def fill(self, names, chosen=None):
         """Lists names, and enters `chosen`, also if it is none of them, or the first; without telling anyone."""
         box = self.form.faceGroup
         blocked = box.blockSignals(True)
+        box.clear()
         for name in names if chosen in (None, "", *names) else (*names, chosen):
             box.addItem(name, name)
         box.setCurrentIndex(max(box.findData(chosen), 0))

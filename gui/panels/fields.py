@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """FreeCAD's unit-aware number fields, and messages beside fields."""
 
+from PySide import QtGui
+
 #: Styles of errors and warnings. They have a ground of their own, as themes have any: dark, light, or grey.
 ERROR = "color: #8c1d18; background-color: #fde7e4;"
 WARNING = "color: #654000; background-color: #fff1cf;"
@@ -47,6 +49,15 @@ class Number:
     def _typed(self, *_):
         self._value = float(self._box.property("rawValue"))
         self._changed()
+
+
+def show_first_digits(forms):
+    """Where a number does not fit into its field, the unit is out of sight, not the first digits."""
+    for form in forms:
+        for box in form.findChildren(QtGui.QAbstractSpinBox):
+            line = box.findChild(QtGui.QLineEdit)
+            if line is not None and not line.hasFocus():
+                line.home(False)
 
 
 def show_error(label, text):

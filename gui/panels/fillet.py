@@ -17,6 +17,8 @@ class FilletPanel(ToolPanel):
     TWO_SIDES = False
     WHOLE = True
 
+    _has_radius = False  # whether one was proposed
+
     def make_geometry(self):
         return EdgeInput(self.source_object)
 
@@ -27,7 +29,8 @@ class FilletPanel(ToolPanel):
         )
 
     def loaded(self):
-        if self.edited is None:
+        if self.edited is None and not self._has_radius:
+            self._has_radius = True
             # Two elements wide.
             self._radius.set(fields.round_step(2 * self.source.edge_length()))
         super().loaded()

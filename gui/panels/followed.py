@@ -4,10 +4,11 @@
 from PySide import QtGui
 
 from femscalpelobjects import following
-from femscalpelobjects.picked_geometry import name_of, shape_of
+from femscalpelobjects.picked_geometry import axes_of, name_of, shape_of
 
 from ..translate import translate
 from . import fields
+from .document_watch import is_gone
 
 
 class Followed:
@@ -51,6 +52,19 @@ class Followed:
         text = translate("FemScalpel", "No longer follows %1: other numbers were entered.").replace("%1", self._name)
         self.targets, self._name, self._broken = [], "", False
         self._show(text)
+
+    def look_again(self):
+        """The geometry may be gone, or another. Returns whether that ends that it is followed."""
+        try:
+            if self.targets:
+                axes_of(self.targets)
+            is_broken = any(is_gone(part) for part, _ in self.targets)
+        except ValueError:
+            is_broken = True
+        if is_broken:
+            self.targets, self._broken = [], True
+            self._show_name()
+        return is_broken
 
     def error(self):
         """What is wrong with what is followed, "" when nothing is."""

@@ -5,7 +5,7 @@ import dataclasses
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtCore
+from PySide import QtCore, QtGui
 
 from ..translate import translate
 from ..view import picking
@@ -33,10 +33,21 @@ class GeometryInput(PanelInput):
         step = fields.round_step(self.size / 50)
         self._point = [fields.Number(getattr(self.form, "origin" + n), self._typed, step=step) for n in "XYZ"]
         self._direction = [fields.Number(getattr(self.form, "normal" + n), self._typed, step=0.1) for n in "XYZ"]
+        for field in self.form.findChildren(QtGui.QAbstractSpinBox):
+            # Two in a row, with the icon of expressions: arrows beside them would hide the first digits.
+            field.setButtonSymbols(QtGui.QAbstractSpinBox.NoButtons)
         self._connect_buttons()
         self.form.pickView.clicked.connect(self._take_view)
         self.form.centre.clicked.connect(lambda: self.set_pose(self.centre, self.direction()))
         self.set_pose(self.centre, FreeCAD.Vector(1, 0, 0))
+
+    def move_into(self, source):
+        inside = source.nearest_inside(self.centre)
+        if inside is None or not self.base().isEqual(self.centre, 1e-9 * self.size):
+            return False
+        self.centre = FreeCAD.Vector(*inside)
+        self.set_pose(self.centre, self.direction())
+        return True
 
     # What is entered.
 

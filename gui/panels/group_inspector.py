@@ -79,7 +79,7 @@ class GroupInspectorPanel(InspectionPanel):
         self.scene.ghost.show(whole.points, whole.faces)
         self.scene.beams.show(whole.beams)
         self._measures = femscalpel.measure(self.source.mesh)
-        self._list()
+        self._list_anew()
 
     def _elementary(self):
         return self.panel.what.currentData() == WHAT[1]
@@ -206,6 +206,7 @@ class GroupInspectorPanel(InspectionPanel):
                 self._shapes[key] = self._shape(self.entries[row], part)
             shapes.append((self._shapes[key], self._colour(row)))
         self.scene.show(shapes)
+        self.legend_in_view.show_entries([(self._colour(row), self.entries[row].name) for row in self.ticked()])
 
     def _shape(self, entry, part):
         mesh = self.source.mesh
@@ -225,7 +226,7 @@ class GroupInspectorPanel(InspectionPanel):
         )
 
     def _rename(self, entry, name):
-        if self._closed:
+        if self._closed or self.source is None:
             return
         fields.show_error(self.panel.error, "")
         try:
@@ -240,13 +241,18 @@ class GroupInspectorPanel(InspectionPanel):
                 f"{entry.name!r}, {name!r}, kind={entry.kind!r})"
             )
             self.source.mesh.rename_group(entry.name, name, entry.kind)
+            self.know_mesh()
         except Exception as error:
             fields.show_error(self.panel.error, str(error))
+        self._list_anew({entry.name: name})
+
+    def _list_anew(self, renamed=()):
+        """Lists the groups, and ticks those again that were ticked, some of them by another name."""
         shown = {self.entries[row].name for row in self.ticked()}
+        shown |= {new for old, new in dict(renamed).items() if old in shown}
         self._list()
-        self._tick(
-            lambda row: self.entries[row].name in shown or self.entries[row].name == name and entry.name in shown
-        )
+        if shown:
+            self._tick(lambda row: self.entries[row].name in shown)
 
 
 def _measure_text(measure, dimension):

@@ -104,7 +104,8 @@ class IncisionPanel(PlanePanel):
                 )
                 end = "Point"
             else:
-                self.slot.slotEnd.addItem(translate("FemScalpel", "At the bottom it has"), "Kept")
+                if self.slot.slotEnd.findData("Kept") < 0:
+                    self.slot.slotEnd.addItem(translate("FemScalpel", "At the bottom it has"), "Kept")
                 end = "Kept"
             self.slot.slotEnd.setCurrentIndex(self.slot.slotEnd.findData(end))
 

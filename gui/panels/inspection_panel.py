@@ -35,6 +35,10 @@ class InspectionPanel(ViewPanel):
     def getStandardButtons(self):
         return qt.number(QtGui.QDialogButtonBox.Close | QtGui.QDialogButtonBox.Help)
 
+    def reading_again(self):
+        fields.show_error(self.panel.error, "")
+        self.panel.status.setText(translate("FemScalpel", "Reading the mesh…"))
+
     def not_loaded(self, error):
         fields.show_error(self.panel.error, str(error))
 

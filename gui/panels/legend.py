@@ -72,9 +72,9 @@ def _families(data):
         counts.update(surface.family.tolist())
     names = [data.families[family] for family, _ in counts.most_common()]
     shown = names if len(names) <= _MOST_FAMILIES else names[: _MOST_FAMILIES - 1]
+    rgb = dict(zip(data.families, colours.families_rgb(data.families)))
     entries = [
-        (colours.group_rgb(family), " ∩ ".join(family) if family else translate("FemScalpel", "in no group"))
-        for family in shown
+        (rgb[family], " ∩ ".join(family) if family else translate("FemScalpel", "in no group")) for family in shown
     ]
     if len(shown) < len(names):
         more = translate("FemScalpel", "and %1 other combinations of groups")

@@ -83,6 +83,7 @@ class MeshQualityPanel(InspectionPanel):
         # Faces that solids stand behind are not elements to judge by.
         judged = cells.dimension == (3 if (cells.dimension == 3).any() else 2)
         counts, _ = np.histogram(np.clip(self.values[judged], 0, regular), 20, (0, regular))
+        self._show_legend(regular, unit)
         self.histogram.show_counts(counts, low=0.0, high=regular, rgb=lambda middle: quality_rgb(middle / regular))
         judged = np.flatnonzero(judged)
         if not len(judged):
@@ -105,6 +106,11 @@ class MeshQualityPanel(InspectionPanel):
         self.panel.worst.blockSignals(blocked)
         self._tools.arrange()
         self._draw()
+
+    def _show_legend(self, regular, unit):
+        text = translate("FemScalpel", "%1: 0 to %2").replace("%1", self.panel.measure.currentText())
+        rgb = quality_rgb(np.array((0.0, 0.15, 0.3, 0.5, 0.75, 1.0)))
+        self.legend_in_view.show_entries([(rgb, text.replace("%2", f"{regular:g}{unit}"))])
 
     def _draw(self, extra=()):
         if self.source is None:
@@ -129,7 +135,7 @@ class MeshQualityPanel(InspectionPanel):
 
     def _zoom(self):
         rows = self.panel.worst.selectionModel().selectedRows()
-        if not rows:
+        if not rows or self.source is None:
             self.scene.label.hide()
             self._draw()
             return

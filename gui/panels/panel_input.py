@@ -51,6 +51,13 @@ class PanelInput(QtCore.QObject):
         """The label for messages about the geometry."""
         return self.form.geometryError
 
+    def move_into(self, source):
+        """Moves what is entered at first, beside the material of a PreviewSource, into it. Whether it did, and told."""
+        return False
+
+    def list_groups(self, source_object):
+        """The mesh object has other groups now."""
+
     def add_handles(self, view):
         """Puts what can be seen of it into a 3-D view."""
 

@@ -41,6 +41,20 @@ class PreserveInput:
     def _items(self):
         return [self._list.item(row) for row in range(self._list.count())]
 
+    def list_groups(self, names):
+        """The mesh has these groups now; new ones are ticked."""
+        known = {item.text(): item for item in self._items()}
+        blocked = self._list.blockSignals(True)
+        for name in names:
+            if name not in known:
+                self._add(name)
+        for name, item in known.items():
+            if name not in names:
+                self._list.takeItem(self._list.row(item))
+        self._list.blockSignals(blocked)
+        self._choice.setEnabled(self._list.count() > 0 or self._choice.currentData() == "Ticked")
+        self._choose()
+
     def value(self):
         """None for all groups, or a list of names."""
         if self._choice.currentData() == "All":

@@ -25,8 +25,19 @@ class ReshapePanel(ToolPanel):
         return WallInput(self.source_object)
 
     def loaded(self):
-        self.geometry.fill(self.source, self.edited.Group if self.edited is not None else None)
+        self._fill()
         super().loaded()
+
+    def _fill(self):
+        chosen = self.edited.Group if self.edited is not None else None
+        self.geometry.fill(self.source, self.geometry.group() or chosen)
+
+    def document_changed(self, stepped):
+        if stepped:
+            self.geometry.forget_group()
+            if self.source is not None:
+                self._fill()
+        super().document_changed(stepped)
 
     def own_errors(self):
         return {"group": self.geometry.wall.groupError}

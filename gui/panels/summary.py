@@ -8,12 +8,15 @@ import FreeCAD
 from femscalpelobjects import pieces
 
 from .. import preferences
+from ..messages import in_language
 from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 
 
 def sentence(text):
-    """`text` with a capital letter first and a full stop behind it."""
+    """What the engine says, in the user's language where that is known, with a capital letter first and a full stop
+    behind it."""
+    text = in_language(text)
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 

@@ -48,11 +48,12 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
     _refining = QtCore.Signal(object)  # a Cost, from the other thread
 
     def __init__(self, source_object, edited=None):
-        super().__init__(source_object)
-        self.edited, self._pieces = edited, PiecesText(source_object)
+        super().__init__(source_object, edited)
+        self._pieces = PiecesText(source_object)
         self.shown = None  # PreviewData of the newest request, None while it is not there or was an error
         self._ticket, self._settled = 0, 0
         self._ok = True  # whether the button is enabled
+        self._first = edited is None  # whether nothing was entered yet
         self._agreed, self._cost = 0, None  # elements that the user has agreed to; Cost of what is being refined
         self._summary = ""
         self._refining.connect(self._say_refining, QtCore.Qt.QueuedConnection)
@@ -66,12 +67,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._question = RefinementQuestion(self.form[0], self._refine_to, self._agree)
         self.add_inputs()
         if edited is not None:
-            self.read(edited)
-            if self.geometry.followed is not None:
-                self.geometry.followed.read(edited)
-                if following.is_expressed(edited):
-                    self.geometry.read_expressed(edited)
-                    self.enter_turn(edited.Turn.Value)
+            self._read_edited()
         self.expressions = Expressions(edited, self.form) if edited else NewExpressions(source_object, self.form)
         self.form[0].setWindowTitle(translate("FemScalpel", self.TITLE))
         for box, name in zip(self.form, (self.ICON, "FemScalpel", "FemScalpel_MeshQuality")):
@@ -86,6 +82,14 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._status(translate("FemScalpel", "Reading the mesh…"))
         self.start()
         self._hide_parts(True)
+
+    def _read_edited(self):
+        self.read(self.edited)
+        if self.geometry.followed is not None:
+            self.geometry.followed.read(self.edited)
+            if following.is_expressed(self.edited):
+                self.geometry.read_expressed(self.edited)
+                self.enter_turn(self.edited.Turn.Value)
 
     # What subclasses say.
 
@@ -200,7 +204,31 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.update()
 
     def not_loaded(self, error):
+        self.scene.hide_all()
         self._no_result(str(error))
+        self._say_settled()
+
+    def reading_again(self):
+        self._end_foresight()
+        self.geometry.stop_picking()
+        self.worker.cancel()
+        self.shown, self._ticket, self._settled = None, 0, 0
+        self.result.status.setProperty(SETTLED, False)
+        self._status(translate("FemScalpel", "Reading the mesh…"))
+        self.geometry.list_groups(self.source_object)
+        self._preserve.list_groups(self._group_names())
+
+    def document_changed(self, stepped):
+        self.expressions.document_changed()
+        picking = self.geometry.is_picking()
+        if picking:
+            self._meshes.pickable(self.pickable())
+        self._hide_parts(not picking)
+        was_broken = self.geometry.followed is not None and self.geometry.followed.look_again()
+        if stepped:
+            self._read_edited()
+        if stepped or was_broken:
+            self.update()
 
     def update(self):
         """Asks for a new preview of what is entered now."""
@@ -267,6 +295,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             return
         self._settled = ticket
         self._say_settled()
+        self._first = False
         self._steady.hold()
         self._clear_errors()
         self._set_ok(True)
@@ -276,11 +305,13 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.histogram.show_counts(report.quality.after.histogram, report.quality.before.histogram)
         group_table.fill(self.result.groups, report.groups, self._table_tools)
         self.result.report.setEnabled(True)
-        self.legend.show_entries(entries_of(self.scene, value))
+        self._show_legend()
         self._light_up()
         self._summary = summary(report) + self._pieces(value.parting)
         self._status(self._summary)
         self._foresee_soon()
+        fields.show_first_digits(self.form)
+        self._fit_buttons()
 
     def failed(self, ticket, error):
         if self._heard(ticket, None, error) or ticket < self._settled or not self._ticket:
@@ -288,6 +319,11 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._settled = ticket
         self._say_settled()
         self._steady.hold()
+        if isinstance(error, femscalpel.ToolError) and self._first and ticket == self._ticket:
+            self._first = False
+            if self.geometry.move_into(self.source):  # it tells
+                return
+        self._first = False
         if isinstance(error, TooMuch):
             self._clear_errors()
             self._no_result(translate("FemScalpel", "No preview yet: see the question above."))
@@ -305,7 +341,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self.scene.show_whole(self.source.whole(), self.beside())
         self.scene.highlight(None)
         self.histogram.clear()
-        self.legend.show_entries([])
+        self._show_legend()
         self.result.report.setEnabled(False)
         self.result.groups.setRowCount(0)
         self._status(status)
@@ -365,7 +401,12 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.scene.show_moved, self.scene.show_worst = r.moved.isChecked(), r.worst.isChecked()
         self.scene.redraw()
         if self.shown is not None:
-            self.legend.show_entries(entries_of(self.scene, self.shown))
+            self._show_legend()
+
+    def _show_legend(self):
+        entries = entries_of(self.scene, self.shown) if self.shown is not None else []
+        self.legend.show_entries(entries)
+        self.legend_in_view.show_entries(entries)
 
     def _show_report(self):
         """The report of what is shown, to be read, copied and saved."""

@@ -8,17 +8,23 @@ from PySide import QtCore, QtGui
 from pivy import coin
 
 import femmesh_bridge
+import femscalpel
 from femscalpelobjects import contents
 
 from .. import help
 from ..latest_wins import LatestWins
 from ..translate import translate
+from ..view.legend_in_view import LegendInView
 from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
+from .document_watch import DocumentWatch, is_gone
 from .field_filter import FieldFilter
 from .sections import name_fields
 from .steady import Steady
 
+
+#: Milliseconds for which the status bar says what has become of a panel.
+TOLD = 15_000
 
 # Forms that FreeCAD has deleted itself; Python must never do it again.
 _lost = []
@@ -27,15 +33,17 @@ _lost = []
 class ViewPanel(QtCore.QObject):
     """A task panel about the mesh of one object. Subclasses make `form` first, then call start()."""
 
-    def __init__(self, source_object):
+    def __init__(self, source_object, edited=None):
         super().__init__()
-        self.source_object = source_object
+        self.source_object, self.edited = source_object, edited
+        self._labels = source_object.Label, edited.Label if edited is not None else ""
         self.document = source_object.Document
         self.view = _view(self.document)
         self.source = None  # PreviewSource, once it was read
         self.form = []
         self._closed = False
         self._reading = None
+        self._watch = None
 
     def start(self):
         """Names the mesh, takes the view and starts reading the mesh; loaded() or failed() follow."""
@@ -49,14 +57,38 @@ class ViewPanel(QtCore.QObject):
             name_fields(form)
         self._fields, self._steady = FieldFilter(self.form), Steady(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
+        self.legend_in_view = LegendInView(self.view)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
         self.worker = LatestWins(self._arrived, self._broke)
         # FreeCAD can take the panel away without asking, as when the document is closed.
         self._forms = list(self.form)
         self._forms[0].destroyed.connect(lambda *_: self._died())
-        femmesh = self.source_object.FemMesh
+        for milliseconds in (0, 300):  # once FreeCAD shows the panel, and it is laid out
+            QtCore.QTimer.singleShot(milliseconds, self._fit_buttons)
+        self._watch = DocumentWatch(self.document, self.edited, self._document_changed, self.is_busy)
+        self._read()
+
+    def know_mesh(self):
+        """`source` is what the source object has now."""
         self._changes = contents.changes_of(self.source_object)
+
+    def _read(self):
+        femmesh = self.source_object.FemMesh
+        self.know_mesh()
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
+
+    def _fit_buttons(self):
+        """In themes with wide buttons, and languages with long words, Help is its icon alone: the panel would be wider
+        than its dock."""
+        if self._closed:
+            return
+        for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+            button = box.button(QtGui.QDialogButtonBox.Help) if box.isVisible() else None
+            area = _scroll_area_of(box) if button is not None else None
+            if area is not None and area.horizontalScrollBar().maximum() > 0 and button.text():
+                button.setToolTip(button.text().replace("&", ""))
+                button.setText("")
+                button.setStyleSheet("min-width: 0px; padding: 3px;")
 
     @classmethod
     def page(cls):
@@ -106,6 +138,50 @@ class ViewPanel(QtCore.QObject):
         else:
             self.failed(ticket, error)
 
+    # What happens to the document while the panel is open.
+
+    def is_busy(self):
+        """Whether it is the panel itself that changes the document just now."""
+        return False
+
+    def _document_changed(self, gone, stepped):
+        if self._closed:
+            return
+        if gone and any(obj is not None and is_gone(obj) for obj in (self.edited, self.source_object)):
+            self.leave()
+            self._tell_lost()
+            return
+        self._meshes.renew()
+        if self._changes != contents.changes_of(self.source_object):
+            self.source = None
+            self.reading_again()
+            if "Invalid" in self.source_object.State or not self.source_object.FemMesh.NodeCount:
+                self._reading = None
+                self.know_mesh()
+                text = translate("FemScalpel", "%1 has no mesh any more. Undo what took it away, or cancel.")
+                self.not_loaded(femscalpel.Error(text.replace("%1", self.source_object.Label)))
+            else:
+                self._read()
+        self.document_changed(stepped)
+
+    def reading_again(self):
+        """The source has another mesh, which is read now; loaded() or not_loaded() follow once more."""
+
+    def document_changed(self, stepped):
+        """The document has changed; `stepped`: `edited` by undo or redo."""
+
+    def _tell_lost(self):
+        """Says why the panel was closed, where it is for the lack of what it is about."""
+        if self.document not in FreeCAD.listDocuments().values():
+            return
+        for obj, label in ((self.edited, self._labels[1]), (self.source_object, self._labels[0])):
+            if label and is_gone(obj):
+                text = translate("FemScalpel", "%1 is not there any more, so its panel was closed.")
+                text = text.replace("%1", label)
+                FreeCAD.Console.PrintWarning(text + "\n")
+                FreeCADGui.getMainWindow().statusBar().showMessage(text, TOLD)
+                return
+
     def _key(self, callback):
         event = callback.getEvent()
         if event.getKey() == coin.SoKeyboardEvent.ESCAPE and event.getState() == coin.SoButtonEvent.DOWN:
@@ -134,14 +210,19 @@ class ViewPanel(QtCore.QObject):
         if self._closed:
             return
         self._closed = True
+        self._watch.close()
         self._steady.close()
         self.worker.close()
         self.clear_view()
+        self.legend_in_view.close()
         self._meshes.restore()
         try:
             self.view.removeEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._keys)
         except (RuntimeError, AttributeError):  # the view is gone
             pass
+        bar = FreeCADGui.getMainWindow().statusBar()
+        if bar.currentMessage().endswith("…"):  # what the panel was waiting for
+            bar.clearMessage()
         self._give_up_forms()
         self.form = None
         self.forget_widgets()
@@ -160,6 +241,7 @@ class ViewPanel(QtCore.QObject):
         _lost.extend(self._forms)
         self._forms = []
         self.close()
+        QtCore.QTimer.singleShot(0, self._tell_lost)
 
     def clear_view(self):
         """Takes the panel's own nodes out of the view."""
@@ -175,6 +257,11 @@ def abort_transaction(document):
     document.abortTransaction()
     # FreeCAD would still put the next change, such as one while undoing, into a new transaction of that name.
     FreeCAD.closeActiveTransaction(True)
+
+
+def _scroll_area_of(box):
+    areas = FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea)
+    return next((area for area in areas if area.isVisible() and area.isAncestorOf(box)), None)
 
 
 def _view(document):

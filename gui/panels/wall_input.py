@@ -78,12 +78,19 @@ class WallInput(AxisInput):
     def targets(self):
         return super().targets() if self.motion() == "Onto" else []
 
+    def forget_group(self):
+        """No wall is chosen any more, until fill() lists them."""
+        blocked = self.wall.wall.blockSignals(True)
+        self.wall.wall.clear()
+        self.wall.wall.blockSignals(blocked)
+
     def fill(self, source, group=None):
         """Lists the walls of a PreviewSource, and enters the one of that name, or the first."""
         self.source = source
         box = self.wall.wall
         blocked = box.blockSignals(True)
         names = wall.walls(source.mesh)
+        box.clear()
         for name in names:
             box.addItem(name, name)
         if group is not None:

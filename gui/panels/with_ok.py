@@ -16,11 +16,10 @@ from ..progress import Progress, Steps
 from ..translate import translate
 from . import fields
 from .summary import made_text, sentence
-from .view_panel import abort_transaction
+from .view_panel import TOLD, abort_transaction
 
 #: Seconds that a cancelled computation may take to end.
 _PATIENCE = 2.0
-_TOLD = 15_000  # milliseconds for which the status bar says what was made
 
 
 class WithOk:
@@ -59,6 +58,9 @@ class WithOk:
         """OK: makes or changes the document object; stays open with a message when that is not possible."""
         if self._progress is not None or self._closed:
             return False
+        self._watch.hurry()
+        if self._closed:
+            return False
         self.geometry.stop_picking()
         self._progress = Progress(translate("FemScalpel", self.TITLE), self._status)
         self._take_input(False)
@@ -88,7 +90,7 @@ class WithOk:
         if any(texts):
             text = f"{obj.Label}: {' '.join(filter(None, texts))}"
             FreeCAD.Console.PrintMessage(text + "\n")
-            FreeCADGui.getMainWindow().statusBar().showMessage(text, _TOLD)
+            FreeCADGui.getMainWindow().statusBar().showMessage(text, TOLD)
 
     def _do(self, progress):
         """The object made or changed, None where the panel is to stay."""
@@ -129,6 +131,9 @@ class WithOk:
             return True
         reading = self.source is None and self._reading is not None
         return not reading and not (self._ticket and self._settled < self._ticket)
+
+    def is_busy(self):
+        return self._progress is not None
 
     def _give_up(self):
         """Ends the preview that OK waits for."""

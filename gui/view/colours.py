@@ -53,11 +53,18 @@ def quality_rgb(ratio):
     return np.stack([np.interp(ratio, _STOPS, _SCALE[:, k]) for k in range(3)], axis=-1)
 
 
-def group_rgb(names):
-    """Colour of the elements that are in exactly these groups; the same names always have the same colour."""
-    if not names:
-        return np.array(NEUTRAL)
-    return _PALETTE[zlib.crc32("\n".join(names).encode()) % len(_PALETTE)]
+def families_rgb(families):
+    """(n, 3) colours of the elements that are in exactly these groups, for each of several such tuples of names. All
+    differ as long as there are colours, and the same names have the same one mostly."""
+    found = {(): np.array(NEUTRAL)}
+    free = set()
+    for names in sorted(set(families) - {()}):
+        number = zlib.crc32("\n".join(names).encode()) % len(_PALETTE)
+        free = free or set(range(len(_PALETTE)))
+        number = min(free, key=lambda k, first=number: (k - first) % len(_PALETTE))
+        free.remove(number)
+        found[names] = _PALETTE[number]
+    return np.array([found[names] for names in families]).reshape(-1, 3)
 
 
 def distinct_rgb(number):

@@ -12,14 +12,21 @@ class HiddenMeshes:
         self._document = document
         self._beside = []
         self._before = [
-            (o.Name, o.ViewObject.SwitchNode, o.ViewObject.SwitchNode.whichChild.getValue())
-            for o in document.Objects
-            if o.isDerivedFrom("Fem::FemMeshObject")
+            (o.Name, o.ViewObject.SwitchNode, o.ViewObject.SwitchNode.whichChild.getValue()) for o in self._meshes()
         ]
         mode = source.ViewObject.SwitchNode.whichChild.getValue()
         if mode < 0:
             mode = min(_FACES_AND_WIREFRAME, source.ViewObject.SwitchNode.getNumChildren() - 1)
         self._mode = mode
+        self._hide()
+
+    def _meshes(self):
+        return [o for o in self._document.Objects if o.isDerivedFrom("Fem::FemMeshObject")]
+
+    def renew(self):
+        """Hides the meshes that there are now, after undo or redo."""
+        modes = {name: mode for name, _, mode in self._before}
+        self._before = [(o.Name, o.ViewObject.SwitchNode, modes.get(o.Name, self._mode)) for o in self._meshes()]
         self._hide()
 
     def _hide(self):

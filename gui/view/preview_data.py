@@ -77,6 +77,10 @@ class PreviewData:
     seconds: Dict[str, float] = field(default_factory=dict)
 
 
+# Part of the size of a mesh within which nearest_inside() looks for the middle of the material.
+_AROUND = 0.15
+
+
 class PreviewSource:
     """A mesh and everything about it that does not depend on the tool."""
 
@@ -130,6 +134,17 @@ class PreviewSource:
         if not len(self.skin):
             return self.size / 20
         return float(np.linalg.norm(self.points[self.skin[:, 0]] - self.points[self.skin[:, 1]], axis=1).mean())
+
+    def nearest_inside(self, place):
+        """The middle of an element near a place that may lie outside the part, not just under the skin; None where the
+        mesh has neither faces nor volumes."""
+        middles = self.cells.per_cell(lambda nodes: self.points[nodes].mean(axis=1))
+        if not len(middles):
+            return None
+        middles = middles[self.cells.dimension == self.cells.dimension.max()]
+        nearest = middles[np.linalg.norm(middles - place, axis=1).argmin()]
+        around = middles[np.linalg.norm(middles - nearest, axis=1) <= _AROUND * self.size]
+        return around[np.linalg.norm(around - around.mean(axis=0), axis=1).argmin()]
 
     def whole(self):
         """The unchanged mesh as a Surface."""

@@ -74,8 +74,21 @@ class PreviewScene(Picture):
         self.root.addChild(self.worst_label.root)
         self.open()
 
+    def hide_all(self):
+        """Shows nothing, as there is no mesh."""
+        self._hide_result()
+        self.rest.hide()
+        self.beams.hide()
+
     def show_whole(self, surface, beside=None):
         """Shows an unchanged mesh, while there is no result; of what is `beside` it, a ghost."""
+        self._hide_result()
+        self.rest.show(surface.points, surface.faces)
+        self.beams.show(surface.beams)
+        if beside is not None:
+            self.ghost.show(beside.points, beside.faces)
+
+    def _hide_result(self):
         self._data = None
         for part in (
             self.band,
@@ -90,10 +103,6 @@ class PreviewScene(Picture):
             self.worst_label,
         ):
             part.hide()
-        self.rest.show(surface.points, surface.faces)
-        self.beams.show(surface.beams)
-        if beside is not None:
-            self.ghost.show(beside.points, beside.faces)
 
     def show(self, data):
         """Shows a PreviewData."""
@@ -152,7 +161,7 @@ class PreviewScene(Picture):
         if by_quality:
             rgb = colours.quality_rgb(np.concatenate([s.quality for s in surfaces]))
         elif data is not None and self.colouring == "groups":
-            palette = np.array([colours.group_rgb(names) for names in data.families])
+            palette = colours.families_rgb(data.families)
             rgb = palette[np.concatenate([s.family for s in surfaces])]
         part.show(np.concatenate(points), np.concatenate(faces), rgb)
 

@@ -8,6 +8,7 @@ from PySide import QtGui
 
 from femscalpelobjects.ours import made_of
 
+from .. import signs
 from ..translate import icon, translate
 from . import context_menu
 from .deleting import before_deletion
@@ -80,7 +81,8 @@ class ViewProviderMeshOperation:
             )
             return False
         module = importlib.import_module("femscalpelgui.panels." + panel[1])
-        FreeCADGui.Control.showDialog(getattr(module, panel[2])(obj.Source, obj))
+        with signs.busy(translate("FemScalpel", "Opening the panel…")):
+            FreeCADGui.Control.showDialog(getattr(module, panel[2])(obj.Source, obj))
         return True
 
     def unsetEdit(self, vobj, mode=0):

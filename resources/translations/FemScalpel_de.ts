@@ -227,6 +227,10 @@
       <translation>%1 kann nicht geschrieben werden: %2. Wählen Sie einen anderen Ordner oder Namen.</translation>
     </message>
     <message>
+      <source>%1 element(s) would be flat or inverted (%2): the tool passes too close to a corner or crease there. Move it a little</source>
+      <translation>%1 Element(e) würden flach oder umgestülpt (%2): Das Werkzeug geht dort zu nah an einer Ecke oder einem Knick vorbei. Verschieben Sie es ein wenig</translation>
+    </message>
+    <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 Elemente; kleinster Wert %2, Mittel %3.</translation>
     </message>
@@ -247,6 +251,10 @@
       <translation>%1 hat einen Fehler. Beheben Sie ihn oder wählen Sie ein anderes Netz.</translation>
     </message>
     <message>
+      <source>%1 has no mesh any more. Undo what took it away, or cancel.</source>
+      <translation>%1 hat kein Netz mehr. Machen Sie rückgängig, was es genommen hat, oder brechen Sie ab.</translation>
+    </message>
+    <message>
       <source>%1 has no mesh yet: it is empty. Make the mesh first.</source>
       <translation>%1 hat noch kein Netz: es ist leer. Erzeugen Sie zuerst das Netz.</translation>
     </message>
@@ -257,6 +265,10 @@
     <message>
       <source>%1 is not a FEM mesh. Select the mesh in the tree.</source>
       <translation>%1 ist kein FEM-Netz. Wählen Sie das Netz im Baum.</translation>
+    </message>
+    <message>
+      <source>%1 is not there any more, so its panel was closed.</source>
+      <translation>%1 gibt es nicht mehr, darum wurde der Dialog geschlossen.</translation>
     </message>
     <message>
       <source>%1 is the source of another operation. Take %2, the latest, instead?</source>
@@ -279,6 +291,10 @@
       <translation>%1 gewählte Stellen</translation>
     </message>
     <message>
+      <source>%1 second-order element(s) would be folded (%2): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh</source>
+      <translation>%1 Element(e) zweiter Ordnung würden gefaltet (%2): Das Netz ist dort zu grob für seine Krümmung. Verschieben Sie das Werkzeug ein wenig, oder verfeinern Sie das Netz</translation>
+    </message>
+    <message>
       <source>%1 shell elements</source>
       <translation>%1 Schalenelemente</translation>
     </message>
@@ -287,8 +303,24 @@
       <translation>%1 kleinere</translation>
     </message>
     <message>
+      <source>%1 was written.</source>
+      <translation>%1 wurde geschrieben.</translation>
+    </message>
+    <message>
       <source>%1, where this was picked, is not there any more or may be another one. Pick it again, or press Unlink: then the numbers stay.</source>
       <translation>%1, woher dies stammt, gibt es nicht mehr, oder es ist vielleicht etwas anderes. Wählen Sie es neu, oder drücken Sie Lösen: Dann bleiben die Zahlen.</translation>
+    </message>
+    <message>
+      <source>%1: %2 is %3; it must be positive</source>
+      <translation>%1: %2 ist %3; es muss positiv sein</translation>
+    </message>
+    <message>
+      <source>%1: %2 is the zero vector; give a direction</source>
+      <translation>%1: %2 ist der Nullvektor; geben Sie eine Richtung an</translation>
+    </message>
+    <message>
+      <source>%1: 0 to %2</source>
+      <translation>%1: 0 bis %2</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -369,6 +401,10 @@
     <message>
       <source>Cancelled. OK, or a change, computes again.</source>
       <translation>Abgebrochen. OK oder eine Änderung rechnet neu.</translation>
+    </message>
+    <message>
+      <source>Cancelled: no file was written.</source>
+      <translation>Abgebrochen: Es wurde keine Datei geschrieben.</translation>
     </message>
     <message>
       <source>Cancelled: nothing was changed.</source>
@@ -519,6 +555,10 @@
       <translation>Elementargruppen</translation>
     </message>
     <message>
+      <source>Enter an expression (=)</source>
+      <translation>Einen Ausdruck eingeben (=)</translation>
+    </message>
+    <message>
       <source>Export mesh</source>
       <translation>Netz exportieren</translation>
     </message>
@@ -637,6 +677,10 @@
     <message>
       <source>Open a document with a FEM mesh first.</source>
       <translation>Öffnen Sie zuerst ein Dokument mit einem FEM-Netz.</translation>
+    </message>
+    <message>
+      <source>Opening the panel…</source>
+      <translation>Der Dialog wird geöffnet…</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
@@ -859,6 +903,10 @@
       <translation>Die ganze Ebene</translation>
     </message>
     <message>
+      <source>These pages are in English.</source>
+      <translation>Diese Seiten sind auf Englisch.</translation>
+    </message>
+    <message>
       <source>This command brings it; start FreeCAD anew then:
 
 %1</source>
@@ -919,12 +967,32 @@
       <translation>Schlechteste Elemente</translation>
     </message>
     <message>
+      <source>Writing the file…</source>
+      <translation>Die Datei wird geschrieben…</translation>
+    </message>
+    <message>
       <source>Writing the mesh for FreeCAD…</source>
       <translation>Netz wird für FreeCAD geschrieben…</translation>
     </message>
     <message>
+      <source>a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or refine the mesh there first</source>
+      <translation>Ein Schlitz der Breite %1 nimmt nichts weg: Er ist schmaler, als die Elemente dort zeigen können. Machen Sie ihn breiter, oder verfeinern Sie das Netz dort zuerst</translation>
+    </message>
+    <message>
       <source>all kept</source>
       <translation>alle bleiben</translation>
+    </message>
+    <message>
+      <source>along: edges meet at (%1), a convex and a concave one: these cannot be rounded at once. Round one after the other</source>
+      <translation>Kanten treffen sich bei (%1), eine nach außen und eine nach innen gewölbte: Diese lassen sich nicht zugleich runden. Runden Sie eine nach der anderen</translation>
+    </message>
+    <message>
+      <source>along: group '%1' is no edge: no feature line of the skin (sharper than feature_angle) runs along it</source>
+      <translation>Die Gruppe „%1“ ist keine Kante: Keine Kante der Oberfläche (schärfer als der Grenzwinkel) läuft an ihr entlang</translation>
+    </message>
+    <message>
+      <source>along: no feature line of the skin is within an edge length of the point (%1): the nearest is near (%2). Name a point on the edge</source>
+      <translation>Keine Kante der Oberfläche ist innerhalb einer Elementkante vom Punkt (%1): Die nächste ist bei (%2). Wählen Sie einen Punkt auf der Kante</translation>
     </message>
     <message>
       <source>and %1 other combinations of groups</source>
@@ -967,6 +1035,10 @@
       <translation>geänderte Elemente, schlecht bis gut (Mean ratio 0 bis 1)</translation>
     </message>
     <message>
+      <source>cone</source>
+      <translation>Kegel</translation>
+    </message>
+    <message>
       <source>crack of %1</source>
       <translation>Riss: %1</translation>
     </message>
@@ -979,16 +1051,36 @@
       <translation>vom Netz abschneiden</translation>
     </message>
     <message>
+      <source>cylinder</source>
+      <translation>Zylinder</translation>
+    </message>
+    <message>
       <source>deform: only move nodes</source>
       <translation>deform: nur Knoten bewegen</translation>
+    </message>
+    <message>
+      <source>depth is %1; it must be positive</source>
+      <translation>Die Tiefe ist %1; sie muss positiv sein</translation>
+    </message>
+    <message>
+      <source>disk</source>
+      <translation>Kreisscheibe</translation>
     </message>
     <message>
       <source>edges</source>
       <translation>Kanten</translation>
     </message>
     <message>
+      <source>ellipse</source>
+      <translation>Ellipse</translation>
+    </message>
+    <message>
       <source>empty</source>
       <translation>leer</translation>
+    </message>
+    <message>
+      <source>face</source>
+      <translation>Fläche</translation>
     </message>
     <message>
       <source>faces</source>
@@ -1059,6 +1151,26 @@
       <translation>verschobene Knoten</translation>
     </message>
     <message>
+      <source>name '%1' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups</source>
+      <translation>Der Name „%1“ hat ein anderes Zeichen als Buchstaben, Ziffern, „_“, „-“ und „.“; Löser würden seine Gruppen nicht annehmen</translation>
+    </message>
+    <message>
+      <source>name '%1' is taken: the mesh already has a group '%2'; choose another</source>
+      <translation>Der Name „%1“ ist vergeben: Das Netz hat schon eine Gruppe „%2“; wählen Sie einen anderen</translation>
+    </message>
+    <message>
+      <source>name '%1' is too long: group '%2' would have %3 characters, at most %4 are allowed</source>
+      <translation>Der Name „%1“ ist zu lang: Die Gruppe „%2“ hätte %3 Zeichen, höchstens %4 sind erlaubt</translation>
+    </message>
+    <message>
+      <source>name is empty; the new groups need one</source>
+      <translation>Der Name ist leer; die neuen Gruppen brauchen einen</translation>
+    </message>
+    <message>
+      <source>negative</source>
+      <translation>negativen</translation>
+    </message>
+    <message>
       <source>never</source>
       <translation>nie</translation>
     </message>
@@ -1095,8 +1207,16 @@
       <translation>auf eine Fläche</translation>
     </message>
     <message>
+      <source>plane</source>
+      <translation>Ebene</translation>
+    </message>
+    <message>
       <source>points</source>
       <translation>Punkte</translation>
+    </message>
+    <message>
+      <source>positive</source>
+      <translation>positiven</translation>
     </message>
     <message>
       <source>prisms</source>
@@ -1109,6 +1229,14 @@
     <message>
       <source>quadrangles</source>
       <translation>Vierecke</translation>
+    </message>
+    <message>
+      <source>radius is %1; it must be a positive length</source>
+      <translation>Der Radius ist %1; er muss eine positive Länge sein</translation>
+    </message>
+    <message>
+      <source>radius: %1 is too large for a face beside the edge, which ends, or is not what it is at the edge, before the distance of %2 at which it would be touched. There is room for about %3, near (%4)</source>
+      <translation>Der Radius %1 ist zu groß für eine Fläche an der Kante: Sie endet vor dem Abstand %2, in dem sie berührt würde, oder ist dort anders als an der Kante. Platz ist für etwa %3, bei (%4)</translation>
     </message>
     <message>
       <source>reduced</source>
@@ -1127,6 +1255,14 @@
       <translation>um einen Punkt skaliert</translation>
     </message>
     <message>
+      <source>size %1 would make more than %2 elements. Choose a larger size or gradation, or a larger max_elements</source>
+      <translation>Die Kantenlänge %1 würde mehr als %2 Elemente ergeben. Wählen Sie eine größere Länge oder einen größeren Anstieg</translation>
+    </message>
+    <message>
+      <source>size is %1; it must be a positive length</source>
+      <translation>Die Kantenlänge ist %1; sie muss positiv sein</translation>
+    </message>
+    <message>
       <source>snap: move and split</source>
       <translation>snap: bewegen und teilen</translation>
     </message>
@@ -1135,12 +1271,152 @@
       <translation>etwa %1 Elemente</translation>
     </message>
     <message>
+      <source>sphere</source>
+      <translation>Kugel</translation>
+    </message>
+    <message>
+      <source>the %1 is smaller than the elements there, and parts none of them. Refine the mesh there first, or move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) ist kleiner als die Elemente dort und trennt keines. Verfeinern Sie das Netz dort zuerst, oder verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 lies inside %2, between their nodes, and parts none of them: it is smaller than the elements there. Refine the mesh there first</source>
+      <translation>Das Werkzeug (%1) liegt innerhalb von %2, zwischen deren Knoten, und trennt keines: Es ist kleiner als die Elemente dort. Verfeinern Sie das Netz dort zuerst</translation>
+    </message>
+    <message>
+      <source>the %1 lies on faces that are open already: the elements on its two sides have nodes of their own there (a contact, or an earlier crack), and there is nothing to part. Move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) liegt auf Flächen, die schon offen sind: Die Elemente auf beiden Seiten haben dort eigene Knoten (ein Kontakt oder ein früherer Riss), und es ist nichts zu trennen. Verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 meets a surface or group border at %2: elements in the wedge between them cannot be better than the wedge</source>
+      <translation>Das Werkzeug (%1) trifft eine Oberfläche oder einen Gruppenrand unter %2: Elemente in dem Keil dazwischen können nicht besser sein als der Keil</translation>
+    </message>
+    <message>
+      <source>the %1 meets the mesh only outside the part of it that is to cut. Move that part into the material</source>
+      <translation>Das Werkzeug (%1) trifft das Netz nur außerhalb des Teils, der schneiden soll. Verschieben Sie diesen Teil ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 misses the mesh: it passes between parts of the mesh, through no element; the nearest nodes are at distance %2 on its negative side and %3 on its positive side. Move the %1 or turn it</source>
+      <translation>Das Werkzeug (%1) verfehlt das Netz: Es geht zwischen Teilen des Netzes hindurch, durch kein Element; die nächsten Knoten sind %2 auf seiner negativen und %3 auf seiner positiven Seite entfernt. Verschieben oder drehen Sie es</translation>
+    </message>
+    <message>
+      <source>the %1 misses the mesh: it passes only through segments (%2), which cannot be divided (springs, dashpots, gaps). Move the %1 or turn it</source>
+      <translation>Das Werkzeug (%1) verfehlt das Netz: Es geht nur durch Strecken (%2), die sich nicht teilen lassen (Federn, Dämpfer, Spalte). Verschieben oder drehen Sie es</translation>
+    </message>
+    <message>
+      <source>the %1 misses the mesh: the whole mesh lies on its %2 side, the nearest node at distance %3. Move the %1 or turn it</source>
+      <translation>Das Werkzeug (%1) verfehlt das Netz: Das ganze Netz liegt auf seiner %2 Seite, der nächste Knoten ist %3 entfernt. Verschieben oder drehen Sie es</translation>
+    </message>
+    <message>
+      <source>the %1 only grazes the mesh: it passes through the curved sides of %2, but between none of their corners. Move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) streift das Netz nur: Es geht durch die gekrümmten Seiten von %2, aber zwischen keinen ihrer Ecken hindurch. Verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 only grazes the mesh: what it would cut off is thinner than the elements there. Move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) streift das Netz nur: Was es abschneiden würde, ist dünner als die Elemente dort. Verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 only touches the mesh, along edges or in single nodes: it passes through no element and along no face. Move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) berührt das Netz nur, an Kanten oder in einzelnen Knoten: Es geht durch kein Element und an keiner Elementfläche entlang. Verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 only touches the mesh, on its outside: all elements there are on its %2 side, and there is nothing to part. Move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) berührt das Netz nur, an seiner Außenseite: Alle Elemente dort liegen auf der %2 Seite des Werkzeugs, und es ist nichts zu trennen. Verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 removes nothing: it is smaller than the elements there, and none lies inside. Refine the mesh there first, or move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) nimmt nichts weg: Es ist kleiner als die Elemente dort, und keines liegt in ihm. Verfeinern Sie das Netz dort zuerst, oder verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 removes nothing: it touches the mesh from outside, and no element lies inside. Move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) nimmt nichts weg: Es berührt das Netz von außen, und kein Element liegt in ihm. Verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 removes nothing: what it would take off is thinner than the elements there. Refine the mesh there, or move the %1 into the material</source>
+      <translation>Das Werkzeug (%1) nimmt nichts weg: Was es abnehmen würde, ist dünner als die Elemente dort. Verfeinern Sie das Netz dort, oder verschieben Sie es ins Material</translation>
+    </message>
+    <message>
+      <source>the %1 runs along a feature line or border line at %2: elements between them cannot be better than that wedge</source>
+      <translation>Das Werkzeug (%1) läuft unter %2 an einer Kante oder einem Rand entlang: Elemente dazwischen können nicht besser sein als dieser Keil</translation>
+    </message>
+    <message>
+      <source>the %1 runs within 0.15 edge lengths of a nearly parallel surface or group border at %2 node(s): the layer between them is that thin</source>
+      <translation>Das Werkzeug (%1) läuft an %2 Knoten näher als 0,15 Kantenlängen an einer fast parallelen Oberfläche oder einem Gruppenrand: So dünn ist die Schicht dazwischen</translation>
+    </message>
+    <message>
+      <source>the %1 would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it</source>
+      <translation>Das Werkzeug (%1) würde das ganze Netz wegnehmen: Alles liegt in ihm. Machen Sie das Werkzeug kleiner, oder verschieben Sie es</translation>
+    </message>
+    <message>
+      <source>the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the other. The mesh reaches from (%1) to (%2), the addition from (%3) to (%4). Move the addition, or give a larger tolerance</source>
+      <translation>Das Hinzugefügte trifft das Netz nicht: Nirgends kreuzen sich ihre Oberflächen, und kein Rand des einen liegt auf dem anderen. Das Netz reicht von (%1) bis (%2), das Hinzugefügte von (%3) bis (%4). Verschieben Sie es, oder geben Sie eine größere Toleranz an</translation>
+    </message>
+    <message>
+      <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>
+      <translation>Der Riss (%1) kann sich nicht öffnen: Alle seine Knoten liegen auf seiner Front. Verfeinern Sie das Netz dort zuerst</translation>
+    </message>
+    <message>
+      <source>the crack lies outside the part: there is no material within its front. Move it into the material</source>
+      <translation>Der Riss liegt außerhalb des Teils: Innerhalb seiner Front ist kein Material. Verschieben Sie ihn ins Material</translation>
+    </message>
+    <message>
+      <source>the edge cannot be rounded near (%1): a border of groups, or another surface that is kept, runs through the material there, and does not cross the edge in one plane</source>
+      <translation>Die Kante kann bei (%1) nicht gerundet werden: Ein Gruppenrand oder eine andere Fläche, die erhalten bleibt, läuft dort durch das Material und kreuzt die Kante nicht in einer Ebene</translation>
+    </message>
+    <message>
+      <source>the edge goes on beyond what was named, and is rounded as far as it goes</source>
+      <translation>Die Kante geht über das Gewählte hinaus weiter und wird gerundet, so weit sie geht</translation>
+    </message>
+    <message>
+      <source>the mesh already has %1 flat or inverted element(s) near the tool (%2); repair them first</source>
+      <translation>Das Netz hat schon %1 flache oder umgestülpte Element(e) beim Werkzeug (%2); reparieren Sie diese zuerst</translation>
+    </message>
+    <message>
+      <source>the mesh has no group '%1'</source>
+      <translation>Das Netz hat keine Gruppe „%1“</translation>
+    </message>
+    <message>
+      <source>the mesh is coarse for the %1 of radius %2: the flat faces of the wall leave about %3 % of the hole standing. Refine the mesh there first, to edges of at most %4</source>
+      <translation>Das Netz ist grob für das Werkzeug (%1) mit dem Radius %2: Die ebenen Flächen der Wand lassen etwa %3 % des Lochs stehen. Verfeinern Sie das Netz dort zuerst, auf Kanten von höchstens %4</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into it. Refine the mesh there first, to edges of at most %5</source>
+      <translation>Das Netz ist bei (%3) zu grob für das Werkzeug (%1) mit dem Radius %2: Ein Element mit Kanten von %4 würde weit hineinreichen. Verfeinern Sie das Netz dort zuerst, auf Kanten von höchstens %5</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into it. Refine the mesh there first, to edges of at most %5, or move the tool: it may nearly touch a border or the skin there, and leave only a thin layer of material</source>
+      <translation>Das Netz ist bei (%3) zu grob für das Werkzeug (%1) mit dem Radius %2: Ein Element mit Kanten von %4 würde weit hineinreichen. Verfeinern Sie das Netz dort zuerst, auf Kanten von höchstens %5, oder verschieben Sie das Werkzeug: Vielleicht berührt es dort fast einen Rand oder die Oberfläche und lässt nur eine dünne Schicht Material</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the crack: its front would be cut short by up to %1. Refine the mesh near the crack front first, or make the crack larger</source>
+      <translation>Das Netz ist zu grob für den Riss: Seine Front würde um bis zu %1 gekürzt. Verfeinern Sie das Netz bei der Rissfront zuerst, oder machen Sie den Riss größer</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the crack: no element face fits in it. Refine the mesh near the crack front first, or make the crack larger</source>
+      <translation>Das Netz ist zu grob für den Riss: Keine Elementfläche passt in ihn. Verfeinern Sie das Netz bei der Rissfront zuerst, oder machen Sie den Riss größer</translation>
+    </message>
+    <message>
+      <source>the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front</source>
+      <translation>Das Werkzeug ist feiner als das Netz; dieses wurde zuerst verfeinert, auf Kanten von %1 am Werkzeug: von %2 auf %3 Elemente. Eine Kantenlänge von %4 unter „Erst verfeinern“ ergibt weniger, „nie“ keine, aber dann eine gröbere Wand oder Front</translation>
+    </message>
+    <message>
+      <source>the wall %1 (%2) lies beyond the part: what is removed reaches right through there</source>
+      <translation>Die Wand %1 (%2) liegt jenseits des Teils: Was weggenommen wird, reicht dort ganz hindurch</translation>
+    </message>
+    <message>
+      <source>the wall cannot be moved so far: it would pass through the part, and leave it on another side near (%1). Move it less</source>
+      <translation>Die Wand kann nicht so weit verschoben werden: Sie ginge durch das Teil hindurch und bei (%1) auf einer anderen Seite hinaus. Verschieben Sie sie weniger</translation>
+    </message>
+    <message>
       <source>to an edge length</source>
       <translation>bis zu einer Kantenlänge</translation>
     </message>
     <message>
       <source>top, +z</source>
       <translation>oben, +z</translation>
+    </message>
+    <message>
+      <source>torus</source>
+      <translation>Torus</translation>
     </message>
     <message>
       <source>triangles of seven nodes</source>
@@ -1165,6 +1441,10 @@
     <message>
       <source>where the tool is finer</source>
       <translation>wo das Werkzeug feiner ist</translation>
+    </message>
+    <message>
+      <source>width is %1; it must be positive</source>
+      <translation>Die Breite ist %1; sie muss positiv sein</translation>
     </message>
     <message>
       <source>with groups %1</source>
@@ -1777,7 +2057,7 @@
     </message>
     <message>
       <source>Flip</source>
-      <translation>Umkehren</translation>
+      <translation>Wenden</translation>
     </message>
     <message>
       <source>Geometry</source>

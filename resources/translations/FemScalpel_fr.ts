@@ -227,6 +227,10 @@
       <translation>%1 ne peut pas être écrit : %2. Choisissez un autre dossier ou un autre nom.</translation>
     </message>
     <message>
+      <source>%1 element(s) would be flat or inverted (%2): the tool passes too close to a corner or crease there. Move it a little</source>
+      <translation>%1 élément(s) seraient plats ou retournés (%2) : l'outil passe trop près d'un coin ou d'un pli. Déplacez-le un peu</translation>
+    </message>
+    <message>
       <source>%1 elements; smallest %2, mean %3.</source>
       <translation>%1 éléments ; minimum %2, moyenne %3.</translation>
     </message>
@@ -247,6 +251,10 @@
       <translation>%1 est en erreur. Corrigez-la ou sélectionnez un autre maillage.</translation>
     </message>
     <message>
+      <source>%1 has no mesh any more. Undo what took it away, or cancel.</source>
+      <translation>%1 n'a plus de maillage. Annulez ce qui l'a enlevé, ou fermez le panneau.</translation>
+    </message>
+    <message>
       <source>%1 has no mesh yet: it is empty. Make the mesh first.</source>
       <translation>%1 n'a pas encore de maillage : il est vide. Créez d'abord le maillage.</translation>
     </message>
@@ -257,6 +265,10 @@
     <message>
       <source>%1 is not a FEM mesh. Select the mesh in the tree.</source>
       <translation>%1 n'est pas un maillage EF. Sélectionnez le maillage dans l'arborescence.</translation>
+    </message>
+    <message>
+      <source>%1 is not there any more, so its panel was closed.</source>
+      <translation>%1 n'existe plus ; son panneau a donc été fermé.</translation>
     </message>
     <message>
       <source>%1 is the source of another operation. Take %2, the latest, instead?</source>
@@ -279,6 +291,10 @@
       <translation>%1 endroits choisis</translation>
     </message>
     <message>
+      <source>%1 second-order element(s) would be folded (%2): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh</source>
+      <translation>%1 élément(s) du second ordre seraient repliés (%2) : le maillage y est trop grossier pour sa courbure. Déplacez un peu l'outil, ou raffinez le maillage</translation>
+    </message>
+    <message>
       <source>%1 shell elements</source>
       <translation>%1 éléments de coque</translation>
     </message>
@@ -287,8 +303,24 @@
       <translation>%1 plus petits</translation>
     </message>
     <message>
+      <source>%1 was written.</source>
+      <translation>%1 a été écrit.</translation>
+    </message>
+    <message>
       <source>%1, where this was picked, is not there any more or may be another one. Pick it again, or press Unlink: then the numbers stay.</source>
       <translation>%1, d'où cela provient, n'existe plus ou est peut-être autre chose. Choisissez-le à nouveau, ou appuyez sur Délier : les nombres restent alors.</translation>
+    </message>
+    <message>
+      <source>%1: %2 is %3; it must be positive</source>
+      <translation>%1 : %2 vaut %3 ; il doit être positif</translation>
+    </message>
+    <message>
+      <source>%1: %2 is the zero vector; give a direction</source>
+      <translation>%1 : %2 est le vecteur nul ; donnez une direction</translation>
+    </message>
+    <message>
+      <source>%1: 0 to %2</source>
+      <translation>%1 : 0 à %2</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -369,6 +401,10 @@
     <message>
       <source>Cancelled. OK, or a change, computes again.</source>
       <translation>Annulé. OK ou une modification relance le calcul.</translation>
+    </message>
+    <message>
+      <source>Cancelled: no file was written.</source>
+      <translation>Annulé : aucun fichier n'a été écrit.</translation>
     </message>
     <message>
       <source>Cancelled: nothing was changed.</source>
@@ -519,6 +555,10 @@
       <translation>Groupes élémentaires</translation>
     </message>
     <message>
+      <source>Enter an expression (=)</source>
+      <translation>Saisir une expression (=)</translation>
+    </message>
+    <message>
       <source>Export mesh</source>
       <translation>Exporter le maillage</translation>
     </message>
@@ -637,6 +677,10 @@
     <message>
       <source>Open a document with a FEM mesh first.</source>
       <translation>Ouvrez d'abord un document avec un maillage EF.</translation>
+    </message>
+    <message>
+      <source>Opening the panel…</source>
+      <translation>Ouverture du panneau…</translation>
     </message>
     <message>
       <source>Pick a cylindrical face, a straight or circular edge, a datum line, or a point on a face.</source>
@@ -859,6 +903,10 @@
       <translation>Tout le plan</translation>
     </message>
     <message>
+      <source>These pages are in English.</source>
+      <translation>Ces pages sont en anglais.</translation>
+    </message>
+    <message>
       <source>This command brings it; start FreeCAD anew then:
 
 %1</source>
@@ -919,12 +967,32 @@
       <translation>Plus mauvais éléments</translation>
     </message>
     <message>
+      <source>Writing the file…</source>
+      <translation>Écriture du fichier…</translation>
+    </message>
+    <message>
       <source>Writing the mesh for FreeCAD…</source>
       <translation>Écriture du maillage pour FreeCAD…</translation>
     </message>
     <message>
+      <source>a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or refine the mesh there first</source>
+      <translation>une entaille de largeur %1 n'enlève rien : elle est plus étroite que ce que les éléments peuvent y montrer. Élargissez-la, ou raffinez d'abord le maillage à cet endroit</translation>
+    </message>
+    <message>
       <source>all kept</source>
       <translation>tous</translation>
+    </message>
+    <message>
+      <source>along: edges meet at (%1), a convex and a concave one: these cannot be rounded at once. Round one after the other</source>
+      <translation>des arêtes se rencontrent en (%1), une convexe et une concave : elles ne peuvent être arrondies ensemble. Arrondissez-les l'une après l'autre</translation>
+    </message>
+    <message>
+      <source>along: group '%1' is no edge: no feature line of the skin (sharper than feature_angle) runs along it</source>
+      <translation>le groupe « %1 » n'est pas une arête : aucune arête vive de la peau (plus vive que l'angle limite) ne la suit</translation>
+    </message>
+    <message>
+      <source>along: no feature line of the skin is within an edge length of the point (%1): the nearest is near (%2). Name a point on the edge</source>
+      <translation>aucune arête vive de la peau n'est à moins d'une arête d'élément du point (%1) : la plus proche est près de (%2). Choisissez un point sur l'arête</translation>
     </message>
     <message>
       <source>and %1 other combinations of groups</source>
@@ -967,6 +1035,10 @@
       <translation>éléments modifiés, de mauvais à bons (mean ratio de 0 à 1)</translation>
     </message>
     <message>
+      <source>cone</source>
+      <translation>cône</translation>
+    </message>
+    <message>
       <source>crack of %1</source>
       <translation>fissure de %1</translation>
     </message>
@@ -979,16 +1051,36 @@
       <translation>ôter du maillage</translation>
     </message>
     <message>
+      <source>cylinder</source>
+      <translation>cylindre</translation>
+    </message>
+    <message>
       <source>deform: only move nodes</source>
       <translation>deform : seulement déplacer des nœuds</translation>
+    </message>
+    <message>
+      <source>depth is %1; it must be positive</source>
+      <translation>la profondeur vaut %1 ; elle doit être positive</translation>
+    </message>
+    <message>
+      <source>disk</source>
+      <translation>disque</translation>
     </message>
     <message>
       <source>edges</source>
       <translation>arêtes</translation>
     </message>
     <message>
+      <source>ellipse</source>
+      <translation>ellipse</translation>
+    </message>
+    <message>
       <source>empty</source>
       <translation>vide</translation>
+    </message>
+    <message>
+      <source>face</source>
+      <translation>face</translation>
     </message>
     <message>
       <source>faces</source>
@@ -1059,6 +1151,26 @@
       <translation>nœuds déplacés</translation>
     </message>
     <message>
+      <source>name '%1' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups</source>
+      <translation>le nom « %1 » contient un caractère autre que lettres, chiffres, « _ », « - » et « . » ; les solveurs n'accepteraient pas ses groupes</translation>
+    </message>
+    <message>
+      <source>name '%1' is taken: the mesh already has a group '%2'; choose another</source>
+      <translation>le nom « %1 » est pris : le maillage a déjà un groupe « %2 » ; choisissez-en un autre</translation>
+    </message>
+    <message>
+      <source>name '%1' is too long: group '%2' would have %3 characters, at most %4 are allowed</source>
+      <translation>le nom « %1 » est trop long : le groupe « %2 » aurait %3 caractères, %4 au plus sont permis</translation>
+    </message>
+    <message>
+      <source>name is empty; the new groups need one</source>
+      <translation>le nom est vide ; les nouveaux groupes en ont besoin</translation>
+    </message>
+    <message>
+      <source>negative</source>
+      <translation>négatif</translation>
+    </message>
+    <message>
       <source>never</source>
       <translation>jamais</translation>
     </message>
@@ -1095,8 +1207,16 @@
       <translation>sur une surface</translation>
     </message>
     <message>
+      <source>plane</source>
+      <translation>plan</translation>
+    </message>
+    <message>
       <source>points</source>
       <translation>points</translation>
+    </message>
+    <message>
+      <source>positive</source>
+      <translation>positif</translation>
     </message>
     <message>
       <source>prisms</source>
@@ -1109,6 +1229,14 @@
     <message>
       <source>quadrangles</source>
       <translation>quadrangles</translation>
+    </message>
+    <message>
+      <source>radius is %1; it must be a positive length</source>
+      <translation>le rayon vaut %1 ; il doit être une longueur positive</translation>
+    </message>
+    <message>
+      <source>radius: %1 is too large for a face beside the edge, which ends, or is not what it is at the edge, before the distance of %2 at which it would be touched. There is room for about %3, near (%4)</source>
+      <translation>le rayon %1 est trop grand pour une face au bord de l'arête : elle finit, ou change, avant la distance %2 où elle serait touchée. Il y a place pour environ %3, près de (%4)</translation>
     </message>
     <message>
       <source>reduced</source>
@@ -1127,6 +1255,14 @@
       <translation>à l'échelle</translation>
     </message>
     <message>
+      <source>size %1 would make more than %2 elements. Choose a larger size or gradation, or a larger max_elements</source>
+      <translation>la taille %1 donnerait plus de %2 éléments. Choisissez une taille ou une progression plus grande</translation>
+    </message>
+    <message>
+      <source>size is %1; it must be a positive length</source>
+      <translation>la taille vaut %1 ; elle doit être une longueur positive</translation>
+    </message>
+    <message>
       <source>snap: move and split</source>
       <translation>snap : déplacer et diviser</translation>
     </message>
@@ -1135,12 +1271,152 @@
       <translation>environ %1 éléments</translation>
     </message>
     <message>
+      <source>sphere</source>
+      <translation>sphère</translation>
+    </message>
+    <message>
+      <source>the %1 is smaller than the elements there, and parts none of them. Refine the mesh there first, or move the %1 into the material</source>
+      <translation>l'outil (%1) est plus petit que les éléments à cet endroit et n'en sépare aucun. Raffinez d'abord le maillage, ou déplacez l'outil dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 lies inside %2, between their nodes, and parts none of them: it is smaller than the elements there. Refine the mesh there first</source>
+      <translation>l'outil (%1) est à l'intérieur de %2, entre leurs nœuds, et n'en sépare aucun : il est plus petit que les éléments à cet endroit. Raffinez-y d'abord le maillage</translation>
+    </message>
+    <message>
+      <source>the %1 lies on faces that are open already: the elements on its two sides have nodes of their own there (a contact, or an earlier crack), and there is nothing to part. Move the %1 into the material</source>
+      <translation>l'outil (%1) est sur des faces déjà ouvertes : les éléments des deux côtés y ont leurs propres nœuds (un contact, ou une fissure antérieure), et il n'y a rien à séparer. Déplacez-le dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 meets a surface or group border at %2: elements in the wedge between them cannot be better than the wedge</source>
+      <translation>l'outil (%1) rencontre une surface ou un bord de groupe sous %2 : les éléments du coin entre eux ne peuvent être meilleurs que ce coin</translation>
+    </message>
+    <message>
+      <source>the %1 meets the mesh only outside the part of it that is to cut. Move that part into the material</source>
+      <translation>l'outil (%1) ne rencontre le maillage qu'en dehors de la partie qui doit couper. Déplacez cette partie dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 misses the mesh: it passes between parts of the mesh, through no element; the nearest nodes are at distance %2 on its negative side and %3 on its positive side. Move the %1 or turn it</source>
+      <translation>l'outil (%1) manque le maillage : il passe entre des parties du maillage, à travers aucun élément ; les nœuds les plus proches sont à la distance %2 de son côté négatif et %3 de son côté positif. Déplacez-le ou tournez-le</translation>
+    </message>
+    <message>
+      <source>the %1 misses the mesh: it passes only through segments (%2), which cannot be divided (springs, dashpots, gaps). Move the %1 or turn it</source>
+      <translation>l'outil (%1) manque le maillage : il ne passe que par des segments (%2) qui ne peuvent être divisés (ressorts, amortisseurs, jeux). Déplacez-le ou tournez-le</translation>
+    </message>
+    <message>
+      <source>the %1 misses the mesh: the whole mesh lies on its %2 side, the nearest node at distance %3. Move the %1 or turn it</source>
+      <translation>l'outil (%1) manque le maillage : tout le maillage est de son côté %2, le nœud le plus proche à la distance %3. Déplacez-le ou tournez-le</translation>
+    </message>
+    <message>
+      <source>the %1 only grazes the mesh: it passes through the curved sides of %2, but between none of their corners. Move the %1 into the material</source>
+      <translation>l'outil (%1) ne fait qu'effleurer le maillage : il passe par les côtés courbes de %2, mais entre aucun de leurs coins. Déplacez-le dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 only grazes the mesh: what it would cut off is thinner than the elements there. Move the %1 into the material</source>
+      <translation>l'outil (%1) ne fait qu'effleurer le maillage : ce qu'il couperait est plus mince que les éléments à cet endroit. Déplacez-le dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 only touches the mesh, along edges or in single nodes: it passes through no element and along no face. Move the %1 into the material</source>
+      <translation>l'outil (%1) ne fait que toucher le maillage, le long d'arêtes ou en des nœuds isolés : il ne passe par aucun élément ni le long d'aucune face. Déplacez-le dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 only touches the mesh, on its outside: all elements there are on its %2 side, and there is nothing to part. Move the %1 into the material</source>
+      <translation>l'outil (%1) ne fait que toucher le maillage, sur son extérieur : tous les éléments y sont de son côté %2, et il n'y a rien à séparer. Déplacez-le dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 removes nothing: it is smaller than the elements there, and none lies inside. Refine the mesh there first, or move the %1 into the material</source>
+      <translation>l'outil (%1) n'enlève rien : il est plus petit que les éléments à cet endroit, et aucun n'est dedans. Raffinez d'abord le maillage, ou déplacez l'outil dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 removes nothing: it touches the mesh from outside, and no element lies inside. Move the %1 into the material</source>
+      <translation>l'outil (%1) n'enlève rien : il touche le maillage de l'extérieur, et aucun élément n'est dedans. Déplacez-le dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 removes nothing: what it would take off is thinner than the elements there. Refine the mesh there, or move the %1 into the material</source>
+      <translation>l'outil (%1) n'enlève rien : ce qu'il enlèverait est plus mince que les éléments à cet endroit. Raffinez-y le maillage, ou déplacez l'outil dans la matière</translation>
+    </message>
+    <message>
+      <source>the %1 runs along a feature line or border line at %2: elements between them cannot be better than that wedge</source>
+      <translation>l'outil (%1) longe une arête vive ou un bord sous %2 : les éléments entre eux ne peuvent être meilleurs que ce coin</translation>
+    </message>
+    <message>
+      <source>the %1 runs within 0.15 edge lengths of a nearly parallel surface or group border at %2 node(s): the layer between them is that thin</source>
+      <translation>l'outil (%1) passe à moins de 0,15 longueur d'arête d'une surface ou d'un bord de groupe presque parallèle, en %2 nœud(s) : la couche entre eux est aussi mince</translation>
+    </message>
+    <message>
+      <source>the %1 would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it</source>
+      <translation>l'outil (%1) enlèverait tout le maillage : tout est dedans. Rapetissez l'outil, ou déplacez-le</translation>
+    </message>
+    <message>
+      <source>the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the other. The mesh reaches from (%1) to (%2), the addition from (%3) to (%4). Move the addition, or give a larger tolerance</source>
+      <translation>l'ajout ne rencontre pas le maillage : leurs surfaces ne se croisent nulle part, et aucun bord de l'un n'est sur l'autre. Le maillage va de (%1) à (%2), l'ajout de (%3) à (%4). Déplacez l'ajout, ou donnez une tolérance plus grande</translation>
+    </message>
+    <message>
+      <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>
+      <translation>la fissure (%1) ne peut s'ouvrir : tous ses nœuds sont sur son front. Raffinez-y d'abord le maillage</translation>
+    </message>
+    <message>
+      <source>the crack lies outside the part: there is no material within its front. Move it into the material</source>
+      <translation>la fissure est hors de la pièce : il n'y a pas de matière à l'intérieur de son front. Déplacez-la dans la matière</translation>
+    </message>
+    <message>
+      <source>the edge cannot be rounded near (%1): a border of groups, or another surface that is kept, runs through the material there, and does not cross the edge in one plane</source>
+      <translation>l'arête ne peut être arrondie près de (%1) : un bord de groupes, ou une autre surface conservée, y traverse la matière et ne croise pas l'arête dans un plan</translation>
+    </message>
+    <message>
+      <source>the edge goes on beyond what was named, and is rounded as far as it goes</source>
+      <translation>l'arête continue au-delà de ce qui a été choisi, et est arrondie aussi loin qu'elle va</translation>
+    </message>
+    <message>
+      <source>the mesh already has %1 flat or inverted element(s) near the tool (%2); repair them first</source>
+      <translation>le maillage a déjà %1 élément(s) plats ou retournés près de l'outil (%2) ; réparez-les d'abord</translation>
+    </message>
+    <message>
+      <source>the mesh has no group '%1'</source>
+      <translation>le maillage n'a pas de groupe « %1 »</translation>
+    </message>
+    <message>
+      <source>the mesh is coarse for the %1 of radius %2: the flat faces of the wall leave about %3 % of the hole standing. Refine the mesh there first, to edges of at most %4</source>
+      <translation>le maillage est grossier pour l'outil (%1) de rayon %2 : les faces planes de la paroi laissent environ %3 % du trou. Raffinez-y d'abord le maillage, à des arêtes d'au plus %4</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into it. Refine the mesh there first, to edges of at most %5</source>
+      <translation>le maillage est trop grossier pour l'outil (%1) de rayon %2 près de (%3) : un élément d'arêtes de %4 y pénétrerait loin. Raffinez-y d'abord le maillage, à des arêtes d'au plus %5</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into it. Refine the mesh there first, to edges of at most %5, or move the tool: it may nearly touch a border or the skin there, and leave only a thin layer of material</source>
+      <translation>le maillage est trop grossier pour l'outil (%1) de rayon %2 près de (%3) : un élément d'arêtes de %4 y pénétrerait loin. Raffinez-y d'abord le maillage, à des arêtes d'au plus %5, ou déplacez l'outil : il touche peut-être presque un bord ou la peau, et ne laisse qu'une mince couche de matière</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the crack: its front would be cut short by up to %1. Refine the mesh near the crack front first, or make the crack larger</source>
+      <translation>le maillage est trop grossier pour la fissure : son front serait raccourci de jusqu'à %1. Raffinez d'abord le maillage près du front, ou agrandissez la fissure</translation>
+    </message>
+    <message>
+      <source>the mesh is too coarse for the crack: no element face fits in it. Refine the mesh near the crack front first, or make the crack larger</source>
+      <translation>le maillage est trop grossier pour la fissure : aucune face d'élément n'y tient. Raffinez d'abord le maillage près du front, ou agrandissez la fissure</translation>
+    </message>
+    <message>
+      <source>the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front</source>
+      <translation>l'outil est plus fin que le maillage, qui a d'abord été raffiné, à des arêtes de %1 près de l'outil : de %2 à %3 éléments. Une longueur de %4 en donne moins, « jamais » aucun, mais alors une paroi ou un front plus grossier</translation>
+    </message>
+    <message>
+      <source>the wall %1 (%2) lies beyond the part: what is removed reaches right through there</source>
+      <translation>la paroi %1 (%2) est au-delà de la pièce : ce qui est enlevé y traverse de part en part</translation>
+    </message>
+    <message>
+      <source>the wall cannot be moved so far: it would pass through the part, and leave it on another side near (%1). Move it less</source>
+      <translation>la paroi ne peut être déplacée si loin : elle traverserait la pièce et en sortirait d'un autre côté près de (%1). Déplacez-la moins</translation>
+    </message>
+    <message>
       <source>to an edge length</source>
       <translation>jusqu'à une longueur d'arête</translation>
     </message>
     <message>
       <source>top, +z</source>
       <translation>en haut, +z</translation>
+    </message>
+    <message>
+      <source>torus</source>
+      <translation>tore</translation>
     </message>
     <message>
       <source>triangles of seven nodes</source>
@@ -1165,6 +1441,10 @@
     <message>
       <source>where the tool is finer</source>
       <translation>où l'outil est plus fin</translation>
+    </message>
+    <message>
+      <source>width is %1; it must be positive</source>
+      <translation>la largeur vaut %1 ; elle doit être positive</translation>
     </message>
     <message>
       <source>with groups %1</source>

@@ -26,19 +26,20 @@ def measure(path, out):
     import femscalpel
     from femscalpelgui.latest_wins import LatestWins
     from femscalpelgui.view.preview_scene import PreviewScene
-    from femscalpelguitest.gui_testing import choose, press_cancel, screenshot, spin, view, wait_until, widget
+    from femscalpelguitest.gui_testing import choose, is_settled, press_cancel, screenshot, spin, view, wait_until
+    from femscalpelguitest.gui_testing import widget
 
     shown, worked = [], []
     request = LatestWins.request
 
-    def timed(worker, function):
+    def timed(worker, function, **options):
         def run():
             begin = time.thread_time()
             value = function()
             worked.append(time.thread_time() - begin)
             return value
 
-        return request(worker, run)
+        return request(worker, run, **options)
 
     LatestWins.request = timed
     original = PreviewScene.show
@@ -57,6 +58,7 @@ def measure(path, out):
     view().viewIsometric()
     view().fitAll()
     FreeCADGui.runCommand("FemScalpel_Crack")
+    wait_until(is_settled, "the panel")
     choose("patch", "Whole")
     spin(0.2)
     for name, number in (("normalX", 0.9), ("normalY", 0.3), ("normalZ", 0.2), ("originX", 7.3)):

@@ -20,6 +20,7 @@ from .ours import made_of
 from .reason import Reason
 
 if FreeCAD.GuiUp:
+    from femscalpelgui.messages import in_language
     from femscalpelgui.view.crack_lines import crack_shape
 
 # Attribute bits of addProperty.
@@ -213,7 +214,7 @@ class MeshOperation:
         if is_new:
             memory.keep(obj.Document, made)
             for warning in made.report.warnings:
-                FreeCAD.Console.PrintWarning(f"{obj.Label}: {warning}\n")
+                FreeCAD.Console.PrintWarning(f"{obj.Label}: {in_language(warning) if FreeCAD.GuiUp else warning}\n")
         self._give(obj, made, aloud=True)
 
     def begin(self, obj, foreseen=None):

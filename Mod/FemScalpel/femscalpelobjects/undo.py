@@ -15,7 +15,9 @@ from .memory import CLEARED, Shown, memory
 from .ours import is_ours, made_of
 
 if FreeCAD.GuiUp:
+    from femscalpelgui import signs
     from femscalpelgui.idle import hold_shortcuts, release_shortcuts, when_idle
+    from femscalpelgui.translate import translate
 
 
 def mend(document):
@@ -72,14 +74,27 @@ def _in_order(document):
     return list(found.values())
 
 
+def _sign():
+    return translate("FemScalpel", "FreeCAD takes the mesh over…")
+
+
 class _Watch:
     """Document observer."""
+
+    _is_signed = False  # whether the user is told that this takes a while
 
     def slotOpenTransaction(self, document, name):
         # Objects of a loaded document were never computed here; their meshes are up to date.
         for obj in _in_order(document):
             if obj.Proxy.shown is None and "Touched" not in obj.State and obj.FemMesh.NodeCount:
                 obj.Proxy.shown = Shown(contents.inputs_of(obj), contents.unique(), loaded=True)
+
+    def slotBeforeChangeObject(self, obj, prop):
+        if prop == "FemMesh" and FreeCAD.GuiUp and obj.Document.Transacting and not self._is_signed:
+            mesh = obj.FemMesh
+            if mesh.NodeCount + mesh.FaceCount + mesh.VolumeCount > signs.QUICK:
+                self._is_signed = True  # FreeCAD draws it as it was, then mend() as it is to be
+                signs.begin(_sign())
 
     def slotChangedObject(self, obj, prop):
         if prop not in contents.OF_CONTENTS:
@@ -104,7 +119,12 @@ class _Watch:
             release_shortcuts()
 
     def _follow(self, document):
-        unknown = None if document.Recomputing else mend(document)
+        try:
+            unknown = None if document.Recomputing else mend(document)
+        finally:
+            if self._is_signed:
+                self._is_signed = False
+                signs.end(_sign())
         if unknown == []:
             return
         if FreeCAD.GuiUp:

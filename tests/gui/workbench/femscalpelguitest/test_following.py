@@ -204,6 +204,9 @@ class Following(GuiTest):
 
     def enter_new_expression(self, name, *texts):
         """Enters expressions in the panel's own dialog, of which all but the last are refused."""
+        self.answer_new_expression(name, texts, lambda box: QTest.keyClick(box, QtCore.Qt.Key_Equal))
+
+    def answer_new_expression(self, name, texts, ask):
         left, labels = list(texts), []
 
         def answer():
@@ -218,7 +221,7 @@ class Following(GuiTest):
         timer.start(100)
         box = widget(name)
         box.setFocus()
-        QTest.keyClick(box, QtCore.Qt.Key_Equal)
+        ask(box)
         wait_until(lambda: not left, "the dialog")
         timer.stop()
         spin(0.2)
@@ -272,6 +275,43 @@ class Following(GuiTest):
         self.part.Length = 3.5
         self.doc.recompute()
         self.assertAlmostEqual(self.doc.Drill.Radius.Value, 0.7)
+
+    def test_mark_of_a_new_object(self):
+        """Fields that take expressions have FreeCAD's f(x) icon, which asks for one and shows that there is one."""
+
+        def picture(icon):
+            return icon.pixmap(16).toImage()
+
+        def mark(name):
+            return widget(name).findChild(QtGui.QAction, "expression")
+
+        unset, entered = (QtGui.QIcon(f":/icons/bound-expression{end}.svg") for end in ("-unset", ""))
+        self.assertNotEqual(picture(unset), picture(entered))
+        self.open_panel("FemScalpel_Drill")
+        for name in ("originX", "originY", "originZ", "normalX", "normalY", "normalZ", "radius"):
+            widget(name).setFocus()
+            spin(0)
+            self.assertEqual(picture(mark(name).icon()), picture(unset), name)
+            self.assertTrue(mark(name).isVisible())
+        self.assertFalse(mark("originX").isVisible())  # not where it would hide digits
+        icon_box = next(b for b in widget("radius").findChildren(QtGui.QToolButton) if b.isVisible())
+
+        def press(box):
+            QtCore.QTimer.singleShot(0, lambda: QTest.mouseClick(icon_box, QtCore.Qt.LeftButton))
+
+        self.answer_new_expression("radius", ("Box.Length / 5",), press)
+        self.assertAlmostEqual(value("radius"), 0.66)
+        self.assertEqual(picture(mark("radius").icon()), picture(entered))
+        self.assertEqual(mark("radius").toolTip(), "= Box.Length / 5")
+        widget("originX").setFocus()
+        spin(0)
+        self.assertTrue(mark("radius").isVisible())
+        screenshot("new_expression")
+        widget("radius").setFocus()
+        spin(0)
+        self.answer_new_expression("radius", ("",), press)
+        self.assertEqual(picture(mark("radius").icon()), picture(unset))
+        self.wait_for_preview()
 
     def test_cancelled_expression(self):
         drill = self.drill()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Panels at the dock's default width: everything can be reached, sections fold, fields have names."""
 
+import femscalpel as fs
+import ObjectsFemScalpel
 from femscalpelgui import preferences
 from femscalpelgui.commands import COMMANDS
 from .gui_testing import *  # noqa: F403
@@ -17,6 +19,32 @@ def scroll_area():
     return next(area for area in areas if area.isVisible() and area.isAncestorOf(status))
 
 
+def cut_off(area):
+    """Texts of the buttons and boxes to tick that are wider than these."""
+    boxes = [b for b in area.findChildren(QtGui.QAbstractButton) if b.isVisible()]
+    return [b.text() for b in boxes if b.fontMetrics().boundingRect(b.text()).width() > b.width() - 4]
+
+
+def hidden_numbers(area):
+    """Texts of the fields whose first digits are out of sight."""
+    hidden = []
+    for box in area.findChildren(QtGui.QAbstractSpinBox):
+        line = box.findChild(QtGui.QLineEdit)
+        digits = line.text().split(" ")[0]
+        # The place of the cursor is where it is seen; the icon of expressions takes 22 pixels.
+        room = line.width() - (26 if is_marked(line) else 4)
+        first = line.cursorPosition() == 0 and line.fontMetrics().boundingRect(digits).width() <= room
+        if box.isVisible() and not first and line.fontMetrics().boundingRect(line.text()).width() > room:
+            hidden.append(line.text())
+    return hidden
+
+
+def is_marked(line):
+    """Whether the icon of expressions is in a field: ours, or FreeCAD's."""
+    own = line.findChild(QtGui.QAction, "expression")
+    return own.isVisible() if own is not None else True
+
+
 class EveryPanel(GuiTest):
     def setUp(self):
         super().setUp()
@@ -24,8 +52,8 @@ class EveryPanel(GuiTest):
         self.add_mesh(long_box())
 
     def test_nothing_is_cut_off(self):
-        """In the dock as it is 1280 pixels wide, in English and German, with all sections open."""
-        for language in ("en", "de"):
+        """In the dock as it is 1280 pixels wide, in every language, with all sections open."""
+        for language in ("en", "de", "fr"):
             FreeCADGui.setLocale(language)
             spin(0.2)
             for command in COMMANDS:
@@ -42,9 +70,36 @@ class EveryPanel(GuiTest):
                         spin(0.1)
                         bar = scroll_area().horizontalScrollBar()
                         self.assertEqual(bar.maximum(), 0, "wider than the dock")
+                        self.assertEqual(cut_off(scroll_area()), [])
                         screenshot(f"fits_{language}_{command.page()}")
                     finally:
                         press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
+
+    def test_numbers_are_seen_whole(self):
+        """Also large ones, beside the icon of expressions, in panels of new objects and of those that are there."""
+        large = long_box()
+        self.doc.removeObject("Mesh")
+        self.add_mesh(fs.Mesh(large.points * 1000 - 20000, large.cells))
+        for command in COMMANDS:
+            if command is None or command.PANEL is None or command.NAME == "FemScalpel_Merge":
+                continue
+            with self.subTest(command=command.NAME):
+                FreeCADGui.Selection.clearSelection()
+                FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
+                FreeCADGui.runCommand(command.NAME)
+                wait_until(is_ready, "the panel")
+                spin(0.1)
+                self.assertEqual(hidden_numbers(scroll_area()), [])
+                press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
+            if FreeCADGui.Control.activeDialog():
+                press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
+        drill = ObjectsFemScalpel.makeDrill(self.doc, self.doc.Mesh, origin=(-13000, -17500, -18000), radius=1000)
+        self.doc.recompute()
+        drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        screenshot("numbers_seen_whole")
+        self.assertEqual(hidden_numbers(scroll_area()), [])
+        press_cancel()
 
     def test_fields_have_names(self):
         for command in COMMANDS:

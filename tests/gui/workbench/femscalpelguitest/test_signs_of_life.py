@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """OK computes on another thread: it shows what it does, can be cancelled, and does nothing twice."""
 
+import os
+import tempfile
 import threading
 import time
 from unittest import mock
 
+import FreeCADGui
+from PySide import QtCore, QtGui
+
 import femmesh_bridge
+import femscalpel
 import ObjectsFemScalpel
+from femscalpelgui import signs
+from femscalpelgui.commands.export import Export
 from femscalpelgui.panels import with_ok
 from femscalpelobjects.crack import Crack
 from .gui_testing import *  # noqa: F403
@@ -198,3 +206,112 @@ class SignsOfLife(CrackTest):
         self.assertNotIn("Touched", second.State)
         self.doc.undo()
         self.assertEqual(content_of(second), before)
+
+
+class OtherWaits(CrackTest):
+    """What else takes its time in large meshes: each says so before."""
+
+    def test_panels_say_that_they_open(self):
+        said = []
+        with mock.patch.object(signs, "begin", lambda text: said.append(text)), mock.patch.object(signs, "end"):
+            self.run_command("FemScalpel_Crack")
+            self.assertEqual(said, ["Opening the panel…"])
+            self.wait_for_preview()
+            press_ok()
+            self.doc.Crack.ViewObject.doubleClicked()
+            self.assertEqual(said, 2 * ["Opening the panel…"])
+            self.wait_for_preview()
+            press_cancel()
+
+    def test_a_sign_is_seen_and_goes(self):
+        bar, app = FreeCADGui.getMainWindow().statusBar(), QtGui.QApplication
+        with signs.busy("Waiting…"):
+            self.assertEqual(bar.currentMessage(), "Waiting…")
+            self.assertEqual(app.overrideCursor().shape(), QtCore.Qt.WaitCursor)
+        self.assertEqual(bar.currentMessage(), "")
+        self.assertIsNone(app.overrideCursor())
+
+    def test_undo_and_redo(self):
+        with mock.patch.object(signs, "QUICK", 10):
+            crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0))
+            self.doc.recompute()
+            self.doc.openTransaction("Move")
+            crack.PlanePlacement.Base.x = 6.1
+            self.doc.recompute()
+            self.doc.commitTransaction()
+            for step in (self.doc.undo, self.doc.redo):
+                events = []
+                noted = (
+                    mock.patch.object(signs, "begin", lambda text, events=events: events.append("begin")),
+                    mock.patch.object(signs, "end", lambda text, events=events: events.append("end")),
+                    mock.patch.object(
+                        Crack,
+                        "_set_mesh",
+                        autospec=True,
+                        side_effect=lambda *args, events=events, given=Crack._set_mesh: (
+                            events.append("mesh"),
+                            given(*args),
+                        ),
+                    ),
+                )
+                with noted[0], noted[1], noted[2]:
+                    step()
+                self.assertEqual(events, ["begin", "mesh", "end"])
+        self.assertIsNone(QtGui.QApplication.overrideCursor())
+
+    def test_the_status_bar_waits_for_nothing_after_the_panel(self):
+        self.run_command("FemScalpel_Crack")
+        bar = FreeCADGui.getMainWindow().statusBar()
+        self.assertTrue(bar.currentMessage().endswith("…"))
+        press_cancel()
+        self.assertEqual(bar.currentMessage(), "")
+
+
+class Writing(CrackTest):
+    """Export writes on another thread."""
+
+    def export(self, path, at):
+        write, threads = femscalpel.write, []
+
+        def slow(*args):
+            threads.append(threading.current_thread())
+            time.sleep(1.5)
+            return write(*args)
+
+        with mock.patch.object(femscalpel, "write", slow), Looking(at) as looking:
+            Export.write(self.mesh, path)
+        self.assertEqual(len(threads), 1)
+        self.assertIsNot(threads[0], threading.main_thread())
+        return looking.longest
+
+    def test_signs(self):
+        seen = []
+
+        def look():
+            dialog = QtGui.QApplication.activeModalWidget()
+            seen.append((FreeCADGui.getMainWindow().statusBar().currentMessage(), dialog is not None))
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mesh.inp")
+            self.assertLess(self.export(path, look), 0.5)
+            self.assertGreater(os.path.getsize(path), 1000)
+            self.assertIn(f"{path} was written", FreeCADGui.getMainWindow().statusBar().currentMessage())
+        self.assertTrue(any("Writing the file…" in bar for bar, _ in seen))
+        self.assertTrue(any(dialog for _, dialog in seen))
+
+    def test_escape(self):
+        pressed = []
+
+        def escape():
+            dialog = QtGui.QApplication.activeModalWidget()
+            if dialog is not None and not pressed:
+                pressed.append(True)
+                QTest.keyClick(dialog, QtCore.Qt.Key_Escape)
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mesh.inp")
+            self.export(path, escape)
+            spin(0.3)
+            self.assertTrue(pressed)
+            self.assertEqual(os.listdir(folder), [])
+        self.assertIn("Cancelled", FreeCADGui.getMainWindow().statusBar().currentMessage())

@@ -193,6 +193,17 @@ class GroupTable(Folder, CrackTest):
         self.assertEqual(widget("reportText").toPlainText().splitlines(), expected)
         widget("femscalpelReport").close()
 
+    def assertLegendSeen(self, entries):
+        """That the colours of the first patches are in the lower left corner of the view, one under the other."""
+        picture = canvas_picture()[-200:, :60].astype(int)
+        rows = []
+        for rgb, _ in entries:
+            wanted = (np.atleast_2d(rgb)[0] * 255).round()
+            found = np.argwhere((abs(picture - wanted) <= 3).all(axis=2))
+            self.assertGreater(len(found), 20, f"{wanted} is not seen")
+            rows.append(found[:, 0].mean())
+        self.assertEqual(rows, sorted(rows))
+
     def test_legend(self):
         self.open_panel()
         legend = widget("legend")
@@ -201,18 +212,37 @@ class GroupTable(Folder, CrackTest):
         self.assertTrue(any(text.startswith("front") for text in texts))
         type_into("offset", "0.3")
         wait_until(lambda: any("moved nodes" in text for _, text in legend.entries), "moved nodes")
+        self.assertLegendSeen(legend.entries)
         screenshot("legend_quality")
+        window, size = FreeCADGui.getMainWindow(), FreeCADGui.getMainWindow().size()
+        self.addCleanup(window.resize, size)
+        window.resize(size.width() - 200, size.height() - 150)
+        view().setCameraType("Perspective")
+        spin(0.3)
+        self.assertLegendSeen(legend.entries)
+        view().fitAll()
+        view().fitAll()
+        spin(0.2)
+        self.assertLegendSeen(legend.entries)
+        view().setCameraType("Orthographic")
+        window.resize(size)
+        spin(0.2)
         click("moved")
         self.assertFalse(any("moved nodes" in text for _, text in legend.entries))
         choose("colouring", "groups")
         texts = [text for _, text in legend.entries]
         self.assertFalse(any("mean ratio" in text for text in texts))
         self.assertTrue(any("LEFT" in text for text in texts), texts)
+        families = [tuple(rgb) for rgb, text in legend.entries if text.isupper() or "∩" in text]
+        self.assertGreater(len(families), 4)
+        self.assertEqual(len(set(families)), len(families))
         screenshot("legend_groups")
         click("moved")
         type_into("originX", "900")
         self.wait_for_message("geometryError")
         self.assertFalse(is_shown("legend"))
+        press_cancel()
+        self.assertIsNone(in_scene("FemScalpelLegend"))
 
     def test_legend_of_many_groups(self):
         data = mock.Mock(families=[(f"G{k}",) for k in range(20)] + [()])

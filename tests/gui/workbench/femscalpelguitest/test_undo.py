@@ -39,6 +39,9 @@ def _press(command, modifiers, wait):
     if wait:
         action = window.findChild(QtGui.QAction, command)
         wait_until(action.isEnabled, command)
+    if QtGui.QApplication.activeWindow() is None:  # nobody activates it where there is no window manager
+        window.activateWindow()
+        wait_until(lambda: QtGui.QApplication.activeWindow() is not None, "the main window")
     QTest.keyClick(window, QtCore.Qt.Key_Z, modifiers)
 
 

@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the engine says, in the user's language: it composes its errors and warnings in English, with numbers.
+
+Those that users meet most are in a table of templates; the others stay as they are, which is better than a wrong one.
+"""
+
+import functools
+import re
+
+from .translate import QT_TRANSLATE_NOOP, translate
+
+#: What the engine says, with %1, %2, ... for what varies; the same number is the same text.
+TEMPLATES = (
+    # Of cracks and all tools.
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 misses the mesh: the whole mesh lies on its %2 side, the nearest node at distance %3. Move the %1 or "
+        "turn it",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 misses the mesh: it passes between parts of the mesh, through no element; the nearest nodes are at "
+        "distance %2 on its negative side and %3 on its positive side. Move the %1 or turn it",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 misses the mesh: it passes only through segments (%2), which cannot be divided (springs, dashpots, "
+        "gaps). Move the %1 or turn it",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 lies inside %2, between their nodes, and parts none of them: it is smaller than the elements there. "
+        "Refine the mesh there first",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 only grazes the mesh: it passes through the curved sides of %2, but between none of their corners. "
+        "Move the %1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 only grazes the mesh: what it would cut off is thinner than the elements there. Move the %1 into the "
+        "material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 only touches the mesh, along edges or in single nodes: it passes through no element and along no face. "
+        "Move the %1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 only touches the mesh, on its outside: all elements there are on its %2 side, and there is nothing to "
+        "part. Move the %1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 meets the mesh only outside the part of it that is to cut. Move that part into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 is smaller than the elements there, and parts none of them. Refine the mesh there first, or move the "
+        "%1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 lies on faces that are open already: the elements on its two sides have nodes of their own there (a "
+        "contact, or an earlier crack), and there is nothing to part. Move the %1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is too coarse for the crack: no element face fits in it. Refine the mesh near the crack front first, "
+        "or make the crack larger",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is too coarse for the crack: its front would be cut short by up to %1. Refine the mesh near the "
+        "crack front first, or make the crack larger",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the crack lies outside the part: there is no material within its front. Move it into the material",
+    ),
+    # Of holes and slots.
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 would remove the whole mesh: all of it lies inside. Make the tool smaller, or move it",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 removes nothing: what it would take off is thinner than the elements there. Refine the mesh there, or "
+        "move the %1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 removes nothing: it is smaller than the elements there, and none lies inside. Refine the mesh there "
+        "first, or move the %1 into the material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 removes nothing: it touches the mesh from outside, and no element lies inside. Move the %1 into the "
+        "material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the wall %1 (%2) lies beyond the part: what is removed reaches right through there",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or "
+        "refine the mesh there first",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into "
+        "it. Refine the mesh there first, to edges of at most %5, or move the tool: it may nearly touch a border or "
+        "the skin there, and leave only a thin layer of material",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into "
+        "it. Refine the mesh there first, to edges of at most %5",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is coarse for the %1 of radius %2: the flat faces of the wall leave about %3 % of the hole standing. "
+        "Refine the mesh there first, to edges of at most %4",
+    ),
+    # Of the mesh.
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1 element(s) would be flat or inverted (%2): the tool passes too close to a corner or crease there. Move it "
+        "a little",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1 second-order element(s) would be folded (%2): the mesh is too coarse for its curvature there. Move the "
+        "tool a little, or refine the mesh",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh already has %1 flat or inverted element(s) near the tool (%2); repair them first",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 meets a surface or group border at %2: elements in the wedge between them cannot be better than the "
+        "wedge",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 runs along a feature line or border line at %2: elements between them cannot be better than that wedge",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the %1 runs within 0.15 edge lengths of a nearly parallel surface or group border at %2 node(s): the layer "
+        "between them is that thin",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 "
+        "elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front",
+    ),
+    # Of names and numbers.
+    QT_TRANSLATE_NOOP("FemScalpel", "name is empty; the new groups need one"),
+    QT_TRANSLATE_NOOP("FemScalpel", "name '%1' is taken: the mesh already has a group '%2'; choose another"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "name '%1' is too long: group '%2' would have %3 characters, at most %4 are allowed",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "name '%1' has a character other than letters, digits, '_', '-' and '.'; solvers would not accept its groups",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "radius is %1; it must be a positive length"),
+    QT_TRANSLATE_NOOP("FemScalpel", "width is %1; it must be positive"),
+    QT_TRANSLATE_NOOP("FemScalpel", "depth is %1; it must be positive"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1: %2 is %3; it must be positive"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1: %2 is the zero vector; give a direction"),
+    QT_TRANSLATE_NOOP("FemScalpel", "size is %1; it must be a positive length"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "size %1 would make more than %2 elements. Choose a larger size or gradation, or a larger max_elements",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "the mesh has no group '%1'"),
+    # Of edges, walls and additions.
+    QT_TRANSLATE_NOOP("FemScalpel", "the edge goes on beyond what was named, and is rounded as far as it goes"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "along: no feature line of the skin is within an edge length of the point (%1): the nearest is near (%2). Name "
+        "a point on the edge",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "along: edges meet at (%1), a convex and a concave one: these cannot be rounded at once. Round one after the "
+        "other",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "radius: %1 is too large for a face beside the edge, which ends, or is not what it is at the edge, before the "
+        "distance of %2 at which it would be touched. There is room for about %3, near (%4)",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the edge cannot be rounded near (%1): a border of groups, or another surface that is kept, runs through the "
+        "material there, and does not cross the edge in one plane",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "along: group '%1' is no edge: no feature line of the skin (sharper than feature_angle) runs along it",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the wall cannot be moved so far: it would pass through the part, and leave it on another side near (%1). Move "
+        "it less",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the addition does not meet the mesh: nowhere do their surfaces cross, and no border of the one is on the "
+        "other. The mesh reaches from (%1) to (%2), the addition from (%3) to (%4). Move the addition, or give a "
+        "larger tolerance",
+    ),
+)
+
+#: Words that vary in them.
+WORDS = (
+    QT_TRANSLATE_NOOP("FemScalpel", "plane"),
+    QT_TRANSLATE_NOOP("FemScalpel", "cylinder"),
+    QT_TRANSLATE_NOOP("FemScalpel", "sphere"),
+    QT_TRANSLATE_NOOP("FemScalpel", "torus"),
+    QT_TRANSLATE_NOOP("FemScalpel", "cone"),
+    QT_TRANSLATE_NOOP("FemScalpel", "face"),
+    QT_TRANSLATE_NOOP("FemScalpel", "disk"),
+    QT_TRANSLATE_NOOP("FemScalpel", "ellipse"),
+    QT_TRANSLATE_NOOP("FemScalpel", "positive"),
+    QT_TRANSLATE_NOOP("FemScalpel", "negative"),
+)
+
+
+def in_language(text):
+    """A message of the engine in the user's language, or `text` where it is none of the table's."""
+    for template in TEMPLATES:
+        found = _pattern(template).fullmatch(text)
+        if found is None:
+            continue
+        out = translate("FemScalpel", template)
+        if out == template:
+            return text
+        for number, part in found.groupdict().items():
+            part = translate("FemScalpel", part) if part in WORDS else part
+            out = out.replace("%" + number[1:], part)
+        return out
+    return text
+
+
+@functools.lru_cache(maxsize=None)
+def _pattern(template):
+    """A regular expression for a template."""
+    seen, out = set(), ""
+    for part in re.split(r"(%\d)", template):
+        if not re.fullmatch(r"%\d", part):
+            out += re.escape(part)
+        elif part in seen:
+            out += f"(?P=n{part[1:]})"
+        else:
+            seen.add(part)
+            out += f"(?P<n{part[1:]}>.+?)"
+    return re.compile(out, re.DOTALL)
