@@ -32,7 +32,7 @@ TEST(CheckShape, RefusesInvertedElements) {
     EXPECT_NO_THROW(check_shape(f, mesh));
     f.d.band.nodes[node_at(f.d.band, {0, 0, 0})].at = {1.2, 1.1, 1.3};
     EXPECT_THAT([&] { check_shape(f, mesh); },
-                testing::ThrowsMessage<QualityError>(AllOf(HasSubstr("6 element(s) would be flat or inverted"),
+                testing::ThrowsMessage<QualityError>(AllOf(HasSubstr("6 elements would be flat or inverted"),
                                                            HasSubstr("elements 100, 101, 102, 103, 104, ..."))));
 }
 
@@ -42,7 +42,7 @@ TEST(CheckShape, RefusesFoldedSecondOrderElements) {
     EXPECT_NO_THROW(check_shape(f, mesh));
     f.d.mids.set_bulge(node_at(f.d.band, {1, 1, 1}), node_at(f.d.band, {2, 1, 1}), Vec3(0.3, 0, 0));
     EXPECT_THAT([&] { check_shape(f, mesh); },
-                testing::ThrowsMessage<QualityError>(HasSubstr("6 second-order element(s) would be folded")));
+                testing::ThrowsMessage<QualityError>(HasSubstr("6 second-order elements would be folded")));
 }
 
 TEST(CheckContacts, RefusesNodesOffTheirTool) {
@@ -54,8 +54,9 @@ TEST(CheckContacts, RefusesNodesOffTheirTool) {
     middle.at.x() = 1 + 5 * f.tolerance;
     EXPECT_NO_THROW(check_contacts(f)) << "within ten tolerances";
     middle.at.x() = 1.25;
-    EXPECT_THAT([&] { check_contacts(f); }, testing::ThrowsMessage<QualityError>(HasSubstr(
-                                                "1 node(s) cannot be brought onto the plane (off by up to 0.25)")));
+    EXPECT_THAT(
+        [&] { check_contacts(f); },
+        testing::ThrowsMessage<QualityError>(HasSubstr("1 node cannot be brought onto the plane (off by up to 0.25)")));
 }
 
 TEST(CheckInputShape, RefusesInvertedElementsOfTheInput) {
@@ -64,7 +65,7 @@ TEST(CheckInputShape, RefusesInvertedElementsOfTheInput) {
     Workpiece f = checks::whole_workpiece(mesh, plane);
     EXPECT_THAT([&] { check_input_shape(f, mesh); },
                 testing::ThrowsMessage<QualityError>(
-                    HasSubstr("the mesh already has 1 flat or inverted element(s) near the tool (element 100)")));
+                    HasSubstr("the mesh already has 1 flat or inverted element near the tool (element 100)")));
 }
 
 TEST(CheckInputShape, WarnsOfPoorElementsOfTheInput) {
@@ -75,7 +76,7 @@ TEST(CheckInputShape, WarnsOfPoorElementsOfTheInput) {
     for (Vec3& x : mesh.points) x.z() *= 0.01;
     Workpiece flat = checks::whole_workpiece(mesh, plane);
     check_input_shape(flat, mesh);
-    EXPECT_THAT(flat.warnings, ElementsAre(HasSubstr("6 element(s) with mean ratio below 0.1")));
+    EXPECT_THAT(flat.warnings, ElementsAre(HasSubstr("6 elements with mean ratio below 0.1")));
 }
 
 /// The block's workpiece, with the shape that it is said to have been made from.

@@ -53,10 +53,10 @@ TEST(FeatureLine, WhatIsNoEdge) {
         }
         return std::string();
     };
-    EXPECT_THAT(reason({"NONE", {}, {}}), testing::HasSubstr("no group of segments or nodes 'NONE'"));
+    EXPECT_THAT(reason({"NONE", {}, {}}), testing::HasSubstr("no group 'NONE'"));
     EXPECT_THAT(reason({"LEFT", {}, {}}), testing::HasSubstr("elements other than segments"));
     EXPECT_THAT(reason({{}, {999999}, {}}), testing::HasSubstr("no node 999999"));
-    EXPECT_THAT(reason({{}, {mesh.node_ids[0]}, {}}), testing::HasSubstr("is no edge"));
+    EXPECT_THAT(reason({{}, {mesh.node_ids[0]}, {}}), testing::HasSubstr("are no edge"));
     EXPECT_THAT(reason({}), testing::HasSubstr("nothing is named"));
 }
 

@@ -66,14 +66,14 @@ TEST(FoldedInput, IsAnErrorWhereSolversIntegrate) {
     Folded cube(0.6);
     EXPECT_THAT([&] { find_folded_input(cube.f, cube.mesh); },
                 testing::ThrowsMessage<QualityError>(
-                    AllOf(HasSubstr("6 second-order element(s)"), HasSubstr("where solvers integrate"))));
+                    AllOf(HasSubstr("6 second-order elements"), HasSubstr("where solvers integrate"))));
 }
 
 TEST(FoldedInput, IsMendedAndPutBackWhereNothingNeededThat) {
     Folded cube(0.26);
     find_folded_input(cube.f, cube.mesh);
     EXPECT_THAT([&] { check_folded_input(cube.f, cube.elements()); },
-                testing::ThrowsMessage<QualityError>(HasSubstr("6 second-order element(s) in the way")));
+                testing::ThrowsMessage<QualityError>(HasSubstr("6 second-order elements in the way")));
     mend_folded_input(cube.f);
     EXPECT_TRUE(cube.is_moved());
     for (const auto& [key, folded] : cube.f.folded_input) {
@@ -84,7 +84,7 @@ TEST(FoldedInput, IsMendedAndPutBackWhereNothingNeededThat) {
     put_back_middles(cube.f, cube.mesh);
     EXPECT_FALSE(cube.is_moved());
     EXPECT_NEAR(cube.f.d.mids.bulge(cube.middle, cube.end).x(), 0.26, 1e-12);
-    EXPECT_THAT(cube.f.warnings, ElementsAre(AllOf(HasSubstr("6 second-order element(s) near the tool that are folded"),
+    EXPECT_THAT(cube.f.warnings, ElementsAre(AllOf(HasSubstr("6 second-order elements near the tool, folded"),
                                                    HasSubstr("those that were not cut stay as they are"))));
 }
 
@@ -96,7 +96,7 @@ TEST(FoldedInput, StaysMendedWhereElementsChanged) {
     put_back_middles(cube.f, cube.mesh);
     EXPECT_TRUE(cube.is_moved());
     const Index number = cube.mesh.node_ids[checks::number_near(cube.mesh, {1.76, 1, 1})];
-    EXPECT_THAT(cube.f.warnings, ElementsAre(HasSubstr("1 mid-side node(s) were moved towards the middle of their "
+    EXPECT_THAT(cube.f.warnings, ElementsAre(HasSubstr("1 mid-side node was moved towards the middle of their "
                                                        "edges (node " +
                                                        std::to_string(number) + ")")));
 }

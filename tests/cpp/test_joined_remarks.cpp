@@ -39,9 +39,10 @@ protected:
 TEST_F(JoinedRemarksTest, NewNodesThatWentAgainAreNotTold) {
     first.add_new_nodes("deck.inp:10: *EQUATION: ", {6}, "are not related");
     EXPECT_THAT(problems(between),
-                ElementsAre("deck.inp:10: *EQUATION: 1 new node(s), the first is 6, are not related"));
+                ElementsAre("deck.inp:10: *EQUATION: new nodes (1 node, the first is 6) are not related"));
     first.add_new_nodes("deck.inp:12: *EQUATION: ", {6, 5}, "are not related");
-    EXPECT_THAT(problems(input), ElementsAre("deck.inp:12: *EQUATION: 1 new node(s), the first is 5, are not related"));
+    EXPECT_THAT(problems(input),
+                ElementsAre("deck.inp:12: *EQUATION: new nodes (1 node, the first is 5) are not related"));
 }
 
 TEST_F(JoinedRemarksTest, NodesAreThoseOfTheInputOrTheResult) {

@@ -2,12 +2,15 @@
 // Two meshes as one: their lines, what is covered, refilled and united.
 #include "operators/merge.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cutting/covered_faces.h"
 #include "cutting/meeting.h"
 #include "cutting/refill.h"
+#include "deck/edge_beams.h"
 #include "mesh/quality.h"
+#include "operators/attach_along.h"
 #include "operators/joint.h"
 #include "operators/merge_refining.h"
 #include "operators/seam.h"
@@ -183,7 +186,7 @@ TEST(MergeRefining, DividesWhatItRefines) {
     for (Vec3& x : part.points) x = 0.2 * x + Vec3(2.7, 2.6, 4);
     const Meeting meeting = find_meeting(base, part, {});
     MergeRefining refining(base, part, {});
-    refining.run(meeting.lines, 2.5, {});
+    refining.run(meeting.lines, 2.5, 20, {});
     EXPECT_TRUE(refining.any());
     EXPECT_EQ(&refining.mesh(1), &part);
     Report report;
@@ -191,6 +194,69 @@ TEST(MergeRefining, DividesWhatItRefines) {
     ASSERT_TRUE(report.refinement);
     EXPECT_GT(report.converted.at("hexahedron"), 0);
     EXPECT_GT(refining.mesh(0).block(CellType::tetra).size(), 0);
+}
+
+TEST(MergeRefining, DividesNoFurtherThanItIsTo) {
+    const Mesh base = checks::grid(12, 12, 8);
+    Mesh part = checks::grid(40, 1, 1);
+    for (Vec3& x : part.points) x = 0.02 * x + Vec3(5.7, 5.6, 8);
+    const Meeting meeting = find_meeting(base, part, {});
+    MergeRefining refining(base, part, {});
+    try {
+        refining.run(meeting.lines, 0.01, 1, {});
+        ADD_FAILURE() << "no error";
+    } catch (const ToolError& error) {
+        EXPECT_STREQ(error.parameter(), "refine");
+        EXPECT_THAT(error.what(), testing::HasSubstr("the addition is so much finer than the mesh"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("Give refine="));
+    }
+    OperatorOptions options;
+    options.refine.when = RefineFirst::When::never;
+    MergeRefining none(base, part, options);
+    none.run(meeting.lines, 0.01, 1, {});
+    EXPECT_FALSE(none.any());
+    options.refine = {RefineFirst::When::to_size, 0.3};
+    MergeRefining sized(base, part, options);
+    sized.run(meeting.lines, 0.01, 1, {});
+    Report report;
+    sized.join(0, report);
+    ASSERT_TRUE(report.refinement);
+    EXPECT_EQ(report.refinement->size, 0.3);
+}
+
+TEST(AttachAlong, BeamsBecomeEdges) {
+    Mesh floor;
+    checks::add_plate(floor, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 6, 6);
+    Mesh beams;
+    for (const double x : {0.5, 2.7, 5.5}) beams.add_node({x, 1.3 + x / 2, 0}, beams.node_count() + 1, 0);
+    beams.add_cell(CellType::line, std::array<Index, 2>{0, 1}, 1, 0);
+    beams.add_cell(CellType::line, std::array<Index, 2>{1, 2}, 2, 0);
+    std::vector<std::string> bowed;
+    MergeOptions options;
+    options.name = "ADD";
+    const auto along = attach_along(floor, beams, options, {}, bowed);
+    ASSERT_TRUE(along);
+    EXPECT_TRUE(bowed.empty());
+    EXPECT_EQ(along->on_solids, 0);
+    EXPECT_GT(along->addition.block(CellType::line).size(), 5);
+    EXPECT_THAT(along->shared, testing::Each(testing::Ge(0)));
+    for (Vec3& x : beams.points) x.z() = 1;
+    EXPECT_FALSE(attach_along(floor, beams, options, {}, bowed));
+}
+
+TEST(EdgeBeams, AreSegmentsOfTheGroup) {
+    Mesh mesh;
+    for (const double x : {0., 1., 2.}) mesh.add_node({x, 0, 0}, mesh.node_count() + 1, 0);
+    const GroupIndex group = mesh.add_group("BEAMS", GroupKind::element);
+    mesh.add_cell(CellType::line, std::array<Index, 2>{0, 1}, 1, mesh.families.with(0, group));
+    mesh.add_cell(CellType::line, std::array<Index, 2>{1, 2}, 2, 0);
+    mark_edge_beams(mesh, group);
+    const auto hidden = mesh.find_group(edge_beams_group, GroupKind::element, true);
+    ASSERT_TRUE(hidden);
+    EXPECT_TRUE(mesh.families.contains(mesh.block(CellType::line).families[0], *hidden));
+    EXPECT_FALSE(mesh.families.contains(mesh.block(CellType::line).families[1], *hidden));
+    mark_edge_beams(mesh, group);
+    EXPECT_EQ(mesh.groups.size(), 2U);
 }
 
 TEST(Trim, LeavesWhatIsOnThePointsSide) {

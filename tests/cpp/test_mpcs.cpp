@@ -65,7 +65,7 @@ TEST_F(MpcsRule, OtherTypesStayAndAreTold) {
     const Carried born = carried(cards, halve_element_1);
     EXPECT_EQ(born.cards, cards);
     EXPECT_THAT(born.warnings,
-                ElementsAre("deck.inp:11: *MPC: 1 new node(s), the first is 6, lie between nodes of this MEANROT "
+                ElementsAre("deck.inp:11: *MPC: new nodes (1 node, the first is 6) lie between nodes of this MEANROT "
                             "MPC and do not join it"));
     const Carried doubled = carried(cards, double_node_2);
     EXPECT_EQ(doubled.cards, cards);

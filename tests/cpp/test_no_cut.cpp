@@ -112,7 +112,7 @@ TEST(WhyNothingParts, InShells) {
     Mesh mesh;
     checks::add_plate(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1);
     EXPECT_THAT(parts_nothing(mesh, Plane({0, 0, 0}, {0, 0, 1})),
-                HasSubstr("2 shell element(s) lie in the plane, and nothing stands on them"));
+                HasSubstr("2 shell elements lie in the plane, and nothing stands on them"));
 }
 
 }  // namespace FILE_NAMESPACE

@@ -95,7 +95,7 @@ TEST_F(NodeLoadsRule, RemovedNodesTakeTheirLoadsWithThem) {
     const Carried after = carried("*CLOAD\n5, 1, 1.\n4, 1, 2.\nNALL, 3, 1.\n", remove_element_2);
     EXPECT_EQ(after.cards, "*CLOAD\n4, 1, 2.\nNALL, 3, 1.\n");
     EXPECT_THAT(after.warnings,
-                ElementsAre("deck.inp:13: *CLOAD names set 'NALL', which lost 1 node(s) and with them their load",
+                ElementsAre("deck.inp:13: *CLOAD names set 'NALL', which lost 1 node and with it its load",
                             "deck.inp:11: *CLOAD names node 5, which was removed, and with it the load"));
 }
 

@@ -95,7 +95,7 @@ TEST(Polygon, NeedNotBeConvex) {
 }
 
 TEST(Polygon, RefusesWhatIsNone) {
-    expect_error([] { Polygon({{0, 0, 2}, {1, 0, 2}}); }, "2 corner(s)");
+    expect_error([] { Polygon({{0, 0, 2}, {1, 0, 2}}); }, "2 corners; give");
     expect_error([] { Polygon({{0, 0, 2}, {0, 0, 2}, {1, 0, 2}}); }, "corner 1 is repeated");
     expect_error([] { Polygon({{0, 0, 2}, {1, 1, 2}, {1, 0, 2}, {0, 1, 2}}).on(plane); }, "sides 1 and 3 cross");
     expect_error([] { Polygon({{0, 0, 2}, {1, 0, 2}, {0, 1, 3}}).on(plane); }, "corner 3 of the polygon is off");

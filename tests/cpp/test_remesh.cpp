@@ -39,7 +39,7 @@ TEST(Remesh, DividesLongEdges) {
     stretch(f, 2.5);
     r.run(0.3);
     EXPECT_GT(f.d.band.size(), 27);
-    EXPECT_GT(r.worst(), 0.3);
+    EXPECT_GT(r.worst().mean_ratio, 0.3);
 }
 
 /// Whether the middle node of a cube of eight, near a side, is taken out; `member`: which are in a group of nodes.

@@ -106,7 +106,7 @@ TEST(Removal, TakesWhatOnlyTheRemovedCarried) {
         if (band.vertices.alive(p)) {
             EXPECT_EQ(band.nodes[band.vertices[p][0]].at.x(), 2);
         }
-    EXPECT_THAT(f.warnings, ElementsAre(HasSubstr("1 point element(s)")));
+    EXPECT_THAT(f.warnings, ElementsAre(HasSubstr("1 point element inside")));
 }
 
 TEST(Removal, CutsAPlateAtALine) {

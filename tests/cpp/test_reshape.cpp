@@ -5,9 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cutting/motion_error.h"
+#include "groups/group_nodes.h"
 #include "groups/group_report.h"
 #include "mesh/quality.h"
 #include "operators/drill.h"
+#include "operators/reshape_part.h"
 #include "simple_meshes.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
@@ -135,6 +138,66 @@ TEST(Reshape, NotThroughAnotherPart) {
     }
     EXPECT_NO_THROW(reshape(mesh, "END", by(1.9)));
     EXPECT_THAT(refusal(mesh, "END", by(2.2), "by"), HasSubstr("another part of the mesh"));
+}
+
+/// The share of a motion that an error says works.
+double told_share(const std::string& message) {
+    const std::size_t end = message.find(" % of the motion works");
+    EXPECT_NE(end, std::string::npos) << message;
+    return end == std::string::npos ? 0 : std::stod(message.substr(message.rfind(' ', end - 1)));
+}
+
+TEST(Reshape, SaysHowMuchOfAMotionWorks) {
+    Mesh mesh = block();
+    const FamilyIndex other = checks::family_of(mesh, "OTHER", GroupKind::node);
+    for (std::size_t n = 0; n < mesh.points.size(); ++n)
+        if (mesh.points[n].x() == 0) mesh.node_families[n] = other;
+    const std::string message = refusal(mesh, "END", by(-12.5), "by");
+    EXPECT_THAT(message, HasSubstr("The nearest other group is 'OTHER', "));
+    const double share = told_share(message);
+    EXPECT_GE(share, 25);  // more where time is left to try
+    EXPECT_LE(share, 95);
+    const double told = std::stod(message.substr(message.find("by=(") + 4));
+    EXPECT_NEAR(told, -12.5 * share / 100, 0.01);
+    EXPECT_GT(reshape(mesh, "END", by(told)).report.quality_after.minimum, 0.05);
+
+    const Plane far(Vec3(-0.5, 0, 0), Vec3(1, 0, 0));
+    ReshapeOptions onto;
+    onto.onto = &far;
+    const std::string of_plane = refusal(mesh, "END", onto, "onto");
+    const double place = std::stod(of_plane.substr(of_plane.find("onto=Plane((") + 12));
+    EXPECT_NEAR(place, 12 - 12.5 * told_share(of_plane) / 100, 0.01);
+    const Plane less(Vec3(place, 0, 0), Vec3(1, 0, 0));
+    onto.onto = &less;
+    EXPECT_NEAR(volume(reshape(mesh, "END", onto).mesh), 16 * place, 1e-9);
+
+    ReshapeOptions scaled;
+    scaled.scale = {.factor = -0.5, .centre = Vec3::Zero()};
+    EXPECT_THAT(refusal(mesh, "END", scaled, "scale"), HasSubstr("positive"));
+}
+
+TEST(Reshape, SaysWhereAMotionFails) {
+    EXPECT_THAT(refusal(block(), "END", by(-12.5), "by"), HasSubstr("near ("));
+    EXPECT_THAT(refusal(block(), "EMD", by(1), "group"), HasSubstr("Did you mean 'END'?"));
+}
+
+TEST(ReshapePart, IsThatMuchOfAMotion) {
+    const Mesh mesh = block();
+    const GroupIndex end = *mesh.find_group("END", GroupKind::node);
+    EXPECT_EQ(std::ranges::count(nodes_of_group(mesh, end), 1), 25);
+    EXPECT_EQ(part_of_motion(mesh, end, by(-3, 0, 1), 0.25)->text, "by=(-0.75, 0, 0.25)");
+    ReshapeOptions scaled;
+    scaled.scale = {.factor = 3, .centre = Vec3(1, 2, 3)};
+    EXPECT_EQ(part_of_motion(mesh, end, scaled, 0.25)->text, "scale=(1.5, (1, 2, 3))");
+    const Plane plane(Vec3(20, 0, 0), Vec3(2, 0, 0));
+    ReshapeOptions onto;
+    onto.onto = &plane;
+    const auto part = part_of_motion(mesh, end, onto, 0.25);
+    EXPECT_EQ(part->text, "onto=Plane((14, 0, 0), (1, 0, 0))");
+    EXPECT_EQ(part->options.onto, part->tool.get());
+    const MotionError error("", "by", Vec3(12, 0, 0));
+    EXPECT_EQ(where_text(mesh, "", error), ". The nearest other group is 'END', there.");
+    EXPECT_EQ(where_text(mesh, "END", error), ".");
 }
 
 }  // namespace FILE_NAMESPACE

@@ -78,7 +78,7 @@ TEST_F(StraightenBesideBulge, SaysHowFarAndWhereAnEdgeIsBesideItsSurface) {
     EXPECT_TRUE(straighten_folded(f));
     EXPECT_THAT(folded_elements(f, least_curved), IsEmpty());
     EXPECT_THAT(f.warnings,
-                ElementsAre(AllOf(HasSubstr("1 node(s) were left in the middle of straight edges"),
+                ElementsAre(AllOf(HasSubstr("1 node was left in the middle of straight edges"),
                                   HasSubstr("up to 0.0125 beside where they belong, farthest near (2.08  1.5    1)"))));
     const Vec3 chord = (f.d.band.nodes[top].at + f.d.band.nodes[beside].at) / 2;
     EXPECT_EQ(mid_side(f.d, top, beside).at, chord);

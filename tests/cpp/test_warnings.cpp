@@ -90,7 +90,7 @@ std::vector<std::string> below_the_top(double gap) {
 
 TEST(WarnOfGrazing, AThinLayer) {
     EXPECT_THAT(below_the_top(0.1), ElementsAre(HasSubstr("the plane runs within 0.15 edge lengths of a nearly "
-                                                          "parallel surface or group border at 4 node(s)")));
+                                                          "parallel surface or group border at 4 nodes: the layer")));
     EXPECT_THAT(below_the_top(0.3), IsEmpty());
 }
 
@@ -174,7 +174,7 @@ TEST(WarnOfEmptiedGroups, ButNotOfThoseThatMeanNothing) {
         warn_of_emptied_groups(mesh, meaningless, report);
         return report.warnings;
     };
-    EXPECT_THAT(warnings({}), ElementsAre("node group 'A' loses all its 3 member(s); it stays, empty"));
+    EXPECT_THAT(warnings({}), ElementsAre("node group 'A' loses all its 3 members; it stays, empty"));
     EXPECT_THAT(warnings({false, true, false}), IsEmpty());
 }
 

@@ -91,6 +91,6 @@ def test_sets_have_the_names_of_the_deck(tmp_path):
     assert result.report.refinement
     told = [w for w in result.report.warnings if "box.inp:" in w]
     assert len(told) == 2
-    assert "*CLOAD names set 'TOP', which lost 1 node(s) and with them their load" in told[0]
+    assert "*CLOAD names set 'TOP', which lost 1 node and with it its load" in told[0]
     assert "*CLOAD names set 'TOP', which has new nodes; the card now names 'TOP_LOAD1'" in told[1]
     assert set(result.mesh.groups["TOP_LOAD1"].ids) == set(top) & set(result.mesh.node_ids.tolist())

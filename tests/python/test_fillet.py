@@ -199,7 +199,12 @@ def test_second_order():
 @pytest.mark.parametrize(
     "along, radius, parameter, text",
     [
-        ("NONE", 1, "along", "no group of segments or nodes 'NONE'"),
+        ("NONE", 1, "along", "no group 'NONE'; it has 'ALL', 'INSIDE'"),
+        ("INSIED", 1, "along", "Did you mean 'INSIDE'?"),
+        ([1], 1, "along", "the nodes named are no edge"),
+        ([(np.nan, 0, 0)], 1, "along", r"along\[0\] is \(nan, 0.0, 0.0\); the coordinates of a point must be finite"),
+        ((3, 0, 0), 1e300, "radius", "which no face has room for"),
+        ((3, 0, 0), 8000, "radius", r"There is room for about (3|4)\.?\d*,"),
         ("ALL", 1, "along", "elements other than segments"),
         ("INSIDE", 1, "along", "is no edge"),
         ([999999], 1, "along", "no node 999999"),
@@ -221,7 +226,7 @@ def test_errors(along, radius, parameter, text):
 
 @pytest.mark.parametrize("along", [None, 3.5, [(1, 2)], [], "", [[np.nan, 0, 0]]])
 def test_along_must_name_something(along):
-    with pytest.raises((TypeError, fs.ToolError)) as caught:
+    with pytest.raises((TypeError, ValueError, fs.ToolError)) as caught:
         fs.fillet(grid_box(), along, 1)
     assert caught.value.parameter == "along"
 
@@ -242,3 +247,21 @@ def test_the_foot_of_a_boss_that_was_added(radius, keep):
     way = 1.2 + radius * (10 - 3 * np.pi) / (12 - 3 * np.pi)
     grown = volume(result.mesh) - volume(mesh)
     assert 1 < grown / (2 * np.pi * way * RIGHT_ANGLE * radius**2) < 1.12 + 0.0182 / (RIGHT_ANGLE * radius)
+
+
+@pytest.mark.parametrize("part", [0.25, 0.5])
+def test_the_rim_of_a_coarse_hole(part):
+    """By a fraction of the edges: nodes on the tangent line of the wall may have to stay on its facets, which is told;
+    all others are on the torus."""
+    mesh = fs.drill(grid_box((12, 12, 6), (10.0, 10.0, 5.0)), fs.Cylinder((5, 5, 0), (0, 0, 1), 2), refine=False).mesh
+    edge, radius = 10 / 12, part * 10 / 12
+    result = fs.fillet(mesh, [(7, 5, 5)], radius)
+    assert quality(result.mesh).min() > 0.15
+    points = face_points(result.mesh) - (5, 5, 5)
+    off = np.abs(np.hypot(np.hypot(points[:, 0], points[:, 1]) - 2 - radius, points[:, 2] + radius) - radius)
+    facets = 1.2 * edge**2 / 16
+    held = off > 1e-9
+    assert off.max() < facets and held.sum() < 0.1 * len(off) and len(off) > 50
+    assert (np.abs(points[held, 2] + radius) < 1e-9).all()
+    told = [w for w in result.report.warnings if "on the facets of the face beside it" in w]
+    assert len(told) == held.any()

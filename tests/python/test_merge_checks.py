@@ -290,7 +290,11 @@ def test_groups_of_nodes_that_become_one_are_told():
     boss = node_groups(block((2, 2, 4), (2, 2, 1), (4, 4, 2), "BOSS"), BOTTOM=low(4), OTHER=low(5))
     for method in ("conform", "tie"):
         told = [w for w in fs.merge(mesh, boss, method=method).report.warnings if "which are one now" in w]
-        assert len(told) == 1 and told[0].startswith("both have groups 'BOTTOM', which") and "at 25 node(s)" in told[0]
+        assert (
+            len(told) == 1
+            and told[0].startswith("both have groups 'BOTTOM', which")
+            and "at 25 nodes or facets of the addition" in told[0]
+        )
         apart = fs.merge(mesh, boss, method=method, join_groups=False)
         assert not [w for w in apart.report.warnings if "which are one now" in w]
         assert len(apart.mesh.groups["BOTTOM"].ids) == 42

@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import re
 
 import numpy as np
 import pytest
@@ -273,7 +274,10 @@ PLANE = fs.Plane((7, 0, 0), (1, 0, 0))
 @pytest.mark.parametrize(
     "arguments, parameter, text",
     [
-        (dict(group="NOWHERE", by=(1, 0, 0)), "group", "no group 'NOWHERE'"),
+        (dict(group="NOWHERE", by=(1, 0, 0)), "group", "no group 'NOWHERE'; it has 'END'"),
+        (dict(group="EDN", by=(1, 0, 0)), "group", "Did you mean 'END'?"),
+        (dict(group="END", by=(1e300, 0, 0)), "by", "more than 300 times the length of the edges there"),
+        (dict(group="END", scale=(1e9, (0, 0, 0))), "scale", "more than 300 times the length of the edges there"),
         (dict(group="NONE", by=(1, 0, 0)), "group", "is empty"),
         (dict(group="INSIDE", by=(1, 0, 0)), "group", "covers no face"),
         (dict(group="VOLUMES", by=(1, 0, 0)), "group", "has tetra"),
@@ -304,6 +308,41 @@ def test_what_is_wrong_is_named(arguments, parameter, text):
         fs.reshape(mesh, **arguments)
     assert caught.value.parameter == parameter
     assert (mesh.points == points).all() and "SHAPE_WALL" not in mesh.groups
+
+
+@pytest.mark.parametrize(
+    "motion, parameter",
+    [
+        (dict(by=(-6.5, 0, 0)), "by"),
+        (dict(scale=(0.01, (0, 0, 0))), "scale"),
+        (dict(onto=fs.Plane((-1, 0, 0), (1, 0, 0))), "onto"),
+        (dict(onto=fs.Plane((0, 2.2, 0), (0, 1, 0))), "onto"),
+    ],
+)
+def test_an_error_says_how_much_of_the_motion_works(motion, parameter):
+    """It names the place and the group there; and what it says works does."""
+    mesh = box()
+    with pytest.raises(fs.ToolError) as caught:
+        fs.reshape(mesh, "END", **motion)
+    said = re.fullmatch(
+        r".*\(.*\).* The nearest other group is 'INSIDE', [0-9.]+ away\."
+        r" ([0-9]+) % of the motion works(?:, and perhaps more)?: (\w+)=(.*)",
+        str(caught.value),
+    )
+    assert said and said[2] == parameter == caught.value.parameter and 5 <= int(said[1]) <= 95
+    part = eval(said[3], {"Plane": fs.Plane})  # noqa: S307
+    result = fs.reshape(mesh, "END", **{parameter: part})
+    check_conforming(result.mesh)
+    assert result.report.quality.after.minimum > 0.08
+
+
+def test_an_error_says_which_radius_works():
+    wall = fs.drill(fs.read(MESHES / "two_boxes.inp"), fs.Cylinder((5, 5, 0), (0, 0, 1), 2)).mesh
+    with pytest.raises(fs.ToolError, match="works.*: onto=Cylinder") as caught:
+        fs.reshape(wall, "HOLE_WALL", onto=fs.Cylinder((5, 5, 0), (0, 0, 1), 8))
+    tool = eval(re.search(r"onto=(.*)", str(caught.value))[1], {"Cylinder": fs.Cylinder})  # noqa: S307
+    assert 2.2 < tool.radius < 5
+    check(wall, fs.reshape(wall, "HOLE_WALL", onto=tool), tool)
 
 
 def test_a_deck_follows(tmp_path):

@@ -113,7 +113,7 @@ def test_crack_in_the_plane_of_a_shell_parts_it_from_what_stands_on_it(normal):
     assert len(after.groups["WELD"]) == 18
     assert {g.status for g in result.report.groups if g.name in ("FLOOR", "WEB")} == {"kept", "untouched"}
     side = "negative" if web_is_positive else "positive"
-    assert result.report.warnings == [f"128 shell element(s) lie in the tool's surface; they stay on the {side} side"]
+    assert result.report.warnings == [f"128 shell elements lie in the tool's surface, and stay on the {side} side"]
 
 
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1)])
@@ -136,7 +136,7 @@ def test_crack_along_part_of_a_junction_has_its_tips(normal):
 
 def test_plane_in_shells_on_which_nothing_stands_says_so():
     points, triangles = FLOOR
-    with pytest.raises(fs.ToolError, match=r"128 shell element\(s\) lie in the plane, and nothing stands on them"):
+    with pytest.raises(fs.ToolError, match=r"128 shell elements lie in the plane, and nothing stands on them"):
         fs.crack(fs.Mesh(points, {"triangle": triangles}), fs.Plane((0, 0, 0), (0, 0, 1)))
     # A plate that rises smoothly from the plane does not stand on the rest.
     rising = points.copy()

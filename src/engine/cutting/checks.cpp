@@ -12,6 +12,7 @@
 #include "cutting/mend_curved.h"
 #include "deformation/curved_shape.h"
 #include "mesh/quality.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -62,7 +63,7 @@ void check_contacts(const Workpiece& f) {
     }
     if (count == 0) return;
     std::ostringstream message;
-    message << count << " node(s) cannot be brought onto the " << f.tool->kind() << " (off by up to " << worst
+    message << counted(count, "node") << " cannot be brought onto the " << f.tool->kind() << " (off by up to " << worst
             << "): the mesh is too coarse for it there. Refine the mesh near the tool first";
     throw QualityError(message.str());
 }
@@ -98,13 +99,14 @@ void check_input_shape(Workpiece& f, const Mesh& mesh) {
     std::vector<Bad> bad;
     std::ranges::copy_if(poor, std::back_inserter(bad), [](const Bad& b) { return !(b.quality >= flat); });
     if (!bad.empty())
-        throw QualityError("the mesh already has " + std::to_string(bad.size()) +
-                           " flat or inverted element(s) near the tool (" + name_them(bad) + "); repair them first");
+        throw QualityError("the mesh already has " +
+                           counted(static_cast<Index>(bad.size()), "flat or inverted element") + " near the tool (" +
+                           name_them(bad) + "); repair the mesh first");
     find_folded_input(f, mesh);
     mend_folded_input(f);
     if (!poor.empty())
-        f.warnings.push_back("the mesh already has " + std::to_string(poor.size()) +
-                             " element(s) with mean ratio below 0.1 near the tool (" + name_them(poor) + ")");
+        f.warnings.push_back("the mesh already has " + counted(static_cast<Index>(poor.size()), "element") +
+                             " with mean ratio below 0.1 near the tool (" + name_them(poor) + ")");
 }
 
 std::optional<Vec3> double_nodes(const Mesh& mesh, const Eigen::AlignedBox3d& box, const Vec3& near) {
@@ -134,7 +136,8 @@ void check_skin(Workpiece& f) {
 void check_shape(const Workpiece& f, const Mesh& mesh) {
     const std::vector<Bad> bad = worse_than(flat, f, mesh);
     if (!bad.empty())
-        throw QualityError(std::to_string(bad.size()) + " element(s) would be flat or inverted (" + name_them(bad) +
+        throw QualityError(counted(static_cast<Index>(bad.size()), "element") + " would be flat or inverted (" +
+                           name_them(bad) +
                            "): the tool passes too close to a corner or crease there. Move it a little");
     const std::vector<BandElement> elements = newly_folded(f, folded_elements(f, 0));
     check_folded_input(f, elements);
@@ -145,7 +148,8 @@ void check_shape(const Workpiece& f, const Mesh& mesh) {
     }
     if (!folded.empty())
         throw QualityError(
-            std::to_string(folded.size()) + " second-order element(s) would be folded (" + name_them(folded) +
+            counted(static_cast<Index>(folded.size()), "second-order element") + " would be folded (" +
+            name_them(folded) +
             "): the mesh is too coarse for its curvature there. Move the tool a little, or refine the mesh");
 }
 

@@ -7,6 +7,7 @@
 
 #include "cutting/mend_curved.h"
 #include "deformation/curved_shape.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -235,8 +236,8 @@ void find_folded_input(Workpiece& f, const Mesh& mesh) {
         }
     if (at_integration_points.empty()) return;
     throw QualityError(
-        "the mesh already has " + std::to_string(at_integration_points.size()) +
-        " second-order element(s) near the tool that are folded (" + listed(at_integration_points, "element") +
+        "the mesh already has " + counted(static_cast<Index>(at_integration_points.size()), "second-order element") +
+        " near the tool, folded (" + listed(at_integration_points, "element") +
         ") where solvers integrate: move their mid-side nodes nearer to the middle of their edges first");
 }
 
@@ -268,13 +269,13 @@ void put_back_middles(Workpiece& f, const Mesh& mesh) {
     for (const auto& [key, folded] : f.folded_input)
         if (folded.ratio < least_curved) numbers.push_back(folded.id);
     std::ostringstream text;
-    const std::string moves = moved.empty() ? ""
-                                            : std::to_string(moved.size()) +
-                                                  " mid-side node(s) were moved towards the middle of their edges (" +
-                                                  listed(moved, "node") + ")";
+    const std::string moves =
+        moved.empty() ? ""
+                      : counted(static_cast<Index>(moved.size()), "mid-side node was", "mid-side nodes were") +
+                            " moved towards the middle of their edges (" + listed(moved, "node") + ")";
     if (!numbers.empty()) {
-        text << "the mesh already has " << numbers.size()
-             << " second-order element(s) near the tool that are folded at a corner, or nearly, though not where "
+        text << "the mesh already has " << counted(static_cast<Index>(numbers.size()), "second-order element")
+             << " near the tool, folded at a corner, or nearly, though not where "
                 "solvers integrate ("
              << listed(numbers, "element") << "): ";
         if (moved.empty())
@@ -304,8 +305,8 @@ void check_folded_input(const Workpiece& f, std::span<const BandElement> element
     for (const BandElement e : elements)
         if (const auto* folded = folded_origin(f, e); folded && !folded->mended) numbers.insert(folded->id);
     if (numbers.empty()) return;
-    throw QualityError("the mesh already has " + std::to_string(numbers.size()) +
-                       " second-order element(s) in the way of the tool that are folded at a corner (" +
+    throw QualityError("the mesh already has " + counted(static_cast<Index>(numbers.size()), "second-order element") +
+                       " in the way of the tool, folded at a corner (" +
                        listed({numbers.begin(), numbers.end()}, "element") +
                        ") and cannot be changed as they are: move their mid-side nodes nearer to the middle of their "
                        "edges first (meshers can: Gmsh calls it high-order optimisation), or take them out of the "

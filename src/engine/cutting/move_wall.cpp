@@ -13,6 +13,7 @@
 #include "cancel.h"
 #include "cutting/border_overlap.h"
 #include "cutting/mend_curved.h"
+#include "cutting/motion_error.h"
 #include "cutting/remesh.h"
 #include "cutting/skin_beside.h"
 #include "cutting/slide_off.h"
@@ -43,6 +44,15 @@ constexpr int least_bound = 60, bound_per_step = 6;
 /// elements are drawn out between what moves and what cannot.
 constexpr int nodes_per_node = 2, nodes_per_edge_moved = 4, more_edges = 10;
 
+/// Elements beside a wall that moves by more edge lengths than this would be drawn out beyond all use.
+constexpr double most_edges = 300;
+
+std::string place_text(const Vec3& at) {
+    std::ostringstream out;
+    out << "(" << at.transpose() << ")";
+    return out.str();
+}
+
 class Mover {
 public:
     Mover(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh)
@@ -57,7 +67,7 @@ public:
 
     MovedWall run() {
         MovedWall out;
-        const double bound = std::min(spoilt, remesher_.worst() / 2);
+        const double bound = std::min(spoilt, remesher_.worst().mean_ratio / 2);
         chords_off_ = chords_off([this](const Vec3& x) { return motion_.carried(x); })[0];
         double left = 1, step = first_step();
         check_paths();
@@ -70,12 +80,15 @@ public:
             step = std::min(step, left);
             const std::vector<BandNode> before = band_.nodes;
             advance(step >= left ? 1 : step / left);
-            if (!(remesher_.worst() >= bound)) {
+            const Remesher::Worst worst = remesher_.worst();
+            if (!(worst.mean_ratio >= bound)) {
+                crushed_ = worst.at;
                 band_.nodes = before;
                 step /= 2;
                 if (step < smallest) refuse();
                 continue;
             }
+            crushed_ = worst.at;
             if (++out.steps > most_steps) refuse();
             left = step >= left ? 0 : left - step;
             if (left == 0) break;
@@ -88,6 +101,29 @@ public:
         finish();
         out.taken_out = remesher_.taken_out();
         return out;
+    }
+
+    /// Elements would be crushed for long before it shows that there is no way.
+    void check_paths() const {
+        if (first_step() * most_edges < stride) refuse_far();
+        const SkinBeside skin = wall_.faces ? SkinBeside::of_solid(band_) : SkinBeside::of_shells(d_);
+        const auto look = [&](const auto& list) {
+            for (int s = 0; s < list.size(); ++s) {
+                if (!list.alive(s)) continue;
+                Vec3 from = Vec3::Zero(), to = from;
+                for (const int v : list[s]) {
+                    from += band_.nodes[v].at / static_cast<double>(list[s].size());
+                    to += goals_[v] / static_cast<double>(list[s].size());
+                }
+                const double length = outside * band_.mean_edge_length(list[s][0]);
+                if (const auto at = skin.exit(from, to, length, shell_normal(list[s]))) refuse_to_leave(*at);
+            }
+        };
+        look(band_.cut_faces);
+        look(band_.cut_edges);
+        if (const auto at = slides_off(
+                band_, [this](int v) { return goals_[v]; }, outside))
+            refuse_to_slide_off(*at);
     }
 
 private:
@@ -124,28 +160,6 @@ private:
         return 1 / most;
     }
 
-    /// Elements would be crushed for long before it shows that there is no way.
-    void check_paths() const {
-        const SkinBeside skin = wall_.faces ? SkinBeside::of_solid(band_) : SkinBeside::of_shells(d_);
-        const auto look = [&](const auto& list) {
-            for (int s = 0; s < list.size(); ++s) {
-                if (!list.alive(s)) continue;
-                Vec3 from = Vec3::Zero(), to = from;
-                for (const int v : list[s]) {
-                    from += band_.nodes[v].at / static_cast<double>(list[s].size());
-                    to += goals_[v] / static_cast<double>(list[s].size());
-                }
-                const double length = outside * band_.mean_edge_length(list[s][0]);
-                if (const auto at = skin.exit(from, to, length, shell_normal(list[s]))) refuse_to_leave(*at);
-            }
-        };
-        look(band_.cut_faces);
-        look(band_.cut_edges);
-        if (const auto at = slides_off(
-                band_, [this](int v) { return goals_[v]; }, outside))
-            refuse_to_slide_off(*at);
-    }
-
     /// Of the shell that a part of the wall ends, in the input; zero in a solid.
     static Vec3 shell_normal(const std::array<int, 3>& /*face*/) { return Vec3::Zero(); }
     Vec3 shell_normal(const std::array<int, 2>& edge) const {
@@ -174,7 +188,7 @@ private:
             Vec3 x = band_.nodes[v].at + spread[k];
             if (d_.constraints.project(v, d_.contact[v], x) && !d_.is_barred(v, x)) band_.nodes[v].at = x;
         }
-        if (remesher_.worst() < spoilt) untangle(d_, others, 2 * spoilt);
+        if (remesher_.worst().mean_ratio < spoilt) untangle(d_, others, 2 * spoilt);
         relax(d_, remesher_.strained());
     }
 
@@ -273,33 +287,44 @@ private:
         look(band_.cut_edges);
         for (const auto& [tool, side] : sides)
             if (side[0] && side[1])
-                throw ToolError("the wall would lie on itself there, with material on both sides of the " +
-                                    tool->kind() + ". Move less of it, or elsewhere",
-                                motion_.parameter);
+                throw MotionError(
+                    "the wall would lie on itself there, with material on both sides of the " + tool->kind(),
+                    motion_.parameter, band_.nodes[wall_nodes().front()].start);
     }
 
     [[noreturn]] void refuse() const {
+        throw MotionError(
+            "the wall cannot be moved so far: elements beside it would be turned inside out, first near " +
+                place_text(crushed_) +
+                ", as there is no room for it, or what is beside it is kept where it is (groups, "
+                "feature lines)",
+            motion_.parameter, crushed_);
+    }
+
+    [[noreturn]] void refuse_far() const {
+        const std::vector<int> nodes = wall_nodes();
+        const int v = *std::ranges::max_element(
+            nodes, {}, [&](int w) { return (goals_[w] - band_.nodes[w].at).norm() / band_.mean_edge_length(w); });
         std::ostringstream message;
-        message
-            << "the wall cannot be moved so far: elements beside it would be turned inside out, as there is no room "
-               "for it, or what is beside it is kept where it is (groups, feature lines). Move it less";
-        throw ToolError(message.str(), motion_.parameter);
+        message << "the wall cannot be moved so far: from " << place_text(band_.nodes[v].at) << " to "
+                << place_text(goals_[v]) << ", more than " << most_edges
+                << " times the length of the edges there, which elements beside it cannot follow";
+        throw MotionError(message.str(), motion_.parameter, band_.nodes[v].at);
     }
 
     [[noreturn]] void refuse_to_slide_off(const Vec3& at) const {
-        std::ostringstream message;
-        message << "the wall cannot be moved so far: its rim would pass the end of what it slides on (a surface, "
-                   "a line or a border of groups) before it is at ("
-                << at.transpose() << "). Move it less";
-        throw ToolError(message.str(), motion_.parameter);
+        throw MotionError(
+            "the wall cannot be moved so far: its rim would pass the end of what it slides on (a surface, a line or a "
+            "border of groups) before it is at " +
+                place_text(at),
+            motion_.parameter, at);
     }
 
     [[noreturn]] void refuse_to_leave(const Vec3& at) const {
-        std::ostringstream message;
-        message
-            << "the wall cannot be moved so far: it would pass through the part, and leave it on another side near ("
-            << at.transpose() << "). Move it less";
-        throw ToolError(message.str(), motion_.parameter);
+        throw MotionError(
+            "the wall cannot be moved so far: it would pass through the part, and leave it on another side near " +
+                place_text(at),
+            motion_.parameter, at);
     }
 
     Workpiece& f_;
@@ -312,12 +337,17 @@ private:
     bool overlapped_before_;  // the border of shells, as lips of a crack do
     double chords_off_ = 0;   // before, for the size after
     bool arrived_ = false;
+    Vec3 crushed_ = Vec3::Zero();  // where the worst element of the last step was in the input
 };
 
 }  // namespace
 
 MovedWall move_wall(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh) {
     return Mover(f, wall, motion, mesh).run();
+}
+
+void check_way(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh) {
+    Mover(f, wall, motion, mesh).check_paths();
 }
 
 }  // namespace femscalpel

@@ -18,4 +18,8 @@ struct MovedWall {
 /// Throws ToolError naming WallMotion::parameter where nodes cannot get there, or no step is small enough.
 MovedWall move_wall(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh);
 
+/// What move_wall() looks at before it moves anything, and throws: whether nodes can get there, and the ways there stay
+/// in the material and on what they slide on. Costs little.
+void check_way(Workpiece& f, const Wall& wall, const WallMotion& motion, const Mesh& mesh);
+
 }  // namespace femscalpel

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cutting/no_cut.h"
 
+#include "words.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -226,7 +228,7 @@ std::string why_nothing_parts(const Workpiece& f, const Blade& blade, const std:
                "nothing to part" +
                advice;
     if (shells > 0)
-        return std::to_string(shells) + " shell element(s) lie in the " + blade.tool->kind() +
+        return counted(shells, "shell element lies", "shell elements lie") + " in the " + blade.tool->kind() +
                ", and nothing stands on them that it could part from them" + advice;
     if (is_smaller_than_elements(f, *blade.tool)) return why_too_small(*blade.tool);
     if (!behind.empty() || !before.empty()) {

@@ -12,6 +12,7 @@
 #include "cutting/node_parts.h"
 #include "deformation/curved_shape.h"
 #include "mesh/chains.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -330,19 +331,19 @@ private:
             points_positive += positive;
         }
         if (loose > 0)
-            out_.warnings.push_back(std::to_string(loose) +
-                                    " segment element(s) (springs, gaps, beams in the tool) end on doubled nodes; each "
+            out_.warnings.push_back(counted(loose, "segment element") +
+                                    " (springs, gaps, beams in the tool) with an end on doubled nodes; each "
                                     "stays on the side it lies on, or on that with more elements there");
         if (points > 0)
-            out_.warnings.push_back(std::to_string(points) +
-                                    " point element(s) (mass, spring to ground) sit on doubled nodes; each stays whole "
+            out_.warnings.push_back(counted(points, "point element") +
+                                    " (mass, spring to ground) on doubled nodes; each stays whole "
                                     "on the side with more elements there: " +
                                     std::to_string(points - points_positive) + " on the negative side, " +
                                     std::to_string(points_positive) + " on the positive");
         for (const int where : {-1, 1})
             if (const auto flat = std::ranges::count(flat_side_, where); flat > 0)
-                out_.warnings.push_back(std::to_string(flat) +
-                                        " shell element(s) lie in the tool's surface; they stay on the " +
+                out_.warnings.push_back(counted(flat, "shell element lies", "shell elements lie") +
+                                        " in the tool's surface, and " + (flat == 1 ? "stays" : "stay") + " on the " +
                                         (where < 0 ? "negative" : "positive") + " side");
     }
 
@@ -442,9 +443,8 @@ private:
                    std::ranges::none_of(f.first, [&](int v) { return doubled_[v] != 0; });
         });
         if (closed > 0)
-            out_.warnings.push_back(
-                std::to_string(closed) +
-                " face(s) of the crack have all their nodes on its front and cannot open: refine the mesh there");
+            out_.warnings.push_back(counted(closed, "face of the crack has", "faces of the crack have") +
+                                    " all nodes on its front and cannot open: refine the mesh there");
         std::map<std::array<int, 2>, int> line_at;
         for (int l = 0; l < band_.lines.size(); ++l)
             if (band_.lines.alive(l)) line_at.emplace(sorted(out_.lines[l]), l);

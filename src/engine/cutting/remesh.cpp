@@ -67,14 +67,19 @@ std::vector<int> Remesher::movable() const {
     return out;
 }
 
-double Remesher::worst() const {
-    double worst = 1;
+Remesher::Worst Remesher::worst() const {
+    Worst out{1, Vec3::Zero()};
+    const auto look = [&](double quality, const auto& nodes) {
+        if (!(quality < out.mean_ratio)) return;
+        out = {quality, Vec3::Zero()};
+        for (const int v : nodes) out.at += material_[v] / static_cast<double>(nodes.size());
+    };
     for (int t = 0; t < band_.tetras.size(); ++t)
-        if (band_.tetras.alive(t)) worst = std::min(worst, tetra_quality(d_, t));
+        if (band_.tetras.alive(t)) look(tetra_quality(d_, t), band_.tetras[t]);
     for (int t = 0; t < band_.triangles.size(); ++t)
         if (band_.triangles.alive(t) && d_.constraints.is_shell(band_.triangles.origin(t)))
-            worst = std::min(worst, shell_quality(d_, t));
-    return worst;
+            look(shell_quality(d_, t), band_.triangles[t]);
+    return out;
 }
 
 /// The length of an edge in the input, or where it is a new one that of edges there: the shorter or the longer.

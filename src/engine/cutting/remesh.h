@@ -29,8 +29,12 @@ public:
     /// Of them, those of elements that have become less than good.
     std::vector<int> strained() const;
 
-    /// Smallest mean ratio of the band's elements, negative when one is inverted.
-    double worst() const;
+    /// Smallest mean ratio of the band's elements, negative when one is inverted, and where that one is in the input.
+    struct Worst {
+        double mean_ratio;
+        Vec3 at;
+    };
+    Worst worst() const;
 
     /// The input's nodes that were merged away.
     int taken_out() const { return taken_out_; }

@@ -13,6 +13,7 @@
 #include "deformation/curved_shape.h"
 #include "error.h"
 #include "mesh/quality.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -236,12 +237,10 @@ private:
             f_.d.contact[v] = {};
         }
         if (loose > 0)
-            f_.warnings.push_back(
-                std::to_string(loose) +
-                " segment element(s) (spring, gap) of their own end inside what is removed, and are removed with it");
+            f_.warnings.push_back(counted(loose, "segment element") +
+                                  " (spring, gap) with an end inside what is removed: removed with it");
         if (points > 0)
-            f_.warnings.push_back(std::to_string(points) +
-                                  " point element(s) sit inside what is removed, and are removed with it");
+            f_.warnings.push_back(counted(points, "point element") + " inside what is removed: removed with it");
     }
 
     bool bare(int v) const { return band_.tetras.around(v).empty() && band_.triangles.around(v).empty(); }

@@ -11,6 +11,7 @@
 #include "cutting/folded_input.h"
 #include "cutting/mend_curved.h"
 #include "deformation/curved_shape.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -160,8 +161,8 @@ private:
         std::ostringstream text;
         text.precision(3);
         text << "curved elements find no room where the " << f_.tool->kind()
-             << " passes a surface, where the mesh is coarse: " << count_
-             << " node(s) were left in the middle of straight edges, up to " << farthest_
+             << " passes a surface, where the mesh is coarse: " << counted(count_, "node was", "nodes were")
+             << " left in the middle of straight edges, up to " << farthest_
              << " beside where they belong, farthest near (" << place_.transpose()
              << "). Refine the mesh there first, or move the " << f_.tool->kind();
         f_.warnings.push_back(text.str());

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "cancel.h"
+#include "cutting/motion_error.h"
 #include "mesh/closest_point.h"
 
 namespace femscalpel {
@@ -295,16 +296,18 @@ std::optional<Vec3> WallGoals::place(int node, const Vec3& guess) const {
 }
 
 void WallGoals::refuse(int node) const {
-    const Index number = mesh_.node_ids[f_.d.band.nodes[node].global];
+    const BandNode& of = f_.d.band.nodes[node];
     std::ostringstream message;
-    message << "node " << number << " of the wall cannot get there: ";
+    message << "node " << mesh_.node_ids[of.global] << " of the wall, at (" << of.start.transpose()
+            << "), cannot get there: ";
     if (f_.d.constraints[node].freedom == NodeFreedom::fixed)
         message << "surfaces or lines beside the wall meet in it, and hold it";
     else if (tools(node))
         message << "what is beside the wall and the surface it is to lie on do not meet near it";
     else
-        message << "the surfaces beside the wall do not run along the motion. Give onto=, a tool, instead";
-    throw ToolError(message.str(), motion_.parameter);
+        message
+            << "the surfaces beside the wall do not run along the motion, as they must unless onto=, a tool, is given";
+    throw MotionError(message.str(), motion_.parameter, of.start);
 }
 
 void WallGoals::add_nodes() {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "groups/band_boundaries.h"
+#include "groups/unknown_group.h"
 #include "mesh/closest_point.h"
 
 namespace femscalpel {
@@ -14,7 +15,7 @@ std::vector<bool> drifting_groups(const Mesh& mesh, const std::optional<std::vec
     if (!preserve) return {};
     for (const std::string& name : *preserve)
         if (!mesh.find_group(name))
-            throw ToolError("preserve names '" + name + "', but the mesh has no group of that name", "preserve");
+            throw ToolError("preserve names '" + name + "', but " + no_group_text(mesh, name), "preserve");
     std::vector<bool> drifting;
     drifting.reserve(mesh.groups.size());
     for (const Group& g : mesh.groups)

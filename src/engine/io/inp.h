@@ -51,7 +51,8 @@ Mesh read_inp(const std::filesystem::path& path);
 ///   TYPE=ELEMENT (between two solids: the face of the one with the lower number) and *NSET. Others: shells
 ///   S3, S6, S4, S8;
 /// - segments that are edges of an element: not as elements; their groups become *NSET and, on plane or
-///   shell elements, *SURFACE, TYPE=ELEMENT. Others: beams B31, B32;
+///   shell elements, *SURFACE, TYPE=ELEMENT. Others, and those that an operator laid there as beams (edge_beams.h):
+///   beams B31, B32;
 /// - points: not as elements; their groups become *NSET.
 /// The *NSET of such a group is left out if a node group has that name. Elements in no group that are not
 /// written as elements are not written at all.

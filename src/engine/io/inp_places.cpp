@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "deck/edge_beams.h"
 #include "deck/solver_element.h"
 #include "error.h"
 
@@ -96,10 +97,13 @@ private:
     void find_owners(int dimension) {
         static constexpr std::int8_t straight[4] = {0, 1, 2, 3};
         std::vector<std::pair<Corners, std::size_t>> wanted;
+        const auto beams = mesh_.find_group(edge_beams_group, GroupKind::element, true);
         std::vector<char> touched(static_cast<std::size_t>(mesh_.node_count()));
         for (std::size_t i = 0; i < out_.loose.size(); ++i) {
             const CellTraits& t = traits(out_.loose[i].type);
             if (t.dimension != dimension) continue;
+            const FamilyIndex family = mesh_.block(out_.loose[i].type).families[out_.loose[i].cell];
+            if (beams && mesh_.families.contains(family, *beams)) continue;
             const auto nodes = mesh_.block(out_.loose[i].type).nodes(out_.loose[i].cell);
             wanted.emplace_back(key_of(nodes, straight, t.corners), i);
             for (int k = 0; k < t.corners; ++k)

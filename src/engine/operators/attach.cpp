@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -10,13 +11,16 @@
 #include <utility>
 
 #include "cutting/surface_line.h"
+#include "deck/edge_beams.h"
 #include "mesh/outer_faces.h"
 #include "mesh/stopwatch.h"
 #include "mesh/surface_tree.h"
+#include "operators/attach_along.h"
 #include "operators/merge_report.h"
 #include "operators/seam.h"
 #include "operators/sections.h"
 #include "operators/unite.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -45,8 +49,9 @@ struct Seat {
 /// Finds where beams end on a mesh.
 class Seats {
 public:
-    Seats(const Mesh& mesh, const Mesh& addition, std::optional<double> tolerance)
-        : mesh_(mesh), addition_(addition), given_(tolerance) {
+    /// `shared`: by node of the addition, the node of the mesh that it is already, or -1; empty when none is.
+    Seats(const Mesh& mesh, const Mesh& addition, std::optional<double> tolerance, const std::vector<Index>& shared)
+        : mesh_(mesh), addition_(addition), given_(tolerance), shared_(shared) {
         for (const CellBlock& b : addition.blocks()) {
             if (traits(b.type).dimension != 1) continue;
             for (Index c = 0; c < b.size(); ++c) {
@@ -65,8 +70,8 @@ public:
     std::vector<Seat> run() {
         const SurfaceTree tree(mesh_, outer_.triangles);
         for (const auto& [v, uses] : uses_)
-            if (uses == 1) look_at(v, tree);
-        if (seats_.empty()) fail_apart();
+            if (uses == 1 && (shared_.empty() || shared_[v] < 0)) look_at(v, tree);
+        if (seats_.empty() && shared_.empty()) fail_apart();
         return std::move(seats_);
     }
 
@@ -123,6 +128,7 @@ private:
     const Mesh& mesh_;
     const Mesh& addition_;
     std::optional<double> given_;
+    const std::vector<Index>& shared_;
     std::map<Index, int> uses_;     // of corners by beams
     std::map<Index, double> beam_;  // length of one there
     OuterFaces outer_;
@@ -159,48 +165,75 @@ Result with_nodes(const Mesh& mesh, std::vector<Seat>& seats, const MergeOptions
     return std::move(seamed.result);
 }
 
-/// The addition with its ends where the mesh's nodes are, mid-side nodes half as far.
-Mesh with_ends_there(const Mesh& addition, const Mesh& mesh, const std::vector<Seat>& seats) {
+/// The addition with nodes that are the mesh's where these are, mid-side nodes half as far.
+Mesh with_ends_there(const Mesh& addition, const Mesh& mesh, const std::vector<Index>& shared) {
     Mesh out = addition;
-    for (const Seat& seat : seats)
-        for (const Index v : seat.ends) out.points[v] = mesh.points[seat.node];
+    for (std::size_t v = 0; v < shared.size(); ++v)
+        if (shared[v] >= 0) out.points[v] = mesh.points[shared[v]];
     for (const CellBlock& b : out.blocks()) {
         if (b.type != CellType::line3) continue;
         for (Index c = 0; c < b.size(); ++c) {
             const auto n = b.nodes(c);
+            if (shared[n[2]] >= 0) continue;
             for (const Index v : {n[0], n[1]}) out.points[n[2]] += (out.points[v] - addition.points[v]) / 2;
         }
     }
     return out;
 }
 
+/// Whether the report says that there are beams whose nodes do not turn.
+void warn_of_solids(Index ends, Index along, Report& report) {
+    if (ends > 0)
+        report.warnings.push_back(counted(ends, "beam ends on a node", "beams end on nodes") +
+                                  " of solids, which do not turn: no moment is carried there, as by a hinge. Let them "
+                                  "end on a shell on the skin, or hold their turning otherwise");
+    if (along > 0)
+        report.warnings.push_back(counted(along, "beam lies on the skin", "beams lie on the skin") +
+                                  " of solids, whose nodes do not turn: nothing holds them against turning about "
+                                  "themselves. Lay them on a shell on the skin, or hold their turning otherwise");
+}
+
 }  // namespace
 
 Result attach_beams(const Mesh& mesh, const Mesh& addition, const MergeOptions& options, const Prepared& known) {
     const Stopwatch::Time started = Stopwatch::now();
-    std::vector<Seat> seats = Seats(mesh, addition, options.tolerance).run();
-    Result out = with_nodes(mesh, seats, options, known);
-    const Mesh fitted = with_ends_there(addition, out.mesh, seats);
-    std::vector<Index> shared(addition.points.size(), -1), seam;
-    Index ends = 0, on_solids = 0;
+    std::vector<std::string> bowed;
+    std::optional<AttachedAlong> along = attach_along(mesh, addition, options, known, bowed);
+    const Mesh &base = along ? along->mesh : mesh, &beams = along ? along->addition : addition;
+    std::vector<Index> shared;
+    if (along) shared = along->shared;
+    std::vector<Seat> seats = Seats(base, beams, options.tolerance, shared).run();
+    Result out = with_nodes(base, seats, options, along ? Prepared{} : known);
+    shared.resize(beams.points.size(), -1);
+    if (along) {
+        const NumberIndex numbers(out.mesh);
+        for (Index& node : shared)
+            if (node >= 0) node = *numbers.node(base.node_ids[node]);
+        out.report = seats.empty() ? std::move(along->report) : joined(along->report, std::move(out.report));
+    }
+    Index on_solids = 0;
     for (const Seat& seat : seats) {
-        seam.push_back(seat.node);
         for (const Index v : seat.ends) shared[v] = seat.node;
-        ends += static_cast<Index>(seat.ends.size());
         if (seat.on_solid) on_solids += static_cast<Index>(seat.ends.size());
     }
+    std::vector<Index> seam;
+    for (const Index node : shared)
+        if (node >= 0) seam.push_back(node);
+    std::ranges::sort(seam);
+    const auto [rest, end] = std::ranges::unique(seam);
+    seam.erase(rest, end);
+    const Mesh fitted = with_ends_there(beams, out.mesh, shared);
     const std::string added = options.name + "_ADDED";
     out.mesh.add_group(added, GroupKind::element);
+    const Index nodes_before = out.mesh.node_count();
     unite(out.mesh, fitted, shared, added, names_of(options));
+    mark_edge_beams(out.mesh, *out.mesh.find_group(added, GroupKind::element));
     add_seam(out.mesh, options.name, seam);
     out.report.groups = merged_records(mesh, out.mesh, out.report.groups);
-    out.report.nodes_added += addition.node_count() - ends;
-    out.report.elements_added += addition.cell_count();
-    if (on_solids > 0)
-        out.report.warnings.push_back(
-            std::to_string(on_solids) +
-            " beams end on nodes of solids, which do not turn: no moment is carried there, as "
-            "by a hinge. Let them end on a shell on the skin, or hold their turning otherwise");
+    out.report.nodes_added += out.mesh.node_count() - nodes_before;
+    out.report.elements_added += beams.cell_count();
+    std::ranges::move(bowed, std::back_inserter(out.report.warnings));
+    warn_of_solids(on_solids, along ? along->on_solids : 0, out.report);
     warn_of_sections(mesh, out.mesh, added, out.report);
     out.report.seconds = {{"merge", Stopwatch::since(started)}};
     return out;

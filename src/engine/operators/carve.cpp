@@ -20,6 +20,7 @@
 #include "operators/follow_fields.h"
 #include "operators/raise_order.h"
 #include "tools/cylinder.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -260,9 +261,8 @@ private:
             return traits(c.type).dimension == 1 && !whole.empty() && whole[mesh.block(c.type).families[c.cell]];
         });
         if (count > 0)
-            f.warnings.push_back(
-                std::to_string(count) +
-                " spring(s), dashpot(s) or gap(s) end inside what is removed, and are removed with it");
+            f.warnings.push_back(counted(count, "spring, dashpot or gap ends", "springs, dashpots or gaps end") +
+                                 " inside what is removed, and " + (count == 1 ? "is" : "are") + " removed with it");
     }
 
     void warn_of_empty_walls(Workpiece& f, const Opening& walls) const {

@@ -15,6 +15,7 @@
 #include "deck/mark_deck.h"
 #include "groups/group_report.h"
 #include "groups/preserve.h"
+#include "groups/unknown_group.h"
 #include "mesh/crop.h"
 #include "mesh/quality.h"
 #include "mesh/rounding.h"
@@ -22,6 +23,7 @@
 #include "operators/driver.h"
 #include "operators/follow_fields.h"
 #include "operators/weld_first.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -29,7 +31,7 @@ namespace {
 GroupIndex group_of_faces(const Mesh& mesh, const std::string& name) {
     for (const GroupKind kind : {GroupKind::element, GroupKind::facet, GroupKind::node})
         if (const auto group = mesh.find_group(name, kind)) return *group;
-    throw ToolError("the mesh has no group '" + name + "'", "tool");
+    throw ToolError(no_group_text(mesh, name), "tool");
 }
 
 /// Groups of which neither nodes nor elements changed.
@@ -79,9 +81,10 @@ Report report_of(const Mesh& before, const Parted& parted, const OperatorOptions
         report.warnings.push_back(std::to_string(parted.closed) +
                                   " of the faces have all nodes where the crack ends, and stay closed");
     if (parted.whole > 0)
-        report.warnings.push_back(std::to_string(parted.whole) +
-                                  " element(s) that lie on the crack or end on it (beams, springs, points, shells "
-                                  "across it) stay whole, with the nodes of the negative side");
+        report.warnings.push_back(
+            counted(parted.whole, "element that lies on the crack or ends on it stays",
+                    "elements that lie on the crack or end on it stay") +
+            " whole (beams, springs, points, shells across it), with the nodes of the negative side");
     return report;
 }
 

@@ -15,6 +15,7 @@
 #include "cancel.h"
 #include "cutting/conversion.h"
 #include "cutting/surface_line.h"
+#include "groups/unknown_group.h"
 #include "mesh/band_mesh.h"
 #include "operators/coordinate_slack.h"
 
@@ -123,9 +124,11 @@ private:
                     for (int k = 0; k < 2; ++k) nodes.insert(b.nodes(c)[k]);
                 }
         }
-        if (!known) refuse("the mesh has no group of segments or nodes '" + name + "'");
+        if (!known && mesh_.find_group(name))
+            refuse("group '" + name + "' is one of facets: it is no edge. Name a group of segments or nodes");
+        if (!known) refuse(no_group_text(mesh_, name));
         if (nodes.empty()) refuse("group '" + name + "' is empty");
-        between(nodes, "group '" + name + "'");
+        between(nodes, "group '" + name + "' is");
     }
 
     void of_numbers(const std::vector<Index>& ids) {
@@ -136,14 +139,14 @@ private:
             if (!n) refuse("the mesh has no node " + std::to_string(id));
             nodes.insert(*n);
         }
-        between(nodes, "the nodes named");
+        between(nodes, "the nodes named are");
     }
 
     void between(const std::set<Index>& nodes, const std::string& what) {
         for (int e = 0; e < static_cast<int>(all_.edges.size()); ++e)
             if (nodes.contains(all_.edges[e].ends[0]) && nodes.contains(all_.edges[e].ends[1])) edges.push_back(e);
         if (edges.empty())
-            refuse(what + " is no edge: no feature line of the skin (sharper than feature_angle) runs along it");
+            refuse(what + " no edge: no feature line of the skin (sharper than feature_angle) runs along it");
     }
 
     void of_points(const std::vector<Vec3>& points) {

@@ -20,6 +20,7 @@
 #include "cutting/snap.h"
 #include "deformation/curved_shape.h"
 #include "mesh/crop.h"
+#include "mesh/surface.h"
 #include "mesh/union_find.h"
 #include "operators/driver.h"
 #include "operators/face_nodes.h"
@@ -35,7 +36,7 @@
 namespace femscalpel {
 namespace {
 
-/// Longest edges over the arc's length; most are shorter by a third after bisection, so that there are four and more.
+/// Longest edges over the arc's length; most are shorter by a third after bisection: there are four and more.
 constexpr double longest_over_arc = 1 / 3.2;
 /// The same over the radius of a tangent line about an axis: some eight go around.
 constexpr double longest_over_radius = 0.8;
@@ -452,10 +453,12 @@ private:
     std::vector<std::string> warnings_;
 };
 
-void check_radius(double radius) {
-    if (std::isfinite(radius) && radius > 0) return;
+void check_radius(double radius, const Mesh& mesh) {
+    const double size = box_around(mesh).diagonal().norm();
+    if (radius > 0 && radius <= 1000 * size) return;
     std::ostringstream message;
-    message << "radius is " << radius << "; it must be a positive length";
+    message << "radius is " << radius
+            << (radius > 0 ? ", which no face has room for" : "; it must be a positive length");
     throw ToolError(message.str(), "radius");
 }
 
@@ -463,7 +466,7 @@ void check_radius(double radius) {
 
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
               const Prepared& prepared) {
-    check_radius(radius);
+    check_radius(radius, mesh);
     FilletOptions whole = options;
     whole.band_only = false;
     const auto as_asked = [&](Result result) {

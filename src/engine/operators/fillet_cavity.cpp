@@ -2,11 +2,13 @@
 #include "operators/fillet_cavity.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "cutting/fill.h"
 #include "cutting/inner_node.h"
 #include "cutting/removal.h"
 #include "mesh/quality.h"
+#include "words.h"
 
 namespace femscalpel {
 FilletCavity::FilletCavity(Workpiece& workpiece, const Mesh& mesh, std::span<const FilletReach> edges,
@@ -185,6 +187,15 @@ void FilletCavity::put_on_ball() {
         }
         for (const int side : {0, 1})
             for (const int v : run.row(side)) touch(v, run.path().ball());
+        const FilletRun::Beside beside = run.settle_rows();
+        if (beside.count == 0) continue;
+        std::ostringstream text;
+        text.precision(3);
+        text << counted(beside.count, "node") << " at the border of the new face, as at (" << beside.at.transpose()
+             << "), on the facets of the face beside it, which lie up to " << beside.farthest
+             << " off the bent surface they stand for: as far off the rounding. Where that matters, refine the mesh "
+                "with its shape (skin=) before it is rounded";
+        f_.warnings.push_back(text.str());
     }
 }
 

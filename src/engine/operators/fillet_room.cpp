@@ -144,10 +144,16 @@ void FilletPath::refuse_room(const SkinNear& near, double begin, double end, int
     for (int k = 0; k < places; ++k)
         for (const int side : {0, 1}) {
             const double s = begin + (end - begin) * (k + 0.5) / places;
-            const auto is_off = [&](double part) { return off_face(near, side, s, 1.02 * part) > room_margin(side); };
+            const auto is_off = [&](double part) {
+                return off_face(near, side, s, 1.02 * part) > room_margin(side) - 1e-3 * (1 - part) * tangent_length_;
+            };
             if (!is_off(fits)) continue;
             where = at(s, Vec2::Zero());
-            double low = 0;
+            double low = fits;
+            do {
+                fits = low;
+                low /= 2;
+            } while (low > 0 && is_off(low));
             for (int round = 0; round < 12; ++round) {
                 const double part = (low + fits) / 2;
                 (is_off(part) ? fits : low) = part;

@@ -57,6 +57,16 @@ public:
     void find_rows();
     /// Moves them onto the ball where facets have them off it. To be called when all edges have found theirs.
     void put_rows_on_ball();
+    /// Nodes of the rows, which touch the ball by now, that had to stay on the facets of a face that stands for a bent
+    /// one.
+    struct Beside {
+        int count = 0;
+        double farthest = 0;  ///< off the ball
+        Vec3 at = Vec3::Zero();
+    };
+    /// Once there are new elements: brings nodes of the rows as near to the ball as these let them come, and holds them
+    /// there.
+    Beside settle_rows();
     /// Into how many parts the arc should be divided.
     int wanted_divisions() const;
     /// Whether the arc is divided in its middle.

@@ -239,4 +239,28 @@ void FilletRun::put_rows_on_ball() {
         }
 }
 
+FilletRun::Beside FilletRun::settle_rows() {
+    Beside out;
+    Deformable& d = m_.workpiece().d;
+    const double tolerance = m_.workpiece().tolerance, facets = on_edge();
+    for (const int side : {0, 1})
+        for (const int v : rows_[side]) {
+            if (std::abs(path_.ball().distance(at(v))) <= tolerance) continue;
+            const Vec3 old = at(v), way = path_.at(place(v).s, path_.tangent_point(side)) - old;
+            const double least = std::min(0.2, 0.7 * quality_around(d, v, old));
+            for (const double part : {1.0, 0.75, 0.5, 0.25})
+                if (quality_around(d, v, old + part * way) >= least) {
+                    d.band.nodes[v].at += part * way;
+                    break;
+                }
+            const double off = std::abs(path_.ball().distance(at(v)));
+            if (off <= tolerance || off > facets) continue;
+            d.hold_beside(v, d.contact[v]);
+            ++out.count;
+            out.farthest = std::max(out.farthest, off);
+            out.at = at(v);
+        }
+    return out;
+}
+
 }  // namespace femscalpel

@@ -9,6 +9,7 @@
 #include "cutting/surface_line.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
+#include "operators/merge_report.h"
 
 namespace femscalpel {
 namespace {
@@ -168,17 +169,6 @@ Seamed imprinted(const Mesh& mesh, std::vector<ImprintLine> lines, std::size_t m
                                           "or join the two with method='tie'",
                                       m == 0 ? "mesh" : "other");
     }
-}
-
-Report joined(const Report& before, Report after) {
-    after.quality_before = before.quality_before;
-    after.nodes_added += before.nodes_added;
-    after.nodes_split += before.nodes_split;
-    after.nodes_moved = std::max(after.nodes_moved, before.nodes_moved);
-    after.elements_added += before.elements_added;
-    for (const auto& [type, count] : before.converted) after.converted[type] += count;
-    after.warnings.insert(after.warnings.begin(), before.warnings.begin(), before.warnings.end());
-    return after;
 }
 
 }  // namespace

@@ -38,10 +38,13 @@
 #include "operators/tie.h"
 #include "operators/trim.h"
 #include "operators/unite.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
 
+/// A tolerance is smaller than this part of either mesh.
+constexpr double largest_tolerance = 0.25;
 /// A triangle as near to the other's surface, in its edges, and as parallel (cosine), lies on it.
 constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
@@ -53,6 +56,12 @@ constexpr double part_of_inputs = 0.1;
 /// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing or
 /// to poor elements. The last is for lines that lie on each other as polygons of one circle do: finer edges part them.
 constexpr double coarser[] = {2.5, 1.1, 0.3};
+/// A mesh may be refined to so many times as many elements as it had: for the first attempt, or as long as none came to
+/// anything; and only to make elements better.
+constexpr double growth_to_meet = 20, growth_for_shape = 3;
+/// Elements no worse than this part of those that were there are as good as these let them be: none of a thin plate, as
+/// long as they are wide and much longer than thick, is a good one.
+constexpr double as_thin = 0.7;
 
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
     check_within(mesh, addition);
@@ -63,9 +72,25 @@ constexpr double coarser[] = {2.5, 1.1, 0.3};
         "other");
 }
 
+/// Throws ToolError when all of one of the two would count as touching.
+void check_tolerance(const Mesh& mesh, const Mesh& addition, const std::optional<double>& tolerance) {
+    if (!tolerance) return;
+    const double mesh_size = box_around(mesh).diagonal().norm(), size = box_around(addition).diagonal().norm();
+    std::ostringstream text;
+    if (!(std::isfinite(*tolerance) && *tolerance > 0))
+        text << "tolerance is " << *tolerance << "; it must be a positive length";
+    else if (*tolerance > largest_tolerance * std::min(mesh_size, size))
+        text << "tolerance is " << *tolerance << ", but the " << (size < mesh_size ? "addition" : "mesh")
+             << " is no larger than " << std::min(mesh_size, size)
+             << " from corner to corner: all of it would count as touching. Give a little more than the gap between "
+                "the two, less than an edge length";
+    if (!text.view().empty()) throw ToolError(text.str(), "tolerance");
+}
+
 void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {
     if (mesh.cell_count() == 0) throw ToolError("the mesh is empty: there is nothing to add to", "mesh");
     if (addition.cell_count() == 0) throw ToolError("the addition has no elements", "other");
+    check_tolerance(mesh, addition, options.tolerance);
     if (options.tie && options.keep_side)
         throw ToolError("keep_side is for shells that pass through; what is tied only touches", "keep_side");
     if (addition.dimension() == 1 && options.tie)
@@ -77,6 +102,14 @@ void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) 
                             " cannot be joined to a mesh of dimension " + std::to_string(mesh.dimension()) +
                             ": shells and the ends of beams are joined to shells and to solids, solids to solids",
                         "other");
+    if (options.refine.when == RefineFirst::When::to_size) {
+        if (!(std::isfinite(options.refine.size) && options.refine.size > 0))
+            throw ToolError("refine must be a positive length", "refine");
+        if (options.tie || addition.dimension() == 1)
+            throw ToolError(options.tie ? "refine is not for method='tie', by which both stay as they are"
+                                        : "refine is not for beams, which need no finer mesh",
+                            "refine");
+    }
     if (addition.dimension() == 3 && options.keep_side)
         throw ToolError("keep_side is for shells; of solids, keep says what is cut off", "keep_side");
 }
@@ -198,9 +231,9 @@ void warn_of_borders(const Mesh& fitted, const CrossedBorders& borders, const st
                                " runs through where elements were filled in, as near " + point_text(borders.at) +
                                ", and is uneven there: what fills is in the groups of what was nearest before");
     if (borders.lost > 0)
-        out.warnings.push_back(whose + std::to_string(borders.lost) + " face(s) of " + names(borders.faces) +
-                               " are gone, as near " + point_text(borders.at) +
-                               ": they lay inside, between elements that gave way to what was filled in");
+        out.warnings.push_back(whose + counted(borders.lost, "face") + " of " + names(borders.faces) +
+                               (borders.lost == 1 ? " is" : " are") + " gone, as near " + point_text(borders.at) +
+                               ": inside, between elements that gave way to what was filled in");
 }
 
 /// One of the two is fitted to the other's skin where they meet.
@@ -263,6 +296,11 @@ struct Joined {
     std::unique_ptr<Joint> joint;
     United united;
 
+    /// The smallest mean ratio by the line that there was.
+    double input() const {
+        return std::min(joint->report(0).quality_before.minimum, joint->report(1).quality_before.minimum);
+    }
+
     /// The smallest mean ratio of what was filled in or, by the line, made worse than it was.
     double worst() const {
         double out = united.worst;
@@ -275,13 +313,14 @@ struct Joined {
     }
 };
 
-/// One attempt, with elements at the line no more than `longer` times as long as the other's.
-Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double longer, const MergeOptions& options,
-                 const Knowledge& known) {
+/// One attempt, with elements at the line no more than `longer` times as long as the other's, and no more than `growth`
+/// times as many.
+Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double longer, double growth,
+                 const MergeOptions& options, const Knowledge& known) {
     Joined out;
     out.refined = std::make_unique<MergeRefining>(mesh, addition, options);
     MergeRefining& refined = *out.refined;
-    refined.run(meeting.lines, longer, known);
+    refined.run(meeting.lines, longer, growth, known);
     // Smaller elements do not make what is off a curved surface nearer.
     if (refined.any())
         meeting = find_meeting(refined.mesh(0), refined.mesh(1),
@@ -303,14 +342,20 @@ Joined join(const Mesh& mesh, const Mesh& addition, const Meeting& meeting, cons
             const Knowledge& known) {
     std::optional<Joined> best;
     std::exception_ptr first;
+    const bool automatic = options.refine.when == RefineFirst::When::automatic;
     for (const double longer : coarser) {
         try {
-            Joined next = join_once(mesh, addition, meeting, longer, options, known);
+            Joined next =
+                join_once(mesh, addition, meeting, longer, best ? growth_for_shape : growth_to_meet, options, known);
             if (!best || next.worst() > best->worst()) best = std::move(next);
         } catch (const QualityError&) {
             if (!first) first = std::current_exception();
+        } catch (const ToolError& error) {
+            // Too many elements are none to begin with, but no reason to give up what there is.
+            if ((!best && !first) || std::string_view(error.parameter()) != "refine") throw;
+            break;
         }
-        if (best && best->worst() >= poor) break;
+        if (!automatic || (best && best->worst() >= std::min(poor, as_thin * best->input()))) break;
     }
     if (!best) std::rethrow_exception(first);
     return std::move(*best);

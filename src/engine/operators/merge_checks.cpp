@@ -21,6 +21,7 @@
 #include "mesh/surface_tree.h"
 #include "mesh/triangle_crossing.h"
 #include "mesh/union_find.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -236,8 +237,8 @@ void warn_of_joined_groups(const Mesh& mesh, const Mesh& addition, Report& repor
         report.warnings.push_back("both have groups " + names +
                                   ", which are one now: what a solver is told to do there, "
                                   "as a support or a load, it does at " +
-                                  std::to_string(count) +
-                                  " node(s) or facet(s) of the addition, too. join_groups=False keeps them apart");
+                                  counted(count, "node or facet", "nodes or facets") +
+                                  " of the addition, too. join_groups=False keeps them apart");
 }
 
 void warn_of_hinge(Report& report) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "operators/options.h"
 #include "operators/prepared.h"
 #include "operators/refine_first.h"
+#include "tools/ribbon.h"
 
 namespace femscalpel {
 
@@ -23,8 +25,11 @@ public:
     /// All must outlive this.
     MergeRefining(const Mesh& mesh, const Mesh& addition, const OperatorOptions& options);
 
-    /// `longer`: how many times longer than the other's edges may be. Throws as refine_first() does.
-    void run(const std::vector<MeetingLine>& meeting, double longer, const Knowledge& known);
+    /// What `options.refine` asks for: by default edges of the one that are no more than `longer` times as long as the
+    /// other's; or edges of a length in both; or nothing. A mesh becomes no more than `growth` times as large.
+    ///
+    /// Throws ToolError that names `refine` where it would, and as refine_first() does.
+    void run(const std::vector<MeetingLine>& meeting, double longer, double growth, const Knowledge& known);
 
     /// Whether either is another mesh now.
     bool any() const { return is_refined(0) || is_refined(1); }
@@ -34,6 +39,9 @@ public:
     void join(std::size_t m, Report& report) const;
 
 private:
+    std::vector<RefineZone> zones(const std::vector<MeetingLine>& meeting, std::size_t m, double longer,
+                                  std::vector<std::unique_ptr<Ribbon>>& ribbons) const;
+    OperatorOptions options_for(std::size_t m, double growth) const;
     std::optional<Refined> simplify(const Mesh& mesh, std::span<const RefineZone> zones, const Prepared& known) const;
     bool is_refined(std::size_t m) const { return refined_[m] && !refined_[m]->tried_in_vain; }
 

@@ -82,4 +82,15 @@ void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nod
     for (const Index n : nodes) mesh.node_families[n] = mesh.families.with(mesh.node_families[n], group);
 }
 
+Report joined(const Report& before, Report after) {
+    after.quality_before = before.quality_before;
+    after.nodes_added += before.nodes_added;
+    after.nodes_split += before.nodes_split;
+    after.nodes_moved = std::max(after.nodes_moved, before.nodes_moved);
+    after.elements_added += before.elements_added;
+    for (const auto& [type, count] : before.converted) after.converted[type] += count;
+    after.warnings.insert(after.warnings.begin(), before.warnings.begin(), before.warnings.end());
+    return after;
+}
+
 }  // namespace femscalpel

@@ -21,4 +21,7 @@ void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result
 /// Makes a node group NAME_SEAM of nodes.
 void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nodes);
 
+/// The report on two operations on a mesh, one after the other, by those on each.
+Report joined(const Report& before, Report after);
+
 }  // namespace femscalpel

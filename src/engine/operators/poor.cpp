@@ -8,6 +8,7 @@
 
 #include "cutting/weld.h"
 #include "mesh/quality.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -164,7 +165,7 @@ HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
     out.features = listed(holders.features);
     if (out.largest <= std::max(f.tolerance, f.d.rounding) || !seen) return out;
     std::ostringstream text;
-    text << "the " << f.tool->kind() << " passes " << out.count << " node(s), held by " << describe(holders)
+    text << "the " << f.tool->kind() << " passes " << counted(out.count, "node") << ", held by " << describe(holders)
          << ", at up to " << out.largest
          << ": it goes through them where they are, or ends there, as elements in between would be too flat";
     f.warnings.push_back(text.str());

@@ -27,6 +27,7 @@
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/weld_first.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -160,13 +161,12 @@ std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh)
     std::vector<std::string> out = f.warnings;
     std::ranges::move(warnings_of_opened_areas(f.d.band, mesh), std::back_inserter(out));
     if (const int left = bisected.bisector().left(); left > 0)
-        out.push_back(
-            std::to_string(left) +
-            " edge(s) stay longer than wanted: the second-order elements around them are so curved that parts "
-            "of them would be flat or inverted by their corners");
+        out.push_back(counted(left, "edge stays", "edges stay") +
+                      " longer than wanted: the second-order elements around them are so curved that parts "
+                      "of them would be flat or inverted by their corners");
     if (const int off = bisected.bisector().off_shape(); off > 0)
-        out.push_back(std::to_string(off) +
-                      " new node(s) of the skin stay on its triangles: on the shape they would spoil elements");
+        out.push_back(counted(off, "new node of the skin stays", "new nodes of the skin stay") +
+                      " on the skin's triangles: on the shape they would spoil elements");
     return out;
 }
 

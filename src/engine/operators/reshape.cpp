@@ -10,22 +10,27 @@
 #include "cutting/checks.h"
 #include "cutting/crossing.h"
 #include "cutting/locate.h"
+#include "cutting/motion_error.h"
 #include "cutting/move_wall.h"
 #include "cutting/opening.h"
 #include "cutting/tangent.h"
 #include "deck/carry_over.h"
+#include "groups/group_nodes.h"
 #include "groups/opened_areas.h"
 #include "groups/preserve.h"
+#include "groups/unknown_group.h"
 #include "mesh/rounding.h"
 #include "operators/account.h"
 #include "operators/changed_quality.h"
 #include "operators/driver.h"
 #include "operators/edit.h"
 #include "operators/follow_fields.h"
+#include "operators/reshape_part.h"
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
 #include "operators/warnings.h"
 #include "operators/weld_first.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -56,7 +61,7 @@ void check(const ReshapeOptions& o) {
 GroupIndex find(const Mesh& mesh, const std::string& name) {
     for (const GroupKind kind : {GroupKind::element, GroupKind::facet, GroupKind::node})
         if (const auto group = mesh.find_group(name, kind)) return *group;
-    throw ToolError("the mesh has no group '" + name + "'", "group");
+    throw ToolError(no_group_text(mesh, name), "group");
 }
 
 /// The motion the options ask for, without tools.
@@ -127,7 +132,7 @@ Workpiece band_of(const Edit& edit, const ReshapeOptions& options, Covered& cove
         if (beside.same.empty() && beside.following.empty()) {
             const auto warn = [&](std::size_t count, const char* what) {
                 if (count > 0)
-                    f.warnings.push_back(std::to_string(count) + (covered.faces ? " face(s)" : " edge(s)") +
+                    f.warnings.push_back(counted(static_cast<std::int64_t>(count), covered.faces ? "face" : "edge") +
                                          " beside the group moved with it: " + what);
             };
             warn(covered.parts.size() - asked_for, "they lie on the same surface");
@@ -185,9 +190,9 @@ void check_crossing(const Workpiece& f, const Wall& wall, const Rebuilt& rebuilt
     if (wall.faces) add(band.skin, false);
     const std::optional<CellRef> crossed = crossed_element(rebuilt.mesh, parts);
     if (!crossed) return;
-    throw ToolError("the wall would pass through another part of the mesh, element " +
-                        std::to_string(rebuilt.mesh.block(crossed->type).ids[crossed->cell]) + ". Move it less",
-                    parameter);
+    throw MotionError("the wall would pass through another part of the mesh, element " +
+                          std::to_string(rebuilt.mesh.block(crossed->type).ids[crossed->cell]),
+                      parameter, rebuilt.mesh.points[rebuilt.mesh.block(crossed->type).nodes(crossed->cell)[0]]);
 }
 
 Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, Edited& edited) {
@@ -217,9 +222,15 @@ Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, 
     return report;
 }
 
+/// How far an attempt goes.
+enum class Attempt {
+    whole,
+    look,  ///< whether there is a way (check_way()); the result has no mesh
+};
+
 /// On a mesh whose double nodes, if any, are single, and which has simplices alone around the wall.
 Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOptions& options, const Naming& naming,
-                         const Prepared& known) {
+                         const Prepared& known, Attempt attempt) {
     Laps seconds;
     Stopwatch watch(seconds);
     WallMotion motion = motion_of(options);
@@ -237,6 +248,10 @@ Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOption
     go_on_beside(f, wall);
     find_tools(f, wall, motion);
     watch.lap("constraints");
+    if (attempt == Attempt::look) {
+        check_way(f, wall, motion, mesh);
+        return {};
+    }
     move_wall(f, wall, motion, mesh);
     check_shape(f, mesh);
     check_contacts(f);
@@ -263,31 +278,6 @@ Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOption
     return result;
 }
 
-/// Corners of what a group covers, or its own.
-std::vector<char> nodes_of(const Mesh& mesh, GroupIndex group) {
-    std::vector<char> out(mesh.points.size(), 0);
-    for (Index n = 0; n < mesh.node_count(); ++n) out[n] = mesh.families.contains(mesh.node_families[n], group);
-    for (const CellBlock& b : mesh.blocks())
-        for (Index c = 0; c < b.size(); ++c)
-            if (mesh.families.contains(b.families[c], group))
-                for (const Index n : b.nodes(c)) out[n] = 1;
-    for (const Facet& f : mesh.facets) {
-        if (!mesh.families.contains(f.family, group)) continue;
-        const CellTraits& t = traits(f.type);
-        const auto n = mesh.block(f.type).nodes(f.cell);
-        const auto add = [&](std::int8_t k) {
-            if (k >= 0) out[n[k]] = 1;
-        };
-        if (t.dimension == 3)
-            std::ranges::for_each(t.faces[f.face - 1], add);
-        else if (f.face >= 3)
-            std::ranges::for_each(t.edges[f.face - 3], add);
-        else
-            for (const Index v : n) out[v] = 1;
-    }
-    return out;
-}
-
 /// How far the motion takes a group's nodes, in the mean length of the edges at them.
 double edges_moved(const Mesh& mesh, const std::vector<char>& wall, const WallMotion& motion) {
     double farthest = 0, length = 0;
@@ -312,14 +302,14 @@ double edges_moved(const Mesh& mesh, const std::vector<char>& wall, const WallMo
 
 /// Makes simplices of what else is around the wall first, as far as the band reaches.
 Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Naming& naming,
-                  const Prepared& known, std::optional<GroupIndex> weld = {}) {
+                  const Prepared& known, Attempt attempt, std::optional<GroupIndex> weld = {}) {
     const auto on = [&](const Mesh& mesh, const Prepared& prepared) {
-        return reshape_simplices(mesh, covered_by(mesh, find(mesh, group), weld), options, naming, prepared);
+        return reshape_simplices(mesh, covered_by(mesh, find(mesh, group), weld), options, naming, prepared, attempt);
     };
     const bool simple =
         std::ranges::all_of(input.blocks(), [](const CellBlock& b) { return traits(b.type).simplex || b.size() == 0; });
     if (simple) return on(input, known);
-    const std::vector<char> wall = nodes_of(input, find(input, group));
+    const std::vector<char> wall = nodes_of_group(input, find(input, group));
     const double edges = edges_moved(input, wall, motion_of(options));
     const double wanted = least_rings + std::ceil(rings_per_edge * std::min(edges, 1e3));
     for (int rings = std::min(most_rings, static_cast<int>(wanted));; rings *= 2) {
@@ -334,8 +324,10 @@ Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOpti
         if (known.stages) known.stages->push_back(converted->trace.changes);
         try {
             Result result = on(converted->mesh, known.renewed ? known.renewed(converted->mesh) : Prepared{});
-            add_conversion(*converted, options.strict, result.report);
-            if (!known.stages) result.stages.insert(result.stages.begin(), converted->trace.changes);
+            if (attempt == Attempt::whole) {
+                add_conversion(*converted, options.strict, result.report);
+                if (!known.stages) result.stages.insert(result.stages.begin(), converted->trace.changes);
+            }
             result.report.seconds.insert(result.report.seconds.begin(), {"convert", seconds});
             return result;
         } catch (const UnsupportedElementError&) {
@@ -344,6 +336,23 @@ Result reshape_on(const Mesh& input, const std::string& group, const ReshapeOpti
             if (known.stages) known.stages->resize(stages);
         }
     }
+}
+
+/// On any mesh.
+Result reshape_whole(const Mesh& input, const std::string& group, const ReshapeOptions& options, const Naming& naming,
+                     const Prepared& known, Attempt attempt) {
+    const bool looks = attempt == Attempt::look;
+    if (SevenNodes seven(input); seven) {
+        Result result = reshape_whole(seven.mesh(), group, options, naming, seven.known(), attempt);
+        if (!looks) seven.finish(result);
+        return result;
+    }
+    WeldFirst weld(input, known);
+    if (weld) {
+        Result result = reshape_on(weld.mesh(), group, options, naming, weld.known(), attempt, weld.faces());
+        if (looks || weld.finish(result, options.strict)) return result;
+    }
+    return reshape_on(input, group, options, naming, known, attempt);
 }
 
 }  // namespace
@@ -358,17 +367,22 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     naming.front = options.name + "_WALL";
     check_name(input, options.name, naming);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
-    if (SevenNodes seven(input); seven) {
-        Result result = reshape(seven.mesh(), group, options, seven.known());
-        seven.finish(result);
-        return with_fields(std::move(result));
+    const std::size_t stages = known.stages ? known.stages->size() : 0;
+    try {
+        return with_fields(reshape_whole(input, group, options, naming, known, Attempt::whole));
+    } catch (const MotionError& error) {
+        if (known.stages) known.stages->resize(stages);
+        const auto attempt = [&](Attempt attempt) {
+            return [&, attempt](const ReshapeOptions& part) {
+                (void)reshape_whole(input, group, part, naming, {}, attempt);
+            };
+        };
+        const GroupIndex wall = find(input, group);
+        const std::string advice =
+            where_text(input, group, error) +
+            advice_on_motion(input, wall, options, attempt(Attempt::look), attempt(Attempt::whole));
+        throw ToolError(error.what() + advice, error.parameter());
     }
-    WeldFirst weld(input, known);
-    if (weld) {
-        Result result = reshape_on(weld.mesh(), group, options, naming, weld.known(), weld.faces());
-        if (weld.finish(result, options.strict)) return with_fields(std::move(result));
-    }
-    return with_fields(reshape_on(input, group, options, naming, known));
 }
 
 }  // namespace femscalpel

@@ -11,6 +11,7 @@
 #include "cancel.h"
 #include "cutting/held_inside.h"
 #include "mesh/quality.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -150,7 +151,7 @@ void warn_of_grazing(Workpiece& f, const Tool& tool, const Mesh& mesh) {
     if (near > 0)
         f.warnings.push_back("the " + tool.kind() +
                              " runs within 0.15 edge lengths of a nearly parallel surface or group border at " +
-                             std::to_string(near) + " node(s): the layer between them is that thin");
+                             counted(near, "node") + ": the layer between them is that thin");
 }
 void warn_of_parted_lips(Workpiece& f) {
     const BandMesh& band = f.d.band;
@@ -242,8 +243,9 @@ void warn_of_held_nodes(const Workpiece& f, const Mesh& before, Report& report) 
 }
 
 std::string emptied_text(const GroupRecord& r) {
-    return std::string(to_string(r.kind)) + " group '" + r.name + "' loses all its " + std::to_string(r.count_before) +
-           " member(s); it stays, empty";
+    return std::string(to_string(r.kind)) + " group '" + r.name +
+           (r.count_before == 1 ? "' loses its only member; it stays, empty"
+                                : "' loses all its " + std::to_string(r.count_before) + " members; it stays, empty");
 }
 
 void warn_of_emptied_groups(const Mesh& before, const std::vector<bool>& meaningless, Report& report) {

@@ -14,6 +14,7 @@
 #include "mesh/rounding.h"
 #include "mesh/stopwatch.h"
 #include "operators/warnings.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -285,13 +286,12 @@ void WeldFirst::report_segments(const Mesh& mesh, const Unwelded& unwelded, Repo
     report.elements_added += static_cast<Index>(unwelded.segments.size() + made.size());
     report.elements_removed += static_cast<Index>(removed.size());
     if (!removed.empty())
-        report.warnings.push_back(std::to_string(removed.size()) +
-                                  " segment element(s) (spring, gap) between double nodes lose one, and are removed");
+        report.warnings.push_back(counted(static_cast<Index>(removed.size()), "segment element") +
+                                  " (spring, gap) lost: between double nodes of which one is gone");
     if (!made.empty())
-        report.warnings.push_back(
-            std::to_string(made.size()) +
-            " segment element(s) (spring, gap) are new, between new double nodes of pairs that have such: each is like "
-            "theirs. Where their stiffness stands for that of an area, give all a smaller one");
+        report.warnings.push_back(counted(static_cast<Index>(made.size()), "new segment element") +
+                                  " (spring, gap) between new double nodes of pairs that have such: each is like "
+                                  "theirs. Where their stiffness stands for that of an area, give all a smaller one");
 }
 
 bool WeldFirst::finish(Result& result, bool strict) {

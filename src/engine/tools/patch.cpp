@@ -14,6 +14,7 @@
 #include "tools/cylinder.h"
 #include "tools/elliptic_cylinder.h"
 #include "tools/plane.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -188,7 +189,9 @@ Patch HalfPlane::on(const Tool& tool) const {
 
 Polygon::Polygon(std::vector<Vector3d> corners) : corners_(std::move(corners)) {
     if (corners_.size() < 3)
-        throw ToolError("polygon: " + std::to_string(corners_.size()) + " corner(s); give at least three", "corners");
+        throw ToolError(
+            "polygon: " + counted(static_cast<std::int64_t>(corners_.size()), "corner") + "; give at least three",
+            "corners");
     for (std::size_t k = 0; k < corners_.size(); ++k) {
         checked_point(corners_[k], {"polygon", "corners", "corner " + std::to_string(k + 1)});
         if (corners_[k] == corners_[(k + 1) % corners_.size()])

@@ -9,7 +9,16 @@ import numpy as np
 from . import _arguments, _engine
 from ._engine import RefinementEstimate
 from .mesh import Mesh, check_mesh
-from .options import ShapeOption, check_before_refining, check_feature_angle, check_preserve, on_session, takes_options
+from .options import (
+    RefineOption,
+    ShapeOption,
+    check_before_refining,
+    check_feature_angle,
+    check_preserve,
+    check_refine,
+    on_session,
+    takes_options,
+)
 from .report import Report
 from .skin import check_skin
 from .tools import Faces, Plane, Tool, check_tool
@@ -230,24 +239,34 @@ def _along(along) -> tuple:
     """(group, node numbers, points) of fillet()'s parameter."""
     none = np.empty((0, 3))
     if isinstance(along, str):
-        return along, [], none
+        return _arguments.text(along, "along"), [], none
     given = _arguments.describe(along)
     message = f"along must be a group's name, node numbers or an array of points of shape (n, 3), not {given}"
     try:
         values = np.asarray(along)
     except (TypeError, ValueError):
         raise _arguments.about("along", TypeError(message)) from None
+    if values.dtype.kind in "iuf" and values.size == 0:
+        raise _arguments.about("along", ValueError("along is empty: name a group, nodes or points of the edge"))
     is_point = isinstance(along, tuple) and values.shape == (3,)  # also one of integers
-    if values.ndim == 1 and values.size and np.issubdtype(values.dtype, np.integer) and not is_point:
+    if values.ndim == 1 and np.issubdtype(values.dtype, np.integer) and not is_point:
         return "", [int(n) for n in values], none
+    if values.dtype.kind not in "iufO":
+        raise _arguments.about("along", TypeError(message))
     try:
         points = np.array(along, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _arguments.about("along", TypeError(message)) from None
     if points.shape == (3,):
         points = points.reshape(1, 3)
-    if points.ndim != 2 or points.shape[1] != 3 or not points.size or not np.isfinite(points).all():
+    if points.ndim != 2 or points.shape[1] != 3:
         raise _arguments.about("along", TypeError(message))
+    for k, point in enumerate(points):
+        if not np.isfinite(point).all():
+            where = f"along[{k}]" if len(points) > 1 or not is_point else "along"
+            raise _arguments.about(
+                "along", ValueError(f"{where} is {tuple(point.tolist())}; the coordinates of a point must be finite")
+            )
     return "", [], points
 
 
@@ -341,6 +360,8 @@ def merge(
     strict: bool = False,
     keep_side: Optional[Sequence[float]] = None,
     method: str = "conform",
+    refine: RefineOption = None,
+    before_refining: Optional[Callable[[RefinementEstimate], None]] = None,
 ) -> Result:
     """Joins another mesh to a mesh: a stiffener, a doubler, a bracket.
 
@@ -350,9 +371,10 @@ def merge(
 
     Shells meet in lines: where the border of one is on the other (a T), where borders meet (an L), where they cross (an
     X); several pieces of an addition at once. Beams (line elements) end on shells or solids: a node of the mesh is
-    moved to where they do, or made there. On a solid they carry no moment, and shells along their border turn as about
-    a hinge: nodes of solids have no rotations. The report says so. Solids touch or overlap; what is filled in behind
-    the contact has the nodes of the other's skin.
+    moved to where they do, or made there. Beams that lie in a shell, or on a solid's skin, become edges of it, and are
+    divided where it has nodes. On a solid they carry no moment, and shells along their border turn as about a hinge:
+    nodes of solids have no rotations. The report says so. Solids touch or overlap; what is filled in behind the contact
+    has the nodes of the other's skin.
 
     Parameters
     ----------
@@ -387,6 +409,13 @@ def merge(
         of facets, ``name_TIE_MESH`` and ``name_TIE_ADDED``, are where they do: faces of solids, sides of shells, and
         edges of shells that stand on the other. A CalculiX deck gets the ``*SURFACE`` and ``*TIE`` cards that hold them
         together; else the report says them.
+    refine : None, False or number
+        Whether elements are bisected first where the two meet. None: those of the one that are more than 2.5 times as
+        long as the other's; where elements come out poor, once more; but neither to more than 20 times as many
+        elements as it had, which is an error. A number: elements of both with longer edges than this. False: none.
+        ``result.report.refinement`` says what was done.
+    before_refining : callable, optional
+        As for :func:`crack`.
 
     Returns
     -------
@@ -422,6 +451,8 @@ def merge(
     options.name = _arguments.text(name, "name")
     options.feature_angle = _arguments.real(feature_angle, "feature_angle")
     options.strict = _arguments.flag(strict, "strict")
+    options.refine = check_refine(refine)
+    options.before_refining = check_before_refining(before_refining)
     if tolerance is not None and (tolerance := _arguments.real(tolerance, "tolerance")) <= 0:
         raise _arguments.about("tolerance", ValueError(f"tolerance must be a positive length, not {tolerance}"))
     return _run(

@@ -75,7 +75,7 @@ def check_before_refining(value):
     return value
 
 
-def _refine(value):
+def check_refine(value):
     """Nothing: automatic; 0: never; or a length."""
     if value is None:
         return None
@@ -180,7 +180,7 @@ OPTIONS = (
         "where edges are longer than this; of a crack within a part of a tool, around its front. False: never. "
         "``result.report.refinement`` says what was done.",
         RefineOption,
-        _refine,
+        check_refine,
     ),
     Option(
         "skin",

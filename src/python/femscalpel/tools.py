@@ -286,7 +286,7 @@ class Face(_engine.Face):
     def __init__(self, source):
         super().__init__(_shape(source, "source"))
         # Kept, so that debuggers can show an object whose construction failed.
-        self._text = f"Face({_arguments.describe(source)}, {self.face_count} face(s))"
+        self._text = f"Face({_arguments.describe(source)}, {self.face_count} face{'s'[: self.face_count != 1]})"
 
     def __repr__(self) -> str:
         return getattr(self, "_text", "Face()")

@@ -6,6 +6,7 @@
 #include "deck/card_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -15,7 +16,7 @@ void carry_set(std::size_t c, const CardReader& line, const std::string& set, co
     Remarks& remarks = carrying.remarks();
     if (const Index lost = carrying.closed_sets().lost_members(set); lost > 0)
         remarks.add(c, Weight::problem, line.where(), the_set(set),
-                    "lost " + std::to_string(lost) + " node(s) and with them their " + share);
+                    "lost " + counted(lost, "node and with it its", "nodes and with them their") + " " + share);
     const std::string name = carrying.closed_sets().name_of_old_members(set);
     if (name == set) return;
     remarks.add_replaced(set, name);

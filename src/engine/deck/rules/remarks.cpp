@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/rules/remarks.h"
 
+#include "words.h"
+
 namespace femscalpel {
 
 std::string Entity::text() const {
@@ -29,8 +31,8 @@ std::vector<std::string> Remarks::problems() const {
         if (p.weight != Weight::problem) continue;
         out.push_back(p.new_nodes.empty()
                           ? p.text
-                          : p.text + std::to_string(p.new_nodes.size()) + " new node(s), the first is " +
-                                std::to_string(*p.new_nodes.begin()) + ", " + p.what);
+                          : p.text + "new nodes (" + counted(static_cast<std::int64_t>(p.new_nodes.size()), "node") +
+                                ", the first is " + std::to_string(*p.new_nodes.begin()) + ") " + p.what);
     }
     for (std::string& text : texts(Weight::problem)) out.push_back(std::move(text));
     return out;
