@@ -9,7 +9,7 @@ import re
 
 from .translate import QT_TRANSLATE_NOOP, translate
 
-#: What the engine says, with %1, %2, ... for what varies; the same number is the same text.
+#: What the engine says, with %1, %2, ... for what varies; the same number is the same text. "(s)" is an s or none.
 TEMPLATES = (
     # Of cracks and all tools.
     QT_TRANSLATE_NOOP(
@@ -142,7 +142,7 @@ TEMPLATES = (
     ),
     QT_TRANSLATE_NOOP(
         "FemScalpel",
-        "the mesh already has %1 flat or inverted element(s) near the tool (%2); repair them first",
+        "the mesh already has %1 flat or inverted element(s) near the tool (%2); repair the mesh first",
     ),
     QT_TRANSLATE_NOOP(
         "FemScalpel",
@@ -261,7 +261,7 @@ def _pattern(template):
     seen, out = set(), ""
     for part in re.split(r"(%\d)", template):
         if not re.fullmatch(r"%\d", part):
-            out += re.escape(part)
+            out += re.escape(part).replace(re.escape("(s)"), "s?")
         elif part in seen:
             out += f"(?P=n{part[1:]})"
         else:

@@ -1367,8 +1367,8 @@
       <translation>Die Kante geht über das Gewählte hinaus weiter und wird gerundet, so weit sie geht</translation>
     </message>
     <message>
-      <source>the mesh already has %1 flat or inverted element(s) near the tool (%2); repair them first</source>
-      <translation>Das Netz hat schon %1 flache oder umgestülpte Element(e) beim Werkzeug (%2); reparieren Sie diese zuerst</translation>
+      <source>the mesh already has %1 flat or inverted element(s) near the tool (%2); repair the mesh first</source>
+      <translation>Das Netz hat schon %1 flache oder umgestülpte Element(e) beim Werkzeug (%2); reparieren Sie zuerst das Netz</translation>
     </message>
     <message>
       <source>the mesh has no group '%1'</source>

@@ -1367,8 +1367,8 @@
       <translation>l'arête continue au-delà de ce qui a été choisi, et est arrondie aussi loin qu'elle va</translation>
     </message>
     <message>
-      <source>the mesh already has %1 flat or inverted element(s) near the tool (%2); repair them first</source>
-      <translation>le maillage a déjà %1 élément(s) plats ou retournés près de l'outil (%2) ; réparez-les d'abord</translation>
+      <source>the mesh already has %1 flat or inverted element(s) near the tool (%2); repair the mesh first</source>
+      <translation>le maillage a déjà %1 élément(s) plats ou retournés près de l'outil (%2) ; réparez d'abord le maillage</translation>
     </message>
     <message>
       <source>the mesh has no group '%1'</source>

@@ -23,8 +23,8 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
                 cost[i][j] = i + j;
                 continue;
             }
-            cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1,
-                                   cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+            cost[i][j] = std::min(
+                {cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
                 cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
         }
@@ -47,7 +47,8 @@ std::vector<std::string> similar_names(std::string_view name, std::span<const st
     for (const std::string& candidate : names) {
         const std::string other = lower_case(candidate);
         if (wanted.size() > longest || other.size() > longest) continue;
-        const std::size_t edits = edits_between(wanted, other), allowed = std::min<std::size_t>(3, wanted.size() / 3 + 1);
+        const std::size_t edits = edits_between(wanted, other),
+                          allowed = std::min<std::size_t>(3, wanted.size() / 3 + 1);
         const bool is_part = std::min(wanted.size(), other.size()) >= shortest_part &&
                              (other.find(wanted) != std::string::npos || wanted.find(other) != std::string::npos);
         if ((edits <= allowed && edits < std::max(wanted.size(), other.size())) || is_part)

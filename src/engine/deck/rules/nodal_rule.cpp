@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cancel.h"
+#include "words.h"
 
 namespace femscalpel {
 
@@ -32,9 +33,9 @@ void NodalRule::end_carrying(Carrying& carrying) {
         }
         if (!made.empty() && tells_of_made(card))
             carrying.remarks().add_note(card.where() + ": *" + card.keyword + ", TYPE=" + type_of(card) + ": " +
-                                        std::to_string(made.size()) + " new node(s), the first is " +
-                                        std::to_string(std::ranges::min(made)) +
-                                        ", have values between those of the nodes around them");
+                                        counted(static_cast<std::int64_t>(made.size()), "new node") +
+                                        ", the first is " + std::to_string(std::ranges::min(made)) +
+                                        ", with values between those of the nodes around");
     }
 }
 
