@@ -141,7 +141,7 @@ void measure_all(const std::filesystem::path& path) {
     const Torus torus({6, 5, 5}, {0, 0, 1}, 3, 0.7);
     const Tool* tools[] = {&hole};
     measure("read .inp", [&] { read(path); });
-    for (const char* type : {".med", ".inp", ".inp.gz", ".vtu", ".msh", ".unv"}) {
+    for (const char* type : {".med", ".inp", ".inp.gz", ".vtu", ".msh", ".unv", ".bdf"}) {
         const std::filesystem::path file = out / (std::string("mesh") + type);
         measure((std::string("write ") + type).c_str(), [&] { write(mesh, file); });
         if (!std::filesystem::exists(file)) write(mesh, file);

@@ -154,7 +154,7 @@ TEST(CancelTest, ReadingEndsAndWritingLeavesTheOldFile) {
     fs::remove_all(folder);
     fs::create_directories(folder);
     const Mesh mesh = box_with_groups();
-    for (const char* type : {".med", ".inp", ".inp.gz", ".vtu", ".msh", ".unv"}) {
+    for (const char* type : {".med", ".inp", ".inp.gz", ".vtu", ".msh", ".unv", ".bdf"}) {
         SCOPED_TRACE(type);
         const fs::path path = folder / (std::string("mesh") + type);
         std::ofstream(path) << "old";

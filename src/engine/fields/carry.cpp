@@ -212,6 +212,7 @@ private:
     void carry_elements(const Field& field, const std::vector<const FieldPart*>& parts, FieldStep& out,
                         FieldRecord& record) {
         std::vector<Growing> growing;
+        growing.reserve(parts.size());
         sources_.clear();
         for (const FieldPart* part : parts)
             growing.push_back({Filling(field, *part, part->type, part->points, part->localization), {}});

@@ -116,7 +116,7 @@ private:
         const std::string wanted = part.profile.empty() ? "PROFILE" : part.profile;
         for (int k = 1;; ++k) {
             const std::string tail = k == 1 ? "" : "_" + std::to_string(k);
-            const std::string name = wanted.substr(0, MED_NAME_SIZE - tail.size()) + tail;
+            std::string name = wanted.substr(0, MED_NAME_SIZE - tail.size()) + tail;
             const auto [it, added] = profiles_.try_emplace(name, choice.places);
             if (!added && it->second != choice.places) continue;
             if (added)
