@@ -17,7 +17,7 @@ namespace femscalpel {
 /// CQUAD, CTETRA, CPYRAM, CPENTA, CHEXA, the last four of either order. Axisymmetric and plane elements of nonlinear
 /// analysis, and elements some of whose mid-side nodes are left out, throw UnsupportedElementError.
 ///
-/// Groups: elements of a property PID_3, or as comments of HyperMesh, ANSA, Femap or Patran call it; those of CONROD
+/// Groups: elements of a property PID_3, or as comments of HyperMesh, ANSA or Femap call it; those of CONROD
 /// CONROD. Sets of case control SET_7, or as HyperMesh's comments call them: of nodes or elements as its comments or
 /// the output requests say, else a group of each kind whose numbers the mesh has. Nodes of SPC1 and SPC cards
 /// SPC_1_123456, by set and components.
