@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs a wheel in a fresh virtual environment of a bare release of Debian, with nothing beside it but NumPy, and
-# tries it there; then, where 'freecad' is given, with FreeCAD and a clone of the repository as the add-on:
+# tries it there; then, where 'freecad' is given, with FreeCAD, a clone of the repository as the add-on and its tests:
 #   tests/releases/wheel.sh bookworm|trixie|forky WHEEL [freecad] [folder, default /var/tmp/femscalpel-wheel-RELEASE]
 # A line each. Needs root, debootstrap, what wheel.sh left of making the wheel, and a build (the demo's mesh).
 # Nothing stays mounted afterwards.
@@ -43,7 +43,7 @@ step freecad 'apt-get -qq install -y --no-install-recommends freecad python3-pip
 rm -rf "$folder/root/clone"
 mkdir -p "$folder/root/clone"
 git ls-files -z | xargs -0 ls -d 2>/dev/null | tar -cf - -T - | tar -xf - -C "$folder/root/clone"
-cp tests/releases/first_crack.py tests/freecad/run_tests.py "$folder/root"
+cp tests/releases/first_crack.py "$folder/root"
 # As the README says: the clone among FreeCAD's add-ons, the wheel in the user's packages.
 step user 'python3 -m pip install --user --break-system-packages --no-deps ./femscalpel-*.whl
     mod=$(freecadcmd -c "print(\"mod:\", FreeCAD.getUserAppDataDir())" </dev/null | sed -n "s/^mod: //p")Mod
@@ -58,3 +58,14 @@ grep -q '^first crack: ' "$logs/crack.log" || {
 version=$(inside 'dpkg-query -W -f "\${Version}" freecad')
 engine=$(inside 'ls .local/lib/*/site-packages | grep -m1 femscalpel-')
 say "FreeCAD $version: $(sed -n 's/^first crack: //p' "$logs/crack.log"), with the engine of $engine"
+# FreeCAD's list of tests, which is in a build's workbench and not in a clone's; but for what looks at a built one.
+step tests 'mod=$(freecadcmd -c "print(\"mod:\", FreeCAD.getUserAppDataDir())" </dev/null | sed -n "s/^mod: //p")Mod
+    rm -rf tests; cp -r "$mod/FemScalpel/tests/freecad/workbench" tests
+    cp "$mod/FemScalpel/tests/python/meshes.py" tests/femscalpeltest
+    rm tests/femscalpeltest/test_addon.py
+    PYTHONPATH=/root/tests freecadcmd -t TestFemScalpelApp </dev/null || true'
+grep -q '^OK' "$logs/tests.log" || {
+    grep -E '^(ERROR|FAIL|Ran)' "$logs/tests.log"
+    fail "FreeCADCmd, see $logs/tests.log"
+}
+say "FreeCADCmd: $(grep -E '^(Ran|OK|FAILED)' "$logs/tests.log" | paste -sd' ')"
