@@ -8,8 +8,8 @@
 
 namespace femscalpel {
 
-/// A wall cannot be moved as far as it is to be; less of the motion may have room. The message says why, and has no full
-/// stop: what works instead is added to it (reshape()).
+/// A wall cannot be moved as far as it is to be; less of the motion may have room. The message says why, and has no
+/// full stop: what works instead is added to it (reshape()).
 class MotionError : public ToolError {
 public:
     /// `at`: where in the mesh as it is; of use where the message does not name a place that is not in the mesh yet.

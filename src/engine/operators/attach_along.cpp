@@ -146,8 +146,10 @@ private:
             const auto& foot = feet[v == n[0] ? 0 : v == n[1] ? 4 : 2];
             const Vec3 normal = tree.normal(foot.piece);
             const auto [found, is_new] = normal_.try_emplace(v, normal);
-            if (is_new) nodes_.push_back(v);
-            else found->second += normal.dot(found->second) < 0 ? Vec3(-normal) : normal;
+            if (is_new)
+                nodes_.push_back(v);
+            else
+                found->second += normal.dot(found->second) < 0 ? Vec3(-normal) : normal;
             const auto [known, first] = length_.try_emplace(v, length);
             known->second = std::min(known->second, length);
         }
@@ -269,8 +271,9 @@ private:
              << point_text(addition.points[beam.nodes.back()])
              << " lies in the surface, but cannot be joined to it along its length: ";
         if (merged)
-            text << "it is too short for what counts as touching there, " << beam.off
-                 << " (facets of a curved surface are as far off it). Refine the mesh there first, or give longer beams";
+            text
+                << "it is too short for what counts as touching there, " << beam.off
+                << " (facets of a curved surface are as far off it). Refine the mesh there first, or give longer beams";
         else
             text << "something there holds the surface's nodes, or it ends. Move the beam a little, or refine the mesh "
                     "there first";
@@ -311,8 +314,7 @@ std::optional<AttachedAlong> attach_along(const Mesh& mesh, const Mesh& addition
         out.addition = addition;
     } else {
         const DeckMarks marks = mark_deck(addition);
-        Simplified parts =
-            split_beams(marks.mesh ? *marks.mesh : addition, divisions.cuts, next_numbers(addition));
+        Simplified parts = split_beams(marks.mesh ? *marks.mesh : addition, divisions.cuts, next_numbers(addition));
         for (std::size_t k = 0; k < parts.stops.size(); ++k) by_number[parts.stops[k]] = divisions.nodes[k];
         Refined divided = with_parts(addition, std::move(parts), marks, {});
         for (const std::string& warning : warnings_of(divided.trace.deck, options.strict))

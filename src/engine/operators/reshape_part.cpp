@@ -82,8 +82,8 @@ std::unique_ptr<Tool> surface_of(const Mesh& mesh, GroupIndex group) {
 /// A surface like `target`, but `off` from it on the positive side.
 std::unique_ptr<Tool> parallel_to(const Tool& target, double off) {
     if (const auto* plane = dynamic_cast<const Plane*>(&target))
-        return std::make_unique<Plane>(
-            plane->origin() + in_few_digits(Vec3(off * plane->unit_normal()), std::abs(off)), plane->unit_normal());
+        return std::make_unique<Plane>(plane->origin() + in_few_digits(Vec3(off * plane->unit_normal()), std::abs(off)),
+                                       plane->unit_normal());
     if (const auto* cylinder = dynamic_cast<const Cylinder*>(&target))
         return std::make_unique<Cylinder>(cylinder->origin(), cylinder->unit_axis(),
                                           in_few_digits(cylinder->radius() + off, std::abs(off)));
@@ -100,12 +100,12 @@ Vec3 unit_between(const Vec3& from, const Vec3& to, double share) {
 std::unique_ptr<Tool> between(const Tool& from, const Tool& to, double share, const Vec3& middle) {
     const auto mix = [&](const auto& a, const auto& b) { return (1 - share) * a + share * b; };
     if (from.kind() != to.kind()) return nullptr;
-    if (const auto *a = dynamic_cast<const Plane*>(&from), *b = dynamic_cast<const Plane*>(&to); a && b) {
+    if (const auto* a = dynamic_cast<const Plane*>(&from), *b = dynamic_cast<const Plane*>(&to); a && b) {
         const Vec3 start = a->project(middle), end = b->project(middle);
         return std::make_unique<Plane>(in_few_digits(Vec3(mix(start, end)), (end - start).norm()),
                                        unit_between(a->unit_normal(), b->unit_normal(), share));
     }
-    if (const auto *a = dynamic_cast<const Cylinder*>(&from), *b = dynamic_cast<const Cylinder*>(&to); a && b) {
+    if (const auto* a = dynamic_cast<const Cylinder*>(&from), *b = dynamic_cast<const Cylinder*>(&to); a && b) {
         const Vec3 on_axis = b->origin() + (middle - b->origin()).dot(b->unit_axis()) * b->unit_axis();
         const Vec3 start = a->origin() + (on_axis - a->origin()).dot(a->unit_axis()) * a->unit_axis();
         const double range = (on_axis - start).norm() + std::abs(b->radius() - a->radius());
@@ -113,7 +113,7 @@ std::unique_ptr<Tool> between(const Tool& from, const Tool& to, double share, co
                                           unit_between(a->unit_axis(), b->unit_axis(), share),
                                           in_few_digits(mix(a->radius(), b->radius()), range));
     }
-    if (const auto *a = dynamic_cast<const Sphere*>(&from), *b = dynamic_cast<const Sphere*>(&to); a && b) {
+    if (const auto* a = dynamic_cast<const Sphere*>(&from), *b = dynamic_cast<const Sphere*>(&to); a && b) {
         const double range = (b->center() - a->center()).norm() + std::abs(b->radius() - a->radius());
         return std::make_unique<Sphere>(in_few_digits(Vec3(mix(a->center(), b->center())), range),
                                         in_few_digits(mix(a->radius(), b->radius()), range));
