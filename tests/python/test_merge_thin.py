@@ -63,9 +63,8 @@ def test_refinement_is_the_users_to_choose(base):
 def test_an_addition_that_is_much_too_fine_is_refused_with_what_to_do():
     coarse = grid_box((3, 3, 3), (30.0, 30.0, 30.0))
     fine = block((15, 15, 30), (10, 0.02, 0.02), (500, 1, 1), "WIRE")
-    with pytest.raises(
-        fs.ToolError, match="so much finer than the mesh.* Give refine=[0-9.]+, a longer edge"
-    ) as caught:
+    words = "so much finer than the mesh.* Give refine=[0-9.]+, a longer edge"
+    with pytest.raises(fs.ToolError, match=words) as caught:
         fs.merge(coarse, fine)
     assert caught.value.parameter == "refine"
 

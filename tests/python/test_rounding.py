@@ -225,7 +225,7 @@ def check_second_order(mesh, tool, result):
 
 
 def test_cylinders_beside_a_row_of_corners_of_second_order_elements():
-    """The row is held where the cylinder passes it by less than an edge's rounding, as in first-order meshes: a third of
+    """The row is held where the cylinder passes it a little beside, as in first-order meshes: a third of
     these were refused, as curved elements between row and wall are folded."""
     mesh, rng = second_order_box(), np.random.default_rng(5)
     for number in range(40):

@@ -20,7 +20,6 @@
 #include "cutting/snap.h"
 #include "deformation/curved_shape.h"
 #include "mesh/crop.h"
-#include "mesh/surface.h"
 #include "mesh/union_find.h"
 #include "operators/driver.h"
 #include "operators/face_nodes.h"
@@ -453,20 +452,11 @@ private:
     std::vector<std::string> warnings_;
 };
 
-void check_radius(double radius, const Mesh& mesh) {
-    const double size = box_around(mesh).diagonal().norm();
-    if (radius > 0 && radius <= 1000 * size) return;
-    std::ostringstream message;
-    message << "radius is " << radius
-            << (radius > 0 ? ", which no face has room for" : "; it must be a positive length");
-    throw ToolError(message.str(), "radius");
-}
-
 }  // namespace
 
 Result fillet(const Mesh& mesh, const Along& along, double radius, const FilletOptions& options,
               const Prepared& prepared) {
-    check_radius(radius, mesh);
+    check_fillet_radius(radius, mesh);
     FilletOptions whole = options;
     whole.band_only = false;
     const auto as_asked = [&](Result result) {

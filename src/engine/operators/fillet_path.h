@@ -156,4 +156,7 @@ private:
     std::array<std::unique_ptr<Tool>, 2> end_planes_;
 };
 
+/// Throws ToolError when a radius is no length, or beyond all faces of the mesh.
+void check_fillet_radius(double radius, const Mesh& mesh);
+
 }  // namespace femscalpel

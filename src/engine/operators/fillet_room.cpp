@@ -10,6 +10,7 @@
 
 #include "cancel.h"
 #include "mesh/closest_point.h"
+#include "mesh/surface.h"
 #include "operators/fillet_path.h"
 
 namespace femscalpel {
@@ -165,6 +166,15 @@ void FilletPath::refuse_room(const SkinNear& near, double begin, double end, int
          << "the distance of " << tangent_length_ << " at which it would be touched. There is room for about "
          << std::setprecision(3) << fits * radius_ << ",";
     refuse(text.str(), where, "radius");
+}
+
+void check_fillet_radius(double radius, const Mesh& mesh) {
+    const double size = box_around(mesh).diagonal().norm();
+    if (radius > 0 && radius <= 1000 * size) return;
+    std::ostringstream message;
+    message << "radius is " << radius
+            << (radius > 0 ? ", which no face has room for" : "; it must be a positive length");
+    throw ToolError(message.str(), "radius");
 }
 
 }  // namespace femscalpel

@@ -43,8 +43,6 @@
 namespace femscalpel {
 namespace {
 
-/// A tolerance is smaller than this part of either mesh.
-constexpr double largest_tolerance = 0.25;
 /// A triangle as near to the other's surface, in its edges, and as parallel (cosine), lies on it.
 constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
@@ -70,21 +68,6 @@ constexpr double as_thin = 0.7;
         "other. " +
             extents_text(mesh, addition) + ". Move the addition, or give a larger tolerance",
         "other");
-}
-
-/// Throws ToolError when all of one of the two would count as touching.
-void check_tolerance(const Mesh& mesh, const Mesh& addition, const std::optional<double>& tolerance) {
-    if (!tolerance) return;
-    const double mesh_size = box_around(mesh).diagonal().norm(), size = box_around(addition).diagonal().norm();
-    std::ostringstream text;
-    if (!(std::isfinite(*tolerance) && *tolerance > 0))
-        text << "tolerance is " << *tolerance << "; it must be a positive length";
-    else if (*tolerance > largest_tolerance * std::min(mesh_size, size))
-        text << "tolerance is " << *tolerance << ", but the " << (size < mesh_size ? "addition" : "mesh")
-             << " is no larger than " << std::min(mesh_size, size)
-             << " from corner to corner: all of it would count as touching. Give a little more than the gap between "
-                "the two, less than an edge length";
-    if (!text.view().empty()) throw ToolError(text.str(), "tolerance");
 }
 
 void check(const Mesh& mesh, const Mesh& addition, const MergeOptions& options) {

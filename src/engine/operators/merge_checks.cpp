@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -149,6 +151,22 @@ std::string extents_text(const Mesh& mesh, const Mesh& addition) {
     const Box a = box_around(mesh), b = box_around(addition);
     return "The mesh reaches from " + point_text(a.min()) + " to " + point_text(a.max()) + ", the addition from " +
            point_text(b.min()) + " to " + point_text(b.max());
+}
+
+void check_tolerance(const Mesh& mesh, const Mesh& addition, const std::optional<double>& tolerance) {
+    /// It is smaller than this part of either mesh.
+    constexpr double largest_tolerance = 0.25;
+    if (!tolerance) return;
+    const double mesh_size = box_around(mesh).diagonal().norm(), size = box_around(addition).diagonal().norm();
+    std::ostringstream text;
+    if (!(std::isfinite(*tolerance) && *tolerance > 0))
+        text << "tolerance is " << *tolerance << "; it must be a positive length";
+    else if (*tolerance > largest_tolerance * std::min(mesh_size, size))
+        text << "tolerance is " << *tolerance << ", but the " << (size < mesh_size ? "addition" : "mesh")
+             << " is no larger than " << std::min(mesh_size, size)
+             << " from corner to corner: all of it would count as touching. Give a little more than the gap between "
+                "the two, less than an edge length";
+    if (!text.view().empty()) throw ToolError(text.str(), "tolerance");
 }
 
 void check_itself(const Mesh& addition) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace femscalpel {
 
 /// A sentence on where the two are, for errors.
 std::string extents_text(const Mesh& mesh, const Mesh& addition);
+
+/// Throws ToolError when a tolerance is no length, or so large that all of one of the two would count as touching.
+void check_tolerance(const Mesh& mesh, const Mesh& addition, const std::optional<double>& tolerance);
 
 /// Throws ToolError when faces of an addition pass through elements of it with which they have no node in common, or
 /// triangles lie on each other. Sides of a contact or a crack, which but touch, may be there.
