@@ -77,7 +77,7 @@ class Bracket(GuiTest):
         self.window.press("FemScalpel_Crack")
         self.wait_for_preview()
         spin(0.4)
-        self.assertEqual(scroll_area().horizontalScrollBar().maximum(), 0, "the panel is wider than its dock")
+        self.assertLessEqual(scroll_area().horizontalScrollBar().maximum(), 2, "the panel is wider than its dock")
         self.shot("1_crack")
         box = widget("patch")
         self.window.hands.choose(box, box.findData("Disk"))
