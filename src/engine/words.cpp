@@ -47,13 +47,8 @@ std::vector<std::string> similar_names(std::string_view name, std::span<const st
     for (const std::string& candidate : names) {
         const std::string other = lower_case(candidate);
         if (wanted.size() > longest || other.size() > longest) continue;
-<<<<<<< HEAD
-        const std::size_t edits = edits_between(wanted, other),
-                          allowed = std::min<std::size_t>(3, wanted.size() / 3 + 1);
-=======
         const std::size_t edits = edits_between(wanted, other);
         const std::size_t allowed = std::min<std::size_t>(3, wanted.size() / 3 + 1);
->>>>>>> m15
         const bool is_part = std::min(wanted.size(), other.size()) >= shortest_part &&
                              (other.find(wanted) != std::string::npos || wanted.find(other) != std::string::npos);
         if ((edits <= allowed && edits < std::max(wanted.size(), other.size())) || is_part)
