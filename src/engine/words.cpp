@@ -59,6 +59,7 @@ std::vector<std::string> similar_names(std::string_view name, std::span<const st
     found.erase(repeated.begin(), repeated.end());
     if (found.size() > most) found.resize(most);
     std::vector<std::string> out;
+    out.reserve(found.size());
     for (auto& [edits, candidate] : found) out.push_back(std::move(candidate));
     return out;
 }
