@@ -263,6 +263,7 @@ public:
                 if (in_vain) {  // goes on as if it had not been tried
                     std::tie(bad, sound) = std::move(*before_held_);
                     start_->may_hold.clear();
+                    if (!sound) --attempt;
                 }
                 before_held_.reset();
             }

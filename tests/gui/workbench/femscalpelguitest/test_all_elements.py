@@ -225,4 +225,4 @@ class Panels(GuiTest):
         press_ok()
         crack = self.doc.FaceCrack
         self.assertEqual(crack.FemMesh.EdgeCount, 3 + 6 + 2 * 4)  # those of the lips, too
-        self.assertIn("stay whole", crack.Warnings[0])
+        self.assertIn("stays whole", crack.Warnings[0])
