@@ -263,7 +263,10 @@ public:
                 if (in_vain) {  // goes on as if it had not been tried
                     std::tie(bad, sound) = std::move(*before_held_);
                     start_->may_hold.clear();
-                    if (!sound) --attempt;
+                    if (!sound) {  // nor cost anything
+                        --attempt;
+                        start_->most_visits += start_->d.visits - visits_before_held_;
+                    }
                 }
                 before_held_.reset();
             }
@@ -364,6 +367,7 @@ private:
             if (!allow_to_hold(*start_, made(), part)) continue;
             *tried = true;
             if (tried != &held_near_) before_held_ = {bad, sound};
+            visits_before_held_ = start_->d.visits;
             is_best_ = false;
             if (last) start_->most_visits = start_->d.visits + static_cast<long>(fewest_visits / 3);
             f_ = *start_;
@@ -451,6 +455,7 @@ private:
     bool is_best_ = false;  // the last one is: f_ was moved there
     // Bad elements of the last try, and whether they were sound, when this one holds nodes that may not help.
     std::optional<std::pair<Slots, bool>> before_held_;
+    long visits_before_held_ = 0;
     bool held_folded_ = false, held_near_ = false, held_far_ = false;  // was tried
     int polished_ = 0;
 };
