@@ -165,8 +165,30 @@ TEST_F(RetrySecondOrder, CountsLipsAmongWhatAMeshGrowsBy) {
                 w.nodes.assign(static_cast<std::size_t>(mesh.cell_count()), middle);
             },
             mesh.cell_count(), 2, whole_tool);
-        EXPECT_EQ(calls, 2);
+        EXPECT_EQ(calls, 3) << "two tries, and one as if all edges were straight, as the best is poor";
         EXPECT_EQ(g.d.band.nodes[middle].at.x(), whole_tool ? 1.985 : 0.02);
+    }
+}
+
+TEST_F(RetrySecondOrder, HoldsNodesThatTheToolPassedWhereElementsAreFolded) {
+    for (const std::size_t spoilt : {1U, 2U}) {
+        Workpiece g = f;
+        std::vector<double> parts;
+        cut_soundly(
+            g,
+            [&](Workpiece& w) {
+                parts.push_back(w.part_to_hold(middle));
+                if (parts.size() > spoilt) return;
+                fold(w);
+                w.d.band.nodes[middle].at.x() = 2.5;
+                w.passed[middle] = 1e-3;
+            },
+            mesh.cell_count(), 12, true);
+        if (spoilt == 1)
+            EXPECT_THAT(parts, ElementsAre(close_beside, 2e-3));
+        else
+            EXPECT_THAT(parts, ElementsAre(close_beside, 2e-3, close_beside)) << "it helped nothing";
+        EXPECT_EQ(g.d.band.nodes[middle].at.x(), 1);
     }
 }
 
