@@ -70,6 +70,16 @@ protected:
         return reader_(path_);
     }
 
+    /// A mesh's remarks, a line each, without the file's name that each begins with.
+    std::string remarks(const Mesh& mesh) const {
+        std::string out;
+        for (const std::string& r : mesh.remarks) {
+            EXPECT_TRUE(r.starts_with(path_.string() + ":")) << r;
+            out += r.substr(path_.string().size()) + "\n";
+        }
+        return out;
+    }
+
     /// A message that begins with a colon goes on behind the file's name.
     void expect_error(const std::string& text, const std::string& message) const {
         EXPECT_THAT([&] { read(text); }, testing::ThrowsMessage<Error>(

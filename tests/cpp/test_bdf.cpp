@@ -34,14 +34,6 @@ protected:
         std::ifstream in(path_);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    std::string remarks(const Mesh& mesh) const {
-        std::string out;
-        for (const std::string& r : mesh.remarks) {
-            EXPECT_TRUE(r.starts_with(path_.string() + ":")) << r;
-            out += r.substr(path_.string().size()) + "\n";
-        }
-        return out;
-    }
     std::vector<Index> members(const Mesh& mesh, const char* name, GroupKind kind) const {
         const auto group = mesh.find_group(name, kind);
         EXPECT_TRUE(group) << name;

@@ -22,14 +22,6 @@ using testing::ThrowsMessage;
 class MshReading : public checks::TextReading {
 protected:
     MshReading() : TextReading([](const fs::path& path) { return read_msh(path); }, ".msh") {}
-    std::string remarks(const Mesh& mesh) const {
-        std::string out;
-        for (const std::string& r : mesh.remarks) {
-            EXPECT_TRUE(r.starts_with(path_.string() + ":")) << r;
-            out += r.substr(path_.string().size()) + "\n";
-        }
-        return out;
-    }
 };
 
 const std::string head22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";

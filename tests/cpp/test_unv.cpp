@@ -31,14 +31,6 @@ protected:
         std::ifstream in(path_);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    std::string remarks(const Mesh& mesh) const {
-        std::string out;
-        for (const std::string& r : mesh.remarks) {
-            EXPECT_TRUE(r.starts_with(path_.string() + ":")) << r;
-            out += r.substr(path_.string().size()) + "\n";
-        }
-        return out;
-    }
 };
 
 std::string dataset(const std::string& number, const std::string& content) {

@@ -14,6 +14,7 @@
 #include "io/bdf_sets.h"
 #include "io/bdf_source.h"
 #include "io/bdf_types.h"
+#include "io/group_numbers.h"
 #include "io/inp_file.h"
 
 namespace femscalpel {
@@ -153,21 +154,8 @@ private:
         }
     }
 
-    /// Members of every group, in one pass over the mesh.
-    std::vector<std::vector<Index>> members() const {
-        std::vector<std::vector<Index>> out(mesh_.groups.size());
-        const auto add = [&](FamilyIndex family, Index number) {
-            for (const GroupIndex g : mesh_.families.groups(family)) out[static_cast<std::size_t>(g)].push_back(number);
-        };
-        SparseCheck check(1 << 12);
-        for (std::size_t n = 0; n < mesh_.points.size(); ++n, check()) add(mesh_.node_families[n], mesh_.node_ids[n]);
-        for (const CellBlock& block : mesh_.blocks())
-            for (std::size_t c = 0; c < block.ids.size(); ++c, check()) add(block.families[c], block.ids[c]);
-        return out;
-    }
-
     void put_sets() {
-        auto all = members();
+        auto all = group_numbers(mesh_);
         Index number = 0;
         std::string statements;
         for (std::size_t g = 0; g < all.size(); ++g) {

@@ -7,6 +7,7 @@
 #include "cancel.h"
 #include "deck/solver_input.h"
 #include "error.h"
+#include "io/group_numbers.h"
 #include "io/inp_file.h"
 #include "io/unv.h"
 #include "io/unv_types.h"
@@ -104,21 +105,8 @@ private:
         out_ += "    -1\n";
     }
 
-    /// Members of every group, in one pass over the mesh.
-    std::vector<std::vector<Index>> members() const {
-        std::vector<std::vector<Index>> out(mesh_.groups.size());
-        const auto add = [&](FamilyIndex family, Index number) {
-            for (const GroupIndex g : mesh_.families.groups(family)) out[static_cast<std::size_t>(g)].push_back(number);
-        };
-        SparseCheck check(1 << 12);
-        for (std::size_t n = 0; n < mesh_.points.size(); ++n, check()) add(mesh_.node_families[n], mesh_.node_ids[n]);
-        for (const CellBlock& block : mesh_.blocks())
-            for (std::size_t c = 0; c < block.ids.size(); ++c, check()) add(block.families[c], block.ids[c]);
-        return out;
-    }
-
     void put_groups() {
-        const auto all = members();
+        const auto all = group_numbers(mesh_);
         std::string before;
         std::swap(before, out_);
         Index number = 0;

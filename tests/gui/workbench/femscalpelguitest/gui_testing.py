@@ -112,11 +112,10 @@ def click(name):
 
 
 def choose(name, data):
-    """Chooses an entry of a combo box by its data, with the keyboard."""
+    """Chooses an entry of a combo box by its data, with the keyboard, once the box is there and has it."""
+    wait_until(lambda: widget(name).findData(data) >= 0, f"{data!r} in the combo box '{name}'")
     box = widget(name)
     index = box.findData(data)
-    if index < 0:
-        raise AssertionError(f"combo box '{name}' has no {data!r}")
     box.setFocus()
     while box.currentIndex() != index:
         QTest.keyClick(box, QtCore.Qt.Key_Down if box.currentIndex() < index else QtCore.Qt.Key_Up)
