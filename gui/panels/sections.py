@@ -25,16 +25,12 @@ class Section(EventFilter):
         inside = QtGui.QGridLayout(self._content)
         inside.setContentsMargins(0, 0, 0, 0)
         inside.setColumnStretch(1, 1)
-        moved = []
+        moved, placed = [], by_row(grid)
         for at, row in enumerate(numbers):
-            for column in (0, 1):
-                item = grid.itemAtPosition(row, column)
-                if item is not None and item.widget() not in moved:
-                    box = item.widget()
+            for column, columns, box in placed.get(row, ()):
+                if column < 2 and box not in moved:
                     moved.append(box)
-                    wide = column == 0 and grid.itemAtPosition(row, 1) is not None
-                    wide = wide and grid.itemAtPosition(row, 1).widget() == box
-                    inside.addWidget(box, at, column, 1, 2 if wide else 1)
+                    inside.addWidget(box, at, column, 1, 2 if column == 0 and columns > 1 else 1)
                     box.installEventFilter(self)
         header = self._header
         header.setObjectName("section" + name)
@@ -45,7 +41,8 @@ class Section(EventFilter):
         header.setToolButtonStyle(QtCore.Qt.ToolButtonTextBesideIcon)
         header.setSizePolicy(QtGui.QSizePolicy.Expanding, QtGui.QSizePolicy.Fixed)
         place = rows.indexOf(grid) + 1
-        while rows.itemAt(place) is not None and isinstance(rows.itemAt(place).widget(), QtGui.QToolButton):
+        there = [rows.indexOf(box) for box in _widgets_of(rows) if isinstance(box, QtGui.QToolButton)]
+        while place in there:
             place += 2  # behind the sections that are there
         rows.insertWidget(place, header)
         rows.insertWidget(place + 1, self._content)
@@ -88,9 +85,22 @@ def name_fields(form):
 def _rows_of(layout):
     """The widgets of a layout, row by row."""
     if isinstance(layout, QtGui.QGridLayout):
-        for row in range(layout.rowCount()):
-            items = (layout.itemAtPosition(row, column) for column in range(layout.columnCount()))
-            yield [item.widget() for item in items if item is not None and item.widget() is not None]
+        for _, boxes in sorted(by_row(layout).items()):
+            yield [box for _, _, box in boxes]
     elif isinstance(layout, QtGui.QHBoxLayout):
-        items = (layout.itemAt(k).widget() for k in range(layout.count()))
-        yield [box for box in items if box is not None]
+        yield sorted(_widgets_of(layout), key=layout.indexOf)
+
+
+def _widgets_of(layout):
+    """The widgets in a layout. Not by its items: PySide 2 keeps what it makes of these when they are gone, and hands it
+    out for what comes to lie in their place, such as a field."""
+    return [w for w in layout.parentWidget().children() if isinstance(w, QtGui.QWidget) and layout.indexOf(w) >= 0]
+
+
+def by_row(grid):
+    """(column, number of columns, widget) by row, from left to right; what spans several rows is in its first."""
+    out = {}
+    for box in _widgets_of(grid):
+        row, column, _, columns = grid.getItemPosition(grid.indexOf(box))
+        out.setdefault(row, []).append((column, columns, box))
+    return {row: sorted(boxes, key=lambda place: place[0]) for row, boxes in out.items()}

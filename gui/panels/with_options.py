@@ -7,7 +7,7 @@ from .. import preferences
 from ..translate import translate
 from . import fields
 from .preserve_input import PreserveInput
-from .sections import Section
+from .sections import Section, by_row
 
 #: Labels for messages about an option, by the operators' parameter; what is about others is shown at the geometry.
 OPTION_ERRORS = {
@@ -55,9 +55,11 @@ class WithOptions:
         o.groupName.textChanged.connect(lambda *_: self.update())
         o.method.currentIndexChanged.connect(lambda *_: self.update())
         o.transition.valueChanged.connect(lambda *_: self.update())
+        placed = by_row(o.grid)
         for row in (row for name, row in OPTION_ROWS.items() if name not in self.OFFERED):
-            for column in (0, 1):
-                o.grid.itemAtPosition(row, column).widget().hide()
+            for column, _, box in placed[row]:
+                if column < 2:
+                    box.hide()
         self._fold_options()
         analysis = self._analysis()
         o.intoAnalysis.setVisible(analysis is not None and self.edited is None)
