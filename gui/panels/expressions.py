@@ -123,8 +123,11 @@ class NewExpressions(EventFilter):
             box.installEventFilter(self)
 
     def _mark(self, box):
-        """The f(x) icon, as FreeCAD has it in the fields of objects that are there already."""
+        """The f(x) icon, as FreeCAD has it in the fields of objects that are there already; None where PySide 2 takes the
+        field's line for an object of another class that was there before: "=" works without it."""
         line = box.findChild(QtGui.QLineEdit)
+        if line is None:
+            return None
         action = line.addAction(QtGui.QIcon(_UNSET), QtGui.QLineEdit.TrailingPosition)
         action.setObjectName("expression")
         action.setVisible(
@@ -166,8 +169,10 @@ class NewExpressions(EventFilter):
             box.setProperty(fields.EXPRESSION, text.strip())
         box.setReadOnly(number is not None)
         mark = self._marks[box.objectName()]
-        mark.setIcon(QtGui.QIcon(_UNSET if number is None else _SET))
-        mark.setToolTip(translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}")
+        if mark is not None:
+            tip = translate("FemScalpel", "Enter an expression (=)") if number is None else f"= {text.strip()}"
+            mark.setIcon(QtGui.QIcon(_UNSET if number is None else _SET))
+            mark.setToolTip(tip)
         self._show_mark(box, box.hasFocus())
         if number is not None:
             box.setToolTip(f"= {text.strip()}")
