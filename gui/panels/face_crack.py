@@ -6,10 +6,10 @@ import femscalpel
 from ..translate import QT_TRANSLATE_NOOP
 from ..view.inner_faces import Lips, groups_inside
 from .face_group_input import FaceGroupInput
-from .tool_panel import ToolPanel
+from .group_panel import GroupPanel
 
 
-class FaceCrackPanel(ToolPanel):
+class FaceCrackPanel(GroupPanel):
     """Asks for the group whose faces come apart."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Crack along faces")
@@ -25,20 +25,8 @@ class FaceCrackPanel(ToolPanel):
         self._names = groups_inside(source.mesh)
         return source
 
-    def loaded(self):
-        self._fill()
-        super().loaded()
-
-    def _fill(self):
-        chosen = self.edited.Group if self.edited is not None else None
-        self.geometry.fill(self._names, self.geometry.group() or chosen)
-
-    def document_changed(self, stepped):
-        if stepped:
-            self.geometry.forget_group()
-            if self.source is not None:
-                self._fill()
-        super().document_changed(stepped)
+    def offered_from(self):
+        return self._names
 
     def own_errors(self):
         return {"group": self.geometry.form.geometryError}

@@ -7,11 +7,11 @@ from femscalpel.tools import DIRECTION, LENGTH, POINT, TOOLS
 
 from ..translate import QT_TRANSLATE_NOOP
 from ..view.preview_data import MadeNodes
-from .tool_panel import ToolPanel
+from .group_panel import GroupPanel
 from .wall_input import WallInput
 
 
-class ReshapePanel(ToolPanel):
+class ReshapePanel(GroupPanel):
     """Asks for a group, and where it is moved to."""
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Reshape")
@@ -23,21 +23,6 @@ class ReshapePanel(ToolPanel):
 
     def make_geometry(self):
         return WallInput(self.source_object)
-
-    def loaded(self):
-        self._fill()
-        super().loaded()
-
-    def _fill(self):
-        chosen = self.edited.Group if self.edited is not None else None
-        self.geometry.fill(self.source, self.geometry.group() or chosen)
-
-    def document_changed(self, stepped):
-        if stepped:
-            self.geometry.forget_group()
-            if self.source is not None:
-                self._fill()
-        super().document_changed(stepped)
 
     def own_errors(self):
         return {"group": self.geometry.wall.groupError}

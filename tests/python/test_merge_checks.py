@@ -415,3 +415,34 @@ def test_a_seam_across_the_lips_of_a_crack():
             fs.merge(cracked, block(at, size, counts, "A"))
         found.append(str(caught.value))
     assert found[1].startswith("the seam runs across double nodes, of a crack's lips or a contact, at ")
+
+
+def uneven_plate(counts, place, seed, amount):
+    """Triangles over the unit square, its inner nodes moved about, brought to `place(u, v)`."""
+    rng, (n, m) = np.random.default_rng(seed), counts
+    at = np.stack(np.meshgrid(np.arange(n + 1) / n, np.arange(m + 1) / m), axis=-1)
+    at[1:-1, 1:-1] += rng.uniform(-amount, amount, at[1:-1, 1:-1].shape) / (n, m)
+    node = np.arange(at[..., 0].size).reshape(at.shape[:2])
+    a, b, c, d = (x.ravel() for x in (node[:-1, :-1], node[:-1, 1:], node[1:, 1:], node[1:, :-1]))
+    first = rng.random(a.size) < 0.5
+    cells = [np.where(first, (a, b, c), (a, b, d)).T, np.where(first, (a, c, d), (b, c, d)).T]
+    return fs.Mesh(np.array([place(u, v) for u, v in at.reshape(-1, 2)]), {"triangle": np.concatenate(cells)})
+
+
+def test_ribs_that_cross_a_border_at_a_small_angle():
+    """Near the border they are not taken to run along it, as every sixth was at 10 to 35 degrees, and refused."""
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        n, angle, y = rng.integers(6, 14), np.radians(rng.uniform(10, 35)), rng.uniform(0.35, 0.6)
+        way = np.array((np.sin(angle), np.cos(angle), 0))
+        start, end = np.array((1, y, 0)) - 0.4 * way, np.array((1, y, 0)) + rng.uniform(0.05, 0.3) * way
+        plate = uneven_plate((n, n), lambda u, v: (u, v, 0), seed, 0.15)
+        rib = uneven_plate(
+            (rng.integers(4, 12), 3), lambda u, v: start + u * (end - start) + (0, 0, 0.3 * v), seed, 0.1
+        )
+        result = fs.merge(plate, rib, name="RIB")
+        assert result.report.quality.after.minimum > 0.1, seed
+        # On the plate, up to its border.
+        seam = result.mesh.points[np.isin(result.mesh.node_ids, result.mesh.groups["RIB_SEAM", "node"].ids)]
+        assert abs(seam[:, 2]).max() < 1e-9
+        assert seam[:, 0].max() == pytest.approx(1, abs=1e-9), seed
