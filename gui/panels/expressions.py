@@ -123,8 +123,8 @@ class NewExpressions(EventFilter):
             box.installEventFilter(self)
 
     def _mark(self, box):
-        """The f(x) icon, as FreeCAD has it in the fields of objects that are there already; None where PySide 2 takes the
-        field's line for an object of another class that was there before: "=" works without it."""
+        """The f(x) icon, as FreeCAD has it in the fields of objects that are there already; None where PySide 2 takes
+        the field's line for an object that was there before: "=" works without the icon."""
         line = box.findChild(QtGui.QLineEdit)
         if line is None:
             return None
