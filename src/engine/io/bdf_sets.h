@@ -44,6 +44,7 @@ std::vector<BdfSet> bdf_sets(const BdfSource& source, Index& others);
 
 /// Names that preprocessors write as comments.
 struct BdfNames {
+    /// A set's name.
     struct Set {
         Index number;
         GroupKind kind;
@@ -53,6 +54,8 @@ struct BdfNames {
     std::map<Index, std::string> properties;  ///< by number
     bool stand_ins = false;                   ///< properties stand for no groups (write_bdf())
 };
+
+/// The names among a deck's comments; empty where there are none.
 BdfNames bdf_names(const BdfSource& source);
 
 /// The comment that says that properties stand for no groups.
