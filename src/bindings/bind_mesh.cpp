@@ -234,11 +234,7 @@ void bind_groups_of(MeshClass& mesh) {
         .def(
             "rename_group",
             [](Mesh& mesh, const std::string& old_name, const std::string& new_name, const std::string& kind) {
-                const GroupIndex group = require_group(mesh, old_name, kind);
-                const auto taken = mesh.find_group(new_name, kind_from_name(kind));
-                if (taken && *taken != group)
-                    throw Error("the mesh already has a " + kind + " group '" + new_name + "'");
-                mesh.groups[static_cast<std::size_t>(group)].name = new_name;
+                rename_group(mesh, require_group(mesh, old_name, kind), new_name);
             },
             py::arg("old_name"), py::arg("new_name"), py::arg("kind"));
 }

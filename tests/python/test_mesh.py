@@ -146,6 +146,47 @@ def test_changing_groups():
     mesh.validate()
 
 
+DECK = """*NODE, NSET=FIX
+1, 0, 0, 0
+2, 1, 0, 0
+3, 0, 1, 0
+4, 0, 0, 1
+*ELEMENT, TYPE=C3D4, ELSET=BODY
+1, 1, 2, 3, 4
+*SURFACE, NAME=SIDE, TYPE=ELEMENT
+1, S1
+*STEP
+*BOUNDARY
+FIX, 1
+*DSLOAD
+SIDE, P, 1.
+*END STEP
+"""
+
+
+@pytest.mark.parametrize("kind, name", [("node", "FIX"), ("element", "BODY"), ("facet", "SIDE")])
+def test_a_set_of_a_deck_keeps_the_name_that_cards_name_it_by(tmp_path, kind, name):
+    (tmp_path / "in.inp").write_text(DECK)
+    mesh = fs.read(tmp_path / "in.inp")
+    assert mesh.has_deck
+    before = mesh.copy()
+    mesh.rename_group(name, "OTHER", kind)
+    with pytest.warns(UserWarning, match=f"the name 'OTHER', as the deck's cards name that .* '{name}'"):
+        fs.write(mesh, tmp_path / "out.inp")
+    assert (tmp_path / "out.inp").read_text() == DECK
+    fs.write(before, tmp_path / "before.inp")  # which the deck was shared with
+    mesh.rename_group("OTHER", name, kind)
+    fs.write(mesh, tmp_path / "again.inp")
+    assert (tmp_path / "again.inp").read_text() == (tmp_path / "before.inp").read_text() == DECK
+
+
+@pytest.mark.parametrize("ending", [".med", ".vtu", ".msh", ".unv", ".bdf"])
+def test_cards_that_a_file_does_not_hold_are_told(tmp_path, ending):
+    (tmp_path / "in.inp").write_text(DECK)
+    with pytest.warns(UserWarning, match="the cards of the deck"):
+        fs.write(fs.read(tmp_path / "in.inp"), tmp_path / ("out" + ending))
+
+
 def test_copies_are_independent():
     mesh = make(groups={"A": ("node", [1])}, name="first")
     for other in (mesh.copy(), copy.copy(mesh), copy.deepcopy(mesh)):

@@ -141,7 +141,7 @@ def test_losses_are_told(tmp_path):
     )
     mesh = fs.read(tmp_path / "one.inp")
     mesh.unit = "mm"
-    expected = "one.msh does not hold the facet group 'PRESSED'; the cards of the deck .*; the unit 'mm'"
+    expected = "one.msh does not hold the facet group 'PRESSED'; the unit 'mm'; the cards of the deck .*"
     with pytest.warns(UserWarning, match=expected):
         fs.write(mesh, tmp_path / "one.msh")
 

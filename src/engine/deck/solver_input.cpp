@@ -157,6 +157,16 @@ Index SolverInput::largest_other_element() const {
     return largest;
 }
 
+std::shared_ptr<const Companion> SolverInput::with_renamed_group(GroupKind kind, const std::string& old_name,
+                                                                 const std::string& new_name) const {
+    const auto holds = [&](const DeckSet& set) { return group_kind(set.type) == kind && set.group == old_name; };
+    if (std::ranges::none_of(sets_, holds)) return nullptr;
+    auto renamed = std::make_shared<SolverInput>(*this);
+    for (DeckSet& set : renamed->sets_)
+        if (holds(set)) set.group = new_name;
+    return renamed;
+}
+
 bool CardReader::next_line() {
     check_();
     while (piece_ < card_->text.size()) {

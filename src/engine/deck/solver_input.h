@@ -126,6 +126,10 @@ public:
 
     Index largest_other_element() const override;
 
+    /// The set keeps its name, which the cards name it by, and holds the group.
+    std::shared_ptr<const Companion> with_renamed_group(GroupKind kind, const std::string& old_name,
+                                                        const std::string& new_name) const override;
+
 private:
     std::vector<Card> cards_;
     std::vector<DeckSet> sets_;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cancel.h"
-#include "deck/solver_input.h"
 #include "error.h"
 #include "io/bdf.h"
 #include "io/bdf_sets.h"
@@ -220,7 +219,6 @@ std::vector<std::string> bdf_losses(const Mesh& mesh) {
              << ")";
         out.push_back(text.str());
     }
-    if (solver_input(mesh)) out.emplace_back("the cards of the deck the mesh was read from");
     if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
     return out;
 }

@@ -27,6 +27,7 @@ struct Format {
     std::vector<std::string> (*losses)(const Mesh&) = nullptr;
 
     bool fields = false;  ///< its files hold fields
+    bool deck = false;    ///< its files hold the deck the mesh was read from
 
     /// The extensions without the empty ones.
     std::span<const std::string_view> extensions() const;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -70,5 +72,9 @@ Mesh read_inp(const std::filesystem::path& path);
 /// elements that take the number or lack the node of an OtherElement, and when the file cannot be written; the file is
 /// then as it was before.
 void write_inp(const Mesh& mesh, const std::filesystem::path& path);
+
+/// What of a mesh a deck does not hold, a line each: the unit, and the new names of groups that the deck's cards go on
+/// naming by their sets' names.
+std::vector<std::string> inp_losses(const Mesh& mesh);
 
 }  // namespace femscalpel

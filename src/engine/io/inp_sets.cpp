@@ -10,6 +10,7 @@
 #include "deck/deck_view.h"
 #include "deck/solver_element.h"
 #include "error.h"
+#include "io/inp.h"
 
 namespace femscalpel {
 namespace {
@@ -266,6 +267,19 @@ void put_in_order(const SolverInput& input, const DeckSetIndex& index, const Dec
         const auto found = place.find(node);
         return found == place.end() ? place.size() : found->second;
     });
+}
+
+std::vector<std::string> inp_losses(const Mesh& mesh) {
+    std::vector<std::string> out;
+    if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
+    if (const SolverInput* deck = solver_input(mesh))
+        for (const DeckSet& set : deck->sets()) {
+            const bool beside = set.type == DeckSetType::node_surface && set.group.starts_with(set.name + "_SURFACE");
+            if (set.group != set.name && !beside && mesh.find_group(set.group, group_kind(set.type)))
+                out.push_back("the name '" + set.group + "', as the deck's cards name that " +
+                              std::string(to_string(set.type)) + " '" + set.name + "'");
+        }
+    return out;
 }
 
 }  // namespace femscalpel

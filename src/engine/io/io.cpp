@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "deck/solver_input.h"
 #include "error.h"
 #include "fields/field.h"
 #include "io/formats.h"
@@ -51,6 +52,7 @@ std::vector<std::string> losses(const Mesh& mesh, const std::filesystem::path& p
     const Format* format = format_of(path);
     if (!format) return {};
     std::vector<std::string> out = format->losses ? format->losses(mesh) : std::vector<std::string>();
+    if (solver_input(mesh) && !format->deck) out.emplace_back("the cards of the deck the mesh was read from");
     if (mesh.fields && !format->fields)
         for (const Field& field : mesh.fields->fields) out.push_back("the field '" + field.name + "'");
     return out;

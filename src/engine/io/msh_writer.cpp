@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cancel.h"
-#include "deck/solver_input.h"
 #include "error.h"
 #include "io/inp_file.h"
 #include "io/inp_numbers.h"
@@ -280,7 +279,6 @@ std::vector<std::string> msh_losses(const Mesh& mesh) {
     std::vector<std::string> out;
     for (const Group& group : mesh.groups)
         if (!group.hidden && group.kind == GroupKind::facet) out.push_back("the facet group '" + group.name + "'");
-    if (solver_input(mesh)) out.emplace_back("the cards of the deck the mesh was read from");
     if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
     return out;
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cancel.h"
-#include "deck/solver_input.h"
 #include "error.h"
 #include "io/group_numbers.h"
 #include "io/inp_file.h"
@@ -156,7 +155,6 @@ std::vector<std::string> unv_losses(const Mesh& mesh) {
         if (group.kind == GroupKind::node && !filled[g])
             out.push_back("that the empty group '" + group.name + "' is one of nodes");
     }
-    if (solver_input(mesh)) out.emplace_back("the cards of the deck the mesh was read from");
     if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
     return out;
 }

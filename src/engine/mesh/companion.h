@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "mesh/mesh.h"
 
 namespace femscalpel {
@@ -16,6 +19,13 @@ public:
     /// Largest number of an element that the file has and the mesh has not; 0 without any. New elements must not
     /// get its number.
     virtual Index largest_other_element() const = 0;
+
+    /// What it is once the group `old_name` of this kind is called `new_name`; null where it says nothing of that
+    /// group.
+    virtual std::shared_ptr<const Companion> with_renamed_group(GroupKind /*kind*/, const std::string& /*old_name*/,
+                                                                const std::string& /*new_name*/) const {
+        return nullptr;
+    }
 
 protected:
     Companion(const Companion&) = default;

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "mesh/companion.h"
 
 namespace femscalpel {
 
@@ -414,6 +415,17 @@ void assign_groups(Mesh& mesh, std::span<const GroupMembers> members) {
     for (int t = 0; t < cell_type_count; ++t)
         mesh.blocks()[t].families.assign(cells.begin() + first_cell[t], cells.begin() + first_cell[t + 1]);
     mesh.facets = facets_of(std::move(in_facets), mesh.families);
+}
+
+void rename_group(Mesh& mesh, GroupIndex group, const std::string& name) {
+    Group& renamed = mesh.groups.at(static_cast<std::size_t>(group));
+    const auto taken = mesh.find_group(name, renamed.kind);
+    if (taken && *taken != group)
+        throw Error("the mesh already has a " + std::string(to_string(renamed.kind)) + " group '" + name + "'");
+    if (mesh.companion)
+        if (auto companion = mesh.companion->with_renamed_group(renamed.kind, renamed.name, name))
+            mesh.companion = std::move(companion);
+    renamed.name = name;
 }
 
 void remove_group(Mesh& mesh, GroupIndex group) {

@@ -164,6 +164,10 @@ void set_group_members(Mesh& mesh, GroupIndex group, const GroupMembers& members
 /// mesh plus the total number of members. `members[g]` goes with `mesh.groups[g]`.
 void assign_groups(Mesh& mesh, std::span<const GroupMembers> members);
 
+/// Gives a group another name, also in what the mesh's companion says of it. Throws Error when another group of its
+/// kind has that name.
+void rename_group(Mesh& mesh, GroupIndex group, const std::string& name);
+
 /// Removes a group and its memberships; indices of later groups drop by one.
 void remove_group(Mesh& mesh, GroupIndex group);
 

@@ -321,6 +321,12 @@ class Mesh:
         return tuple(self._engine_mesh.input_warnings())
 
     @property
+    def has_deck(self) -> bool:
+        """Whether the mesh carries the cards of the CalculiX or Abaqus input file it was read from;
+        :func:`femscalpel.write` writes them to .inp."""
+        return self._engine_mesh.has_solver_input
+
+    @property
     def dimension(self) -> int:
         """Largest dimension of any element, 0 to 3; -1 without elements."""
         return self._engine_mesh.dimension
@@ -372,7 +378,10 @@ class Mesh:
         self._engine_mesh.remove_group(group.name, group.kind)
 
     def rename_group(self, old: str, new: str, kind: Optional[str] = None) -> Group:
-        """Renames a group. Raises KeyError when there is none, :class:`femscalpel.Error` when `new` is taken."""
+        """Renames a group. In a deck that the mesh was read from the set keeps the name that cards name it by.
+
+        Raises KeyError when there is none, :class:`femscalpel.Error` when `new` is taken.
+        """
         group = self._find(old, kind)
         self._engine_mesh.rename_group(group.name, _arguments.text(new, "new"), group.kind)
         return Group(self._engine_mesh, new, group.kind)

@@ -43,7 +43,7 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     """
     file = _arguments.path(path, "path")
     out = Mesh._wrap(_engine.read(file, "" if mesh is None else _arguments.text(mesh, "mesh")))
-    if out.input_warnings and (out.instances or not out._engine_mesh.has_solver_input):
+    if out.input_warnings and (out.instances or not out.has_deck):
         warnings.warn("\n".join(out.input_warnings), stacklevel=2)
     names = _engine.meshes_in(file) if mesh is None else []
     if len(names) > 1:
@@ -65,8 +65,8 @@ def meshes_in(path: Path) -> List[str]:
 def write(mesh: Mesh, path: Path) -> None:
     """Writes a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
-    The file is complete or, after an error, what it was before. What a format other than .med cannot hold - facet
-    groups, the cards of a deck, the unit, fields - is told in a UserWarning.
+    The file is complete or, after an error, what it was before. What a format cannot hold - facet groups, the cards of
+    a deck (but in .inp), the unit and fields (but in .med) - is told in a UserWarning.
 
     Raises :class:`femscalpel.WriteError` when the file cannot be written or its format cannot hold the mesh.
     """
