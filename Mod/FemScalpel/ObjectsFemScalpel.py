@@ -11,11 +11,9 @@
 
 import FreeCAD
 
-import femmesh_bridge
-import femscalpel
 import femscalpel_documents
 from femscalpel.signatures import takes
-from femscalpelobjects import following, operator_options, tool_properties
+from femscalpelobjects import following, imported, operator_options, tool_properties
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.curved_crack import CurvedCrack
@@ -433,18 +431,61 @@ def followGeometry(obj, geometry, offset=None):
         following.unlink(obj)
 
 
-def exportMesh(obj, path):
-    """Writes the mesh of `obj` with its groups and numbers to a file whose ending says the format.
+def importMesh(doc, path, name=None, mesh=None):
+    """Adds the mesh of a file with its groups to `doc`, as a mesh object.
 
-    femscalpel.formats() lists them. Raises femscalpel.WriteError when the file cannot be written or no format has its
-    ending. In FreeCAD's window it is written on another thread; femscalpel.Cancelled when the user ends that.
+    femscalpel.formats() lists the files that can be read. What a FemMesh cannot hold - a deck's cards, fields, groups
+    of element faces, point elements, the file's numbers - is kept in the document: what FemScalpel makes of the mesh is
+    made of the whole, and exportMesh() writes it.
+
+    Parameters
+    ----------
+    doc : App.Document
+    path : str
+    name : str, optional
+        Of the new object; the file's when not given.
+    mesh : str, optional
+        Which mesh of a MED file that holds several; the first when not given.
+
+    Returns
+    -------
+    App.DocumentObject
+        A Fem::FemMeshObject. One step to undo.
+
+    Raises
+    ------
+    femscalpel.ReadError
+        The file cannot be read; with file and line.
+    femscalpel.WriteError
+        A FemMesh cannot hold its elements.
+    femscalpel.Cancelled
+        In FreeCAD's window, where it is read on another thread, when the user ends that.
+    """
+    if FreeCAD.GuiUp:
+        from femscalpelgui import importing
+
+        read = importing.read(path, mesh)
+    else:
+        read = imported.read(path, mesh)
+    return imported.add(doc, path, *read, name)
+
+
+def exportMesh(obj, path):
+    """Writes the mesh of `obj` with its groups and numbers to a file whose ending says the format; of a mesh that was
+    imported by importMesh(), or is made of one, also what else its file held: the cards of a deck go into an .inp.
+
+    femscalpel.formats() lists the formats. What the file does not hold is told in the report view. Raises
+    femscalpel.WriteError when the file cannot be written or no format has its ending. In FreeCAD's window it is written
+    on another thread; femscalpel.Cancelled when the user ends that.
     """
     if FreeCAD.GuiUp:
         from femscalpelgui import exporting
 
-        exporting.write(obj.FemMesh, path)
+        said = exporting.write(obj, path)
     else:
-        femscalpel.write(femmesh_bridge.from_femmesh(obj.FemMesh), path)
+        said = imported.export(obj, path)
+    for sentence in said:
+        FreeCAD.Console.PrintWarning(f"{obj.Label}: {sentence}\n")
 
 
 def openExample():

@@ -93,34 +93,35 @@ def from_femmesh(femmesh):
     return femscalpel.Mesh(points, cells, node_ids, cell_ids, _read_groups(femmesh, known))
 
 
-def to_femmesh(mesh, as_node_groups=(), points=None, into=None, progress=None):
+def to_femmesh(mesh, as_node_groups=(), points=None, into=None, progress=None, tell=None):
     """A Fem.FemMesh with the nodes, elements, numbers and groups of a femscalpel.Mesh.
 
     `as_node_groups` names element groups whose elements are not added; their nodes form a node group of that name.
     `points`, (n, 3), are used in place of the mesh's own coordinates. `into` is an empty FemMesh to fill in place of a
     new one; progress(fraction) is called now and then, and may raise. See the module's text for what a FemMesh cannot
-    hold. Raises femscalpel.WriteError.
+    hold; tell(sentence) hears of it, FreeCAD's report view where that is None. Raises femscalpel.WriteError.
     """
+    say = _warn if tell is None else tell
     cells, cell_ids = mesh.cells, mesh.cell_ids
     _check_addable(mesh)
     left_out = [mesh.groups[name, "element"].ids for name in as_node_groups]
     left_out = np.unique(np.concatenate(left_out)) if left_out else np.empty(0, np.int64)
 
     femmesh = Fem.FemMesh() if into is None else into
-    tell = _Fractions(progress, mesh.node_count + mesh.cell_count)
+    done = _Fractions(progress, mesh.node_count + mesh.cell_count)
     x, y, z = (mesh.points if points is None else points).T.tolist()
     numbers = mesh.node_ids.astype(object)  # one Python integer per node, however many elements name it
     for begin in range(0, len(x), _CHUNK):
         part = slice(begin, begin + _CHUNK)
         _for_each(femmesh.addNode, x[part], y[part], z[part], numbers[part])
-        tell(len(x[part]))
+        done(len(x[part]))
     add = {1: femmesh.addEdge, 2: femmesh.addFace, 3: femmesh.addVolume}
     dimension_of = _Dimensions()
     for name, connectivity in cells.items():
         dimension = CELL_TYPES[name][0]
         ids = cell_ids[name]
         if dimension == 0:
-            _warn(f"{len(ids)} point elements are left out: a FemMesh has no means to add them")
+            say(f"{len(ids)} point elements are left out: a FemMesh has no means to add them")
             left_out = np.union1d(left_out, ids)
             continue
         if left_out.size:
@@ -134,12 +135,12 @@ def to_femmesh(mesh, as_node_groups=(), points=None, into=None, progress=None):
         for begin in range(0, len(ids), _CHUNK):
             part = slice(begin, begin + _CHUNK)
             _for_each(add[dimension], numbers[connectivity[part]].tolist(), ids[part].tolist())
-            tell(len(ids[part]))
+            done(len(ids[part]))
 
     for group in mesh.groups.all():
-        tell(0)
+        done(0)
         if group.kind == "facet":
-            _warn(f"facet group '{group.name}' is left out: a FemMesh has no groups of element faces")
+            say(f"facet group '{group.name}' is left out: a FemMesh has no groups of element faces")
         elif group.kind == "node":
             _add_group(femmesh, group.name, "Node", group.ids)
         elif group.name in as_node_groups:

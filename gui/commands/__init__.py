@@ -12,6 +12,7 @@ from .export import Export
 from .face_crack import FaceCrack
 from .fillet import Fillet
 from .group_inspector import GroupInspector
+from .import_mesh import ImportMesh
 from .incision import Incision
 from .merge import Merge
 from .mesh_quality import MeshQuality
@@ -33,6 +34,7 @@ COMMANDS = (
     None,
     GroupInspector,
     MeshQuality,
+    ImportMesh,
     Export,
 )
 #: In the menu alone, after the others.

@@ -6,6 +6,7 @@ from PySide import QtCore
 
 import femmesh_bridge
 from femscalpelobjects.merge import as_added
+from femscalpelobjects.whole import whole_of
 
 from ..translate import translate
 from ..view import picking
@@ -18,13 +19,14 @@ class Addition:
 
     def __init__(self, obj, source_object):
         self.name = obj.Name
-        self._femmesh, self._source = obj.FemMesh, source_object.FemMesh
+        self._object, self._femmesh, self._source = obj, obj.FemMesh, source_object.FemMesh
         self._mesh = self._surface = None
 
     def mesh(self):
         """The femscalpel.Mesh."""
         if self._mesh is None:
-            self._mesh = as_added(femmesh_bridge.from_femmesh(self._femmesh), self._source)
+            mesh = whole_of(self._object) or femmesh_bridge.from_femmesh(self._femmesh)
+            self._mesh = as_added(mesh, self._source)
             self._surface = PreviewSource(self._mesh).whole()
         return self._mesh
 

@@ -10,6 +10,7 @@ from pivy import coin
 import femmesh_bridge
 import femscalpel
 from femscalpelobjects import contents
+from femscalpelobjects.whole import whole_of
 
 from .. import help
 from ..latest_wins import LatestWins
@@ -100,9 +101,10 @@ class ViewPanel(QtCore.QObject):
         help.show(self.page())
 
     def read_mesh(self, femmesh):
-        """The PreviewSource of a FemMesh; called on another thread."""
-        source = PreviewSource(femmesh_bridge.from_femmesh(femmesh))
-        source.digest = contents.digest_of_mesh(source.mesh)
+        """The PreviewSource of the FemMesh of the source object; called on another thread."""
+        mesh = femmesh_bridge.from_femmesh(femmesh)
+        source = PreviewSource(whole_of(self.source_object) or mesh)
+        source.digest = contents.digest_of_mesh(mesh)
         return source
 
     def loaded(self):

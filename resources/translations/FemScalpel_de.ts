@@ -303,6 +303,10 @@
       <translation>%1 kleinere</translation>
     </message>
     <message>
+      <source>%1 was read.</source>
+      <translation>%1 wurde gelesen.</translation>
+    </message>
+    <message>
       <source>%1 was written.</source>
       <translation>%1 wurde geschrieben.</translation>
     </message>
@@ -409,6 +413,10 @@
     <message>
       <source>Cancelled: nothing was changed.</source>
       <translation>Abgebrochen: nichts wurde geändert.</translation>
+    </message>
+    <message>
+      <source>Cancelled: nothing was imported.</source>
+      <translation>Abgebrochen: Nichts wurde importiert.</translation>
     </message>
     <message>
       <source>Centre</source>
@@ -607,6 +615,10 @@
       <translation>Wie Knoten bewegt werden, welche, und was seine Form behalten muss</translation>
     </message>
     <message>
+      <source>Import mesh</source>
+      <translation>Netz importieren</translation>
+    </message>
+    <message>
       <source>Incision</source>
       <translation>Einschnitt</translation>
     </message>
@@ -645,6 +657,10 @@
     <message>
       <source>Mesh: %1</source>
       <translation>Netz: %1</translation>
+    </message>
+    <message>
+      <source>Meshes</source>
+      <translation>Netze</translation>
     </message>
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
@@ -733,6 +749,10 @@
     <message>
       <source>Radius of the sphere</source>
       <translation>Radius der Kugel</translation>
+    </message>
+    <message>
+      <source>Reading the file…</source>
+      <translation>Die Datei wird gelesen…</translation>
     </message>
     <message>
       <source>Reading the mesh…</source>
@@ -861,6 +881,10 @@
     <message>
       <source>The document has no other FEM mesh. Draw the part to add, and mesh it in the FEM workbench, or import a mesh file.</source>
       <translation>Das Dokument hat kein anderes FEM-Netz. Zeichnen Sie das Teil, das hinzukommt, und vernetzen Sie es im Arbeitsbereich FEM, oder importieren Sie eine Netzdatei.</translation>
+    </message>
+    <message>
+      <source>The file holds %1 meshes. Which one?</source>
+      <translation>Die Datei enthält %1 Netze. Welches?</translation>
     </message>
     <message>
       <source>The mesh has %1 pieces now, %3 before: %2.</source>
@@ -1671,6 +1695,21 @@
     <message>
       <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
       <translation>Zeigt die Gruppen eines FEM-Netzes, was sie umfassen und was sie verwendet</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_ImportMesh</name>
+    <message>
+      <source>Import mesh…</source>
+      <translation>Netz importieren…</translation>
+    </message>
+    <message>
+      <source>Reads a FEM mesh with its groups from a file, and keeps what else the file holds</source>
+      <translation>Liest ein FEM-Netz mit seinen Gruppen aus einer Datei und bewahrt, was die Datei sonst enthält</translation>
+    </message>
+    <message>
+      <source>Reads a mesh with its groups from a file. Cards of a CalculiX deck, fields and groups of element faces are kept in the document, and Export writes them, after cracks and holes too.</source>
+      <translation>Liest ein Netz mit seinen Gruppen aus einer Datei. Karten einer CalculiX-Eingabe, Felder und Gruppen von Elementflächen bleiben im Dokument, und Exportieren schreibt sie, auch nach Rissen und Bohrungen.</translation>
     </message>
   </context>
   <context>

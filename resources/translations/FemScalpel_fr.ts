@@ -303,6 +303,10 @@
       <translation>%1 plus petits</translation>
     </message>
     <message>
+      <source>%1 was read.</source>
+      <translation>%1 a été lu.</translation>
+    </message>
+    <message>
       <source>%1 was written.</source>
       <translation>%1 a été écrit.</translation>
     </message>
@@ -409,6 +413,10 @@
     <message>
       <source>Cancelled: nothing was changed.</source>
       <translation>Annulé : rien n’a été modifié.</translation>
+    </message>
+    <message>
+      <source>Cancelled: nothing was imported.</source>
+      <translation>Annulé : rien n’a été importé.</translation>
     </message>
     <message>
       <source>Centre</source>
@@ -607,6 +615,10 @@
       <translation>Comment les nœuds sont déplacés, lesquels, et ce qui doit garder sa forme</translation>
     </message>
     <message>
+      <source>Import mesh</source>
+      <translation>Importer un maillage</translation>
+    </message>
+    <message>
       <source>Incision</source>
       <translation>Incision</translation>
     </message>
@@ -645,6 +657,10 @@
     <message>
       <source>Mesh: %1</source>
       <translation>Maillage : %1</translation>
+    </message>
+    <message>
+      <source>Meshes</source>
+      <translation>Maillages</translation>
     </message>
     <message>
       <source>No group of the mesh covers faces inside it (of a shell: edges). Make one of them, or of their nodes, first.</source>
@@ -733,6 +749,10 @@
     <message>
       <source>Radius of the sphere</source>
       <translation>Rayon de la sphère</translation>
+    </message>
+    <message>
+      <source>Reading the file…</source>
+      <translation>Lecture du fichier…</translation>
     </message>
     <message>
       <source>Reading the mesh…</source>
@@ -861,6 +881,10 @@
     <message>
       <source>The document has no other FEM mesh. Draw the part to add, and mesh it in the FEM workbench, or import a mesh file.</source>
       <translation>Le document n'a pas d'autre maillage EF. Dessinez la pièce à ajouter et maillez-la dans l'atelier FEM, ou importez un fichier de maillage.</translation>
+    </message>
+    <message>
+      <source>The file holds %1 meshes. Which one?</source>
+      <translation>Le fichier contient %1 maillages. Lequel ?</translation>
     </message>
     <message>
       <source>The mesh has %1 pieces now, %3 before: %2.</source>
@@ -1671,6 +1695,21 @@
     <message>
       <source>Shows the groups of a FEM mesh, what they cover and what uses them</source>
       <translation>Montre les groupes d'un maillage EF, ce qu'ils couvrent et ce qui les utilise</translation>
+    </message>
+  </context>
+  <context>
+    <name>FemScalpel_ImportMesh</name>
+    <message>
+      <source>Import mesh…</source>
+      <translation>Importer un maillage…</translation>
+    </message>
+    <message>
+      <source>Reads a FEM mesh with its groups from a file, and keeps what else the file holds</source>
+      <translation>Lit un maillage EF avec ses groupes dans un fichier, et garde ce que le fichier contient d’autre</translation>
+    </message>
+    <message>
+      <source>Reads a mesh with its groups from a file. Cards of a CalculiX deck, fields and groups of element faces are kept in the document, and Export writes them, after cracks and holes too.</source>
+      <translation>Lit un maillage avec ses groupes dans un fichier. Les cartes d’un jeu de données CalculiX, les champs et les groupes de faces d’éléments restent dans le document, et Exporter les écrit, même après fissures et perçages.</translation>
     </message>
   </context>
   <context>

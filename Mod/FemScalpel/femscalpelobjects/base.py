@@ -10,7 +10,7 @@ import numpy as np
 import femmesh_bridge
 import femscalpel
 
-from . import contents, extents, following, pieces
+from . import contents, extents, following, pieces, whole
 from .geometry import shapes_of
 from .memory import Made, Shown, memory
 from .mesh_parts import nodes_around
@@ -205,7 +205,7 @@ class MeshOperation:
         try:
             made, is_new = self._made(obj, inputs)
         except (femscalpel.Error, ValueError, TypeError) as error:
-            made = Made(inputs, None, b"none", error=f"{obj.Label}: {error}")
+            made = Made(inputs, None, b"none", error=f"{obj.Label}: {whole.shortened(str(error), obj.Document)}")
             memory.keep(obj.Document, made)
             self._give(obj, made, error)
         except Exception:
@@ -292,10 +292,18 @@ class MeshOperation:
         result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
         tell("shape")
         points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
-        report = self._completed(result.report, on_shape)
+        report = self._completed(result.report, on_shape, obj.Document)
         self._check_names(obj, report)
         groups = self._node_groups(obj.Source.FemMesh, report)
-        femmesh_bridge.to_femmesh(result.mesh, groups, points, femmesh, lambda part: tell("femmesh", part))
+        is_whole = whole.of_imported(obj.Source)
+        femmesh_bridge.to_femmesh(
+            result.mesh,
+            groups,
+            points,
+            femmesh,
+            lambda part: tell("femmesh", part),
+            (lambda lost: None) if is_whole else None,
+        )
         token = inputs + (surroundings or contents.unique())
         parting = None
         if self.TELLS_PIECES:
@@ -310,7 +318,22 @@ class MeshOperation:
             report,
             picture=crack_shape(result.mesh, report.name, points) if FreeCAD.GuiUp else None,
             parting=parting,
+            whole=result.mesh if is_whole and np.array_equal(points, result.mesh.points) else None,
         )
+
+    def whole_of(self, obj):
+        """See whole.whole_of()."""
+        made = memory.of(obj.Document, self.shown.inputs) if self.shown is not None else None
+        if made is not None and made.token == self.shown.token and made.whole is not None:
+            return made.whole
+        mesh = whole.whole_of(obj.Source) if obj.Source is not None else None
+        if mesh is None:
+            return None
+        tools = self.tools(obj)
+        result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
+        points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
+        is_same = np.array_equal(points, result.mesh.points) and whole.is_shown(result.mesh, obj.FemMesh)
+        return result.mesh if is_same else None
 
     def _result(self, obj, mesh, tools, near):
         marked = mesh.copy()
@@ -335,7 +358,7 @@ class MeshOperation:
         return other.FemMesh
 
     @staticmethod
-    def _completed(report, on_shape):
+    def _completed(report, on_shape, document):
         """The operator's report without the bookkeeping groups of `on_shape`, with its warnings."""
         lost = [
             f"{line}: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is "
@@ -345,7 +368,7 @@ class MeshOperation:
         return dataclasses.replace(
             report,
             groups=[g for g in report.groups if g.name not in on_shape.group_names],
-            warnings=report.warnings + lost,
+            warnings=[whole.shortened(warning, document) for warning in report.warnings] + lost,
         )
 
     @staticmethod

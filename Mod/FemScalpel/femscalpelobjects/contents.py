@@ -17,6 +17,7 @@ import femscalpel
 from .following import FOLLOW_PROPERTIES, problem_of
 from .geometry import shapes_of
 from .ours import is_ours
+from .whole import PROPERTY, whole_of
 
 #: Properties that are no inputs; the first is FreeCAD's own, from 1.0 on, and changes with the mesh.
 ASIDE = {
@@ -28,6 +29,7 @@ ASIDE = {
     "ExpressionEngine",
     "Placement",
     "Proxy",
+    PROPERTY,
     "Replaced",
     "ReplacedAdditions",
     *FOLLOW_PROPERTIES,
@@ -67,8 +69,12 @@ def surroundings_of(obj):
 
 
 def read_mesh(obj):
-    """The femscalpel.Mesh of a mesh object. Raises as femmesh_bridge.from_femmesh()."""
+    """The femscalpel.Mesh of a mesh object, the whole of it where it was imported: see whole.py. Raises as
+    femmesh_bridge.from_femmesh()."""
     mesh = _read.pop(_key(obj), None)
+    entire = whole_of(obj)
+    if entire is not None:
+        return entire
     return femmesh_bridge.from_femmesh(obj.FemMesh) if mesh is None else mesh
 
 

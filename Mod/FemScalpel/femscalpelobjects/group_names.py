@@ -45,6 +45,12 @@ def rename_group(obj, old, new, kind=None):
         follow(obj)
 
 
+def names_of(obj):
+    """The groups of the mesh that were renamed: (kind, first name, name now)."""
+    names = dict(getattr(obj, _PROPERTY)) if _PROPERTY in obj.PropertiesList else {}
+    return [(*key.split(":", 1), now) for key, now in names.items()]
+
+
 def follow(obj):
     """Gives the groups of the mesh the names the object's property says."""
     wanted = dict(getattr(obj, _PROPERTY)) if _PROPERTY in obj.PropertiesList else {}

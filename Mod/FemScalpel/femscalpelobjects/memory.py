@@ -30,13 +30,15 @@ class Made:
     report: Any = None
     error: str = ""  #: of a failure
     picture: Any = None  #: in the window, femscalpelgui.view.crack_lines.CrackShape
+    whole: Any = None  #: femscalpel.Mesh with what its FemMesh does not hold, where the source has that: see whole.py
     parting: Any = None  #: pieces.Parting, where the mesh is in more pieces than the source
 
     @property
     def weight(self):
         """Nodes and elements."""
-        mesh = self.femmesh
-        return 1 if mesh is None else 1 + mesh.NodeCount + mesh.EdgeCount + mesh.FaceCount + mesh.VolumeCount
+        mesh, rest = self.femmesh, self.whole
+        count = 0 if mesh is None else mesh.NodeCount + mesh.EdgeCount + mesh.FaceCount + mesh.VolumeCount
+        return 1 + count + (0 if rest is None else rest.node_count + rest.cell_count)
 
 
 #: Of an object that cannot be computed as what it is made from has no mesh: it has none, and no error of its own.

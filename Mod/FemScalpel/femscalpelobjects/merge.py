@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Document object: a FEM mesh with another one added to it."""
 
-import femmesh_bridge
 import femscalpel
 
-from . import operator_options
+from . import contents, operator_options
 from .base import MeshOperation
 from .mesh_parts import nodes_in_box, without_skin_elements
 
@@ -68,7 +67,8 @@ class Merge(MeshOperation):
     def operate(self, obj, mesh, tools):
         if obj.Addition == obj.Source:
             raise ValueError("Addition and Source are the same mesh; choose another mesh to add")
-        addition = as_added(femmesh_bridge.from_femmesh(self.mesh_of(obj, "Addition")), obj.Source.FemMesh)
+        self.mesh_of(obj, "Addition")
+        addition = as_added(contents.read_mesh(obj.Addition), obj.Source.FemMesh)
         return femscalpel.merge(
             mesh,
             addition,

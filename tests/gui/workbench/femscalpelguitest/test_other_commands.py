@@ -618,6 +618,88 @@ class Export(GuiTest):
         )
 
 
+class Import(GuiTest):
+    """From a file to a file, with what FreeCAD's mesh does not hold."""
+
+    CARDS = "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*SOLID SECTION, ELSET=CORE, MATERIAL=STEEL\n"
+
+    def open(self, path, chosen=None):
+        """Imports a file by the command, whose dialogs answer so; returns the filters that were offered."""
+        offered = []
+        dialogs = QtGui.QFileDialog.getOpenFileName, QtGui.QInputDialog.getItem
+
+        def answer(parent, title, folder, filters):
+            offered.extend(filters.split(";;"))
+            return path, filters.split(";;")[0]
+
+        QtGui.QFileDialog.getOpenFileName = staticmethod(answer)
+        QtGui.QInputDialog.getItem = staticmethod(lambda *args: (chosen, chosen is not None))
+        try:
+            FreeCADGui.runCommand("FemScalpel_ImportMesh")
+        finally:
+            QtGui.QFileDialog.getOpenFileName, QtGui.QInputDialog.getItem = dialogs
+        return offered
+
+    def test_a_deck_cracked_and_exported(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, out = os.path.join(folder, "bar.inp"), os.path.join(folder, "out.inp")
+            fs.write(long_box(), path)
+            with open(path, "a") as file:
+                file.write(self.CARDS)
+            offered = self.open(path)
+            self.assertIn("*.inp", offered[0])
+            self.assertEqual(len(offered), 1 + sum(f.reads for f in fs.formats()))
+            mesh = self.doc.getObject("bar")
+            self.assertEqual(mesh.FemMesh.VolumeCount, sum(len(c) for t, c in long_box().cells.items() if "tetra" in t))
+            self.assertEqual(FreeCADGui.Selection.getSelection(), [mesh])
+            self.run_command("FemScalpel_Crack")
+            self.wait_for_preview()
+            screenshot("imported_crack")
+            press_ok()
+            from femscalpelgui.commands.export import Export as Command
+
+            Command.write(self.doc.Crack, out)
+            with open(out) as file:
+                self.assertIn(self.CARDS, file.read())
+            self.assertIn("CRACK_P", fs.read(out).groups)
+            self.doc.undo()
+            self.doc.undo()
+            self.assertEqual(self.doc.Objects, [])
+
+    def test_into_a_new_document(self):
+        before = set(FreeCAD.listDocuments())
+        active = FreeCAD.ActiveDocument.Name
+        with tempfile.TemporaryDirectory() as folder:
+            path, bad = os.path.join(folder, "bar.med"), os.path.join(folder, "bad.med")
+            fs.write(long_box(), path)
+            with open(bad, "w") as file:
+                file.write("nothing of the kind")
+            FreeCAD.setActiveDocument("")
+            FreeCAD.closeDocument(active)
+            try:
+                said = self.refusal(lambda: self.open(bad))
+                self.assertIn("bad.med", said)
+                self.assertEqual(set(FreeCAD.listDocuments()), before - {active})
+                self.open(path)
+                (name,) = set(FreeCAD.listDocuments()) - (before - {active})
+                self.assertEqual([o.Label for o in FreeCAD.getDocument(name).Objects], ["bar"])
+                FreeCAD.closeDocument(name)
+            finally:
+                self.doc = FreeCAD.newDocument(active)
+
+    def refusal(self, action):
+        """What the message box says that `action` brings up."""
+        said = []
+        warning = QtGui.QMessageBox.warning
+        QtGui.QMessageBox.warning = staticmethod(lambda parent, title, text: said.append(text))
+        try:
+            action()
+        finally:
+            QtGui.QMessageBox.warning = warning
+        self.assertEqual(len(said), 1)
+        return said[0]
+
+
 class Preferences(GuiTest):
     def test_page(self):
         seen = []

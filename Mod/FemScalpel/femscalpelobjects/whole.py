@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Meshes with what a FemMesh does not hold: a deck's cards, fields, groups of element faces, point elements, the numbers
+of the file.
+
+A mesh that was imported has its file in the document, whole. What FemScalpel makes of such a mesh is made of that, and is
+exported with it: the cards of a deck come out again after a crack and a hole.
+"""
+
+import os
+import tempfile
+from itertools import chain
+
+import numpy as np
+
+import femscalpel
+from femscalpel.mesh import CELL_TYPES
+
+from .group_names import names_of
+from .ours import is_ours
+
+#: The property of a mesh object that holds the file.
+PROPERTY = "WholeMesh"
+_OUTPUT = 8
+# Of the mesh's size: nodes that differ by less are where they were.
+_SAME = 1e-9
+# Along which nodes are compared: the axes, and some that no model knows.
+_DIRECTIONS = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.31, 0.59, 0.74), (-0.67, 0.36, 0.65)]).T
+
+
+def keep(obj, mesh):
+    """Puts a femscalpel.Mesh into the document, as the whole of the mesh that `obj` shows."""
+    if PROPERTY not in obj.PropertiesList:
+        text = "The file of the mesh, whole: with what FreeCAD's FemMesh cannot hold"
+        obj.addProperty("App::PropertyFileIncluded", PROPERTY, "FEM Mesh", text, _OUTPUT)
+        obj.setEditorMode(PROPERTY, 1)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, obj.Name + (".inp" if mesh.has_deck else ".med"))
+        femscalpel.write(mesh, path)
+        setattr(obj, PROPERTY, path)
+
+
+def whole_of(obj):
+    """The whole femscalpel.Mesh of a mesh object, or None where nothing is known of it but its FemMesh, or that is
+    another one by now: moved, changed by hand, or made of such a mesh.
+
+    Of an object of FemScalpel it is made anew where it is not remembered. Raises femscalpel.Error.
+    """
+    if is_ours(obj):
+        return obj.Proxy.whole_of(obj)
+    path = getattr(obj, PROPERTY, "")
+    if not path:
+        return None
+    mesh = femscalpel.read(path)
+    for kind, old, new in names_of(obj):
+        mesh.rename_group(old, new, kind)
+    return mesh if is_shown(mesh, obj.FemMesh) else None
+
+
+def is_shown(mesh, femmesh):
+    """Whether a FemMesh is that of a femscalpel.Mesh: nodes and elements of the highest dimension as many, and nodes in
+    the same places. Not with the same numbers: FreeCAD gives new ones when it saves a document, and what is made anew of
+    properties that were saved, with 16 digits, may count its nodes in another order."""
+    elements = {3: femmesh.VolumeCount, 2: femmesh.FaceCount, 1: femmesh.EdgeCount}.get(mesh.dimension, 0)
+    highest = [len(ids) for name, ids in mesh.cell_ids.items() if CELL_TYPES[name][0] == mesh.dimension]
+    if mesh.node_count != femmesh.NodeCount or sum(highest) != elements:
+        return False
+    there = np.fromiter(chain.from_iterable(femmesh.Nodes.values()), float, 3 * femmesh.NodeCount).reshape(-1, 3)
+    size = np.ptp(mesh.points, axis=0).max(initial=0.0)
+    away = np.sort(mesh.points @ _DIRECTIONS, axis=0) - np.sort(there @ _DIRECTIONS, axis=0)
+    return bool((abs(away) <= _SAME * size).all())
+
+
+def of_imported(obj):
+    """Whether a mesh object was imported, or made of meshes of which the first was."""
+    while is_ours(obj) and obj.Source is not None:
+        obj = obj.Source
+    return PROPERTY in obj.PropertiesList
+
+
+def shortened(message, document):
+    """A message of the engine without the folder where FreeCAD keeps the files of a document that is open."""
+    folder = document.TransientDir
+    return message.replace(folder + "/", "").replace(folder + os.sep, "") if folder else message
