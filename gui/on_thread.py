@@ -11,8 +11,8 @@ _PATIENCE = 2.0
 
 
 def done_on_thread(title, text, work):
-    """What `work` returns, called on another thread as work(tell), where tell(fraction done) may be called now and then.
-    Raises what it does, and femscalpel.Cancelled when the user ends it.
+    """What `work` returns, called on another thread as work(tell), where tell(fraction done) may be called now and
+    then. Raises what it does, and femscalpel.Cancelled when the user ends it.
 
     `title`: of the dialog that comes up when it takes long; `text`: what is being done.
     """

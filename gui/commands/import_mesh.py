@@ -22,8 +22,8 @@ class ImportMesh(Command):
     )
     WHATS_THIS = QT_TRANSLATE_NOOP(
         "FemScalpel_ImportMesh",
-        "Reads a mesh with its groups from a file. Cards of a CalculiX deck, fields and groups of element faces are kept "
-        "in the document, and Export writes them, after cracks and holes too.",
+        "Reads a mesh with its groups from a file. Cards of a CalculiX deck, fields and groups of element faces are "
+        "kept in the document, and Export writes them, after cracks and holes too.",
     )
     ACCEL = "S, I"
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Meshes with what a FemMesh does not hold: a deck's cards, fields, groups of element faces, point elements, the numbers
-of the file.
+"""Meshes with what a FemMesh does not hold: a deck's cards, fields, groups of element faces, point elements, the
+numbers of the file.
 
-A mesh that was imported has its file in the document, whole. What FemScalpel makes of such a mesh is made of that, and is
-exported with it: the cards of a deck come out again after a crack and a hole.
+A mesh that was imported has its file in the document, whole. What FemScalpel makes of such a mesh is made of that, and
+is exported with it: the cards of a deck come out again after a crack and a hole.
 """
 
 import os
@@ -57,9 +57,9 @@ def whole_of(obj):
 
 
 def is_shown(mesh, femmesh):
-    """Whether a FemMesh is that of a femscalpel.Mesh: nodes and elements of the highest dimension as many, and nodes in
-    the same places. Not with the same numbers: FreeCAD gives new ones when it saves a document, and what is made anew of
-    properties that were saved, with 16 digits, may count its nodes in another order."""
+    """Whether a FemMesh is that of a femscalpel.Mesh: as many nodes, as many elements of the highest dimension, and the
+    nodes in the same places. Not with the same numbers: FreeCAD gives new ones when it saves a document, and what is
+    made anew of properties that were saved, with 16 digits, may count its nodes in another order."""
     elements = {3: femmesh.VolumeCount, 2: femmesh.FaceCount, 1: femmesh.EdgeCount}.get(mesh.dimension, 0)
     highest = [len(ids) for name, ids in mesh.cell_ids.items() if CELL_TYPES[name][0] == mesh.dimension]
     if mesh.node_count != femmesh.NodeCount or sum(highest) != elements:

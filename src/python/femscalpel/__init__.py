@@ -23,9 +23,10 @@ from .cancel import CancelToken
 from .connected import Piece, pieces
 from .fields import Field, FieldPart, FieldStep, Localization
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
+from .inspection import Finding, Info, check, info
 from .interop import from_meshio, to_meshio
 from .mesh import ElementaryGroup, Group, Groups, Instance, Mesh
-from .meshfile import Format, formats, meshes_in, read, write
+from .meshfile import Format, convert, formats, meshes_in, read, write
 from ._engine import RefinementEstimate
 from .operators import Result, Scalpel, crack, cut, drill, fillet, merge, refine, reshape
 from .quality import mean_ratio, measure, scaled_jacobian, smallest_angle
@@ -65,12 +66,14 @@ __all__ = [
     "FieldPart",
     "FieldRecord",
     "FieldStep",
+    "Finding",
     "Format",
     "Group",
     "GroupRecord",
     "Groups",
     "HalfPlane",
     "HeldNodes",
+    "Info",
     "Instance",
     "Localization",
     "Mesh",
@@ -93,12 +96,15 @@ __all__ = [
     "VirtualBoundary",
     "Within",
     "WriteError",
+    "check",
+    "convert",
     "crack",
     "cut",
     "drill",
     "fillet",
     "formats",
     "from_meshio",
+    "info",
     "mean_ratio",
     "measure",
     "merge",

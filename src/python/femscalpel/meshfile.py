@@ -75,3 +75,14 @@ def write(mesh: Mesh, path: Path) -> None:
     lost = _engine.losses(mesh._engine_mesh, file)
     if lost:
         warnings.warn(f"{file} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
+
+
+def convert(source: Path, target: Path, mesh: Optional[str] = None) -> None:
+    """Reads a mesh and writes it in another format, with its numbers and groups: :func:`read`, then :func:`write`, with
+    their warnings of what is odd in the one file and what the other does not hold. `mesh` names one of several in a
+    .med.
+
+    Raises :class:`femscalpel.ReadError` and :class:`femscalpel.WriteError`; a file that was at `target` is there still,
+    then.
+    """
+    write(read(source, mesh), target)
