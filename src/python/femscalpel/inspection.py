@@ -61,8 +61,8 @@ class Info:
 
 
 def info(mesh: Mesh) -> Info:
-    """What a mesh holds: counts, sizes, quality, groups, fields. Groups of elements and facets have the length, area and
-    volume of their members by dimension, in the mesh's unit.
+    """What a mesh holds: counts, sizes, quality, groups, fields. Groups of elements have the length, area and volume of
+    their members by dimension, in the mesh's unit.
 
     Raises TypeError when `mesh` is no :class:`Mesh`.
     """
@@ -120,8 +120,8 @@ class Finding(NamedTuple):
 
 
 def check(mesh: Mesh) -> List[Finding]:
-    """What is odd in a mesh, the worst first: flat, inverted, folded and poor elements, elements on the same nodes, nodes
-    at one place or of no element, several pieces, empty groups.
+    """What is odd in a mesh, the worst first: flat, inverted, folded and poor elements, elements on the same nodes,
+    nodes at one place or of no element, several pieces, empty groups.
 
     Nothing is changed, and an empty list is no proof that a solver will take the mesh. Raises TypeError when `mesh` is
     no :class:`Mesh`.
