@@ -205,7 +205,7 @@ class MeshOperation:
         try:
             made, is_new = self._made(obj, inputs)
         except (femscalpel.Error, ValueError, TypeError) as error:
-            made = Made(inputs, None, b"none", error=f"{obj.Label}: {error}")
+            made = Made(inputs, None, b"none", error=str(error))
             memory.keep(obj.Document, made)
             self._give(obj, made, error)
         except Exception:
@@ -214,7 +214,7 @@ class MeshOperation:
         if is_new:
             memory.keep(obj.Document, made)
             for warning in made.report.warnings:
-                FreeCAD.Console.PrintWarning(f"{obj.Label}: {in_language(warning) if FreeCAD.GuiUp else warning}\n")
+                FreeCAD.Console.PrintWarning(f"{obj.Label}: {_said(warning)}\n")
         self._give(obj, made, aloud=True)
 
     def begin(self, obj, foreseen=None):
@@ -390,7 +390,7 @@ class MeshOperation:
             self._clear(obj)
             self.shown = Shown(made.inputs, made.token)
             if made.error:
-                raise Reason(made.error) from cause
+                raise Reason(f"{obj.Label}: {_said(made.error)}") from cause
             return
         if not obj.Placement.isIdentity():
             obj.Placement = FreeCAD.Placement()
@@ -454,6 +454,11 @@ class MeshOperation:
     # FreeCAD before 0.21.2 asks for these.
     __getstate__ = dumps
     __setstate__ = loads
+
+
+def _said(text):
+    """What the engine or an object says, in the language of the window."""
+    return in_language(text) if FreeCAD.GuiUp else text
 
 
 def _results(report, lost, hole):

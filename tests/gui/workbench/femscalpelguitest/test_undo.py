@@ -2,6 +2,7 @@
 """Undo and redo by key presses: a chain of operations, and whatever order of steps."""
 
 import contextlib
+import os
 import random
 import re
 from unittest import mock
@@ -21,6 +22,8 @@ from .mesh_content import content_of
 from femscalpeltest.meshes import box_with_groups
 
 CONTROL = QtCore.Qt.ControlModifier
+#: Of steps at random.
+SEED = int(os.environ.get("FEMSCALPEL_SEED", 14))
 X = FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), FreeCAD.Vector(1, 0.1, 0.2))
 
 
@@ -313,7 +316,7 @@ class AnyOrder(UndoTest):
 
     def setUp(self):
         super().setUp()
-        self.random = random.Random(14)
+        self.random = random.Random(SEED)
         self.states, self.now = [self.state()], 0  # what is there to undo and to redo, and where in it we are
 
     def cracks(self):
