@@ -2,8 +2,8 @@
 """What the engine says, in the user's language: it composes its errors and warnings in English, with numbers, and calls
 parameters as Python's functions do.
 
-Those that users meet most are in a table of templates; the others stay as they are, which is better than a wrong one, but
-for the names of parameters that the panels call otherwise.
+Those that users meet most are in a table of templates; the others stay as they are, which is better than a wrong one,
+but for the names of parameters that the panels call otherwise.
 """
 
 import functools

@@ -132,7 +132,7 @@ class EngineTexts(GuiTest):
         self.wait_for_preview()
         type_into("radius", "0.2")
         wait_until(lambda: is_settled() and "Refine first" in widget("status").text(), "how much it was refined")
-        self.assertRegex(widget("status").text(), "“Refine first” to an edge length of .* makes fewer, “never” none")
+        self.assertRegex(widget("status").text(), "“Refine first” to an edge length of .* makes fewer, “never”")
         self.assertNotRegex(widget("status").text(), PYTHON)
         screenshot("engine_text_en")
 
