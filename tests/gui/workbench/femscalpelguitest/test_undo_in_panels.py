@@ -284,6 +284,7 @@ class AnyOrderInPanels(AnyOrder):
 
     def in_panel(self):
         """Types, presses undo and redo meanwhile, and ends the panel somehow. Whether something was made."""
+        self.done[-1] += " in a panel"
         for _ in range(self.random.randint(0, 2)):
             self.random.choice((self.undo, self.redo, lambda: spin(0.1)))()
         spin(0.1)
@@ -300,10 +301,12 @@ class AnyOrderInPanels(AnyOrder):
             wait_until(is_ready, "what the panel says")
             count = self.doc.UndoCount
             if ok_button().isEnabled() and self.revived <= set(self.doc.Objects):
+                self.done.append("OK")
                 press_ok()
                 if not FreeCADGui.Control.activeDialog():
                     self.assertEqual(self.doc.UndoCount, count + 1)
                     return True
+        self.done.append("Cancel")
         press_cancel()
         self.assertFalse(FreeCADGui.Control.activeDialog())
         return False
