@@ -247,6 +247,16 @@ TEMPLATES = (
         "larger tolerance",
     ),
     # Of document objects.
+    QT_TRANSLATE_NOOP("FemScalpel", "'%1' has no mesh; mend what its error says first"),
+    QT_TRANSLATE_NOOP("FemScalpel", "'%1' is in no analysis"),
+    QT_TRANSLATE_NOOP("FemScalpel", "the results of '%1' are removed; solve again"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 was set, so it does not follow %2 any more"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 was set, so it is not that of %2 any more"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "FreeCAD would not apply everything in '%1' to '%2': %3. Move the tool a little, or refine the mesh there",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "the mesh that '%1' is made from is in no analysis"),
     QT_TRANSLATE_NOOP("FemScalpel", "%1 is not set; choose the FEM mesh to work on"),
     QT_TRANSLATE_NOOP("FemScalpel", "%1 is not set; choose the FEM mesh to add"),
     QT_TRANSLATE_NOOP("FemScalpel", "%1 '%2' is not a FEM mesh"),

@@ -327,6 +327,14 @@
       <translation>%1 kleinere</translation>
     </message>
     <message>
+      <source>%1 was set, so it does not follow %2 any more</source>
+      <translation>%1 wurde gesetzt und folgt daher %2 nicht mehr</translation>
+    </message>
+    <message>
+      <source>%1 was set, so it is not that of %2 any more</source>
+      <translation>%1 wurde gesetzt und ist daher nicht mehr das von %2</translation>
+    </message>
+    <message>
       <source>%1 was written.</source>
       <translation>%1 wurde geschrieben.</translation>
     </message>
@@ -357,6 +365,14 @@
     <message>
       <source>%1: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete</source>
       <translation>%1: FreeCAD findet diese Knoten nicht über die Geometrie, sodass eine Last, ein Lager oder ein Material darauf unvollständig ist</translation>
+    </message>
+    <message>
+      <source>'%1' has no mesh; mend what its error says first</source>
+      <translation>„%1“ hat kein Netz; beheben Sie zuerst, was sein Fehler sagt</translation>
+    </message>
+    <message>
+      <source>'%1' is in no analysis</source>
+      <translation>„%1“ ist in keiner Analyse</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -637,6 +653,10 @@
     <message>
       <source>FreeCAD takes the mesh over…</source>
       <translation>FreeCAD übernimmt das Netz…</translation>
+    </message>
+    <message>
+      <source>FreeCAD would not apply everything in '%1' to '%2': %3. Move the tool a little, or refine the mesh there</source>
+      <translation>FreeCAD würde nicht alles in „%1“ auf „%2“ anwenden: %3. Verschieben Sie das Werkzeug ein wenig, oder verfeinern Sie dort das Netz</translation>
     </message>
     <message>
       <source>Group</source>
@@ -1491,8 +1511,16 @@
       <translation>Das Netz ist zu grob für den Riss: Keine Elementfläche passt in ihn. Verfeinern Sie das Netz bei der Rissfront zuerst, oder machen Sie den Riss größer</translation>
     </message>
     <message>
+      <source>the mesh that '%1' is made from is in no analysis</source>
+      <translation>Das Netz, aus dem „%1“ gemacht ist, ist in keiner Analyse</translation>
+    </message>
+    <message>
       <source>the new group '%1' would be taken for the nodes of '%2'; choose another GroupName</source>
       <translation>Die neue Gruppe „%1“ würde für die Knoten von „%2“ gehalten; wählen Sie einen anderen GroupName</translation>
+    </message>
+    <message>
+      <source>the results of '%1' are removed; solve again</source>
+      <translation>Die Ergebnisse von „%1“ wurden entfernt; lösen Sie neu</translation>
     </message>
     <message>
       <source>the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front</source>

@@ -327,6 +327,14 @@
       <translation>%1 plus petits</translation>
     </message>
     <message>
+      <source>%1 was set, so it does not follow %2 any more</source>
+      <translation>%1 a été défini et ne suit donc plus %2</translation>
+    </message>
+    <message>
+      <source>%1 was set, so it is not that of %2 any more</source>
+      <translation>%1 a été défini et n'est donc plus celui de %2</translation>
+    </message>
+    <message>
       <source>%1 was written.</source>
       <translation>%1 a été écrit.</translation>
     </message>
@@ -357,6 +365,14 @@
     <message>
       <source>%1: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete</source>
       <translation>%1 : FreeCAD ne trouvera pas ces nœuds par la géométrie, si bien qu'une charge, un appui ou un matériau y est incomplet</translation>
+    </message>
+    <message>
+      <source>'%1' has no mesh; mend what its error says first</source>
+      <translation>« %1 » n'a pas de maillage ; corrigez d'abord ce que dit son erreur</translation>
+    </message>
+    <message>
+      <source>'%1' is in no analysis</source>
+      <translation>« %1 » n'est dans aucune analyse</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -637,6 +653,10 @@
     <message>
       <source>FreeCAD takes the mesh over…</source>
       <translation>FreeCAD reprend le maillage…</translation>
+    </message>
+    <message>
+      <source>FreeCAD would not apply everything in '%1' to '%2': %3. Move the tool a little, or refine the mesh there</source>
+      <translation>FreeCAD n'appliquerait pas tout ce qui est dans « %1 » à « %2 » : %3. Déplacez un peu l'outil, ou raffinez-y le maillage</translation>
     </message>
     <message>
       <source>Group</source>
@@ -1491,8 +1511,16 @@
       <translation>le maillage est trop grossier pour la fissure : aucune face d'élément n'y tient. Raffinez d'abord le maillage près du front, ou agrandissez la fissure</translation>
     </message>
     <message>
+      <source>the mesh that '%1' is made from is in no analysis</source>
+      <translation>le maillage dont « %1 » est issu n'est dans aucune analyse</translation>
+    </message>
+    <message>
       <source>the new group '%1' would be taken for the nodes of '%2'; choose another GroupName</source>
       <translation>le nouveau groupe « %1 » serait pris pour les nœuds de « %2 » ; choisissez un autre GroupName</translation>
+    </message>
+    <message>
+      <source>the results of '%1' are removed; solve again</source>
+      <translation>les résultats de « %1 » ont été supprimés ; relancez le calcul</translation>
     </message>
     <message>
       <source>the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front</source>

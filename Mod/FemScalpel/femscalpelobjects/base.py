@@ -18,9 +18,10 @@ from .on_shape import OnShape
 from .operator_options import KEEP_TO_SHAPE
 from .ours import made_of
 from .reason import Reason
+from .said import said
 
 if FreeCAD.GuiUp:
-    from femscalpelgui.messages import in_language
+    from femscalpelgui.translate import translate
     from femscalpelgui.view.crack_lines import crack_shape
 
 # Attribute bits of addProperty.
@@ -214,7 +215,7 @@ class MeshOperation:
         if is_new:
             memory.keep(obj.Document, made)
             for warning in made.report.warnings:
-                FreeCAD.Console.PrintWarning(f"{obj.Label}: {_said(warning)}\n")
+                FreeCAD.Console.PrintWarning(f"{obj.Label}: {said(warning)}\n")
         self._give(obj, made, aloud=True)
 
     def begin(self, obj, foreseen=None):
@@ -390,7 +391,7 @@ class MeshOperation:
             self._clear(obj)
             self.shown = Shown(made.inputs, made.token)
             if made.error:
-                raise Reason(f"{obj.Label}: {_said(made.error)}") from cause
+                raise Reason(f"{obj.Label}: {said(made.error)}") from cause
             return
         if not obj.Placement.isIdentity():
             obj.Placement = FreeCAD.Placement()
@@ -415,7 +416,8 @@ class MeshOperation:
         obj.GroupReport = lines
         if aloud:
             tell = FreeCAD.Console.PrintWarning if pieces.is_unsafe(held) else FreeCAD.Console.PrintMessage
-            tell(f"{obj.Label}: {sentence}\n")
+            text = pieces.sentence_of(parting, held, translate) if FreeCAD.GuiUp else sentence
+            tell(f"{obj.Label}: {text}\n")
 
     def _set_mesh(self, obj, femmesh):
         if self.shown is not None and self.shown.loaded:
@@ -454,11 +456,6 @@ class MeshOperation:
     # FreeCAD before 0.21.2 asks for these.
     __getstate__ = dumps
     __setstate__ = loads
-
-
-def _said(text):
-    """What the engine or an object says, in the language of the window."""
-    return in_language(text) if FreeCAD.GuiUp else text
 
 
 def _results(report, lost, hole):

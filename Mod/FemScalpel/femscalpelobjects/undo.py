@@ -56,8 +56,8 @@ def _waits(obj):
 
 
 def _unmark(obj):
-    """Takes away an error of an object that waits, which is of what was before: FreeCAD does not compute what depends on
-    something that has failed, and the state of a document must not depend on the order in which it came about."""
+    """Takes away an error of an object that waits, which is of what was before: FreeCAD does not compute what depends
+    on something that has failed, and the state of a document must not depend on how it came about."""
     if "Invalid" in obj.State:
         obj.Proxy.give_back(obj, CLEARED)
         obj.touch()

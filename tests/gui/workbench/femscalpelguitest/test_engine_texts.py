@@ -144,6 +144,9 @@ class EngineTexts(GuiTest):
         crack = ObjectsFemScalpel.makeCrack(self.doc, mesh, origin=(90, 0, 0), normal=X)
         self.doc.recompute()
         self.assertIn("Crack: Das Werkzeug (Ebene) verfehlt das Netz: Das ganze Netz liegt", self.news())
+        crack.PlanePlacement.Base.x = 7.3
+        self.doc.recompute()
+        self.assertIn("Crack: Das Bauteil zerfällt in 2 Stücke", self.news())
         crack.Source = None
         self.doc.recompute()
         self.assertIn("Crack: Source ist nicht gesetzt; wählen Sie das FEM-Netz", self.news())
