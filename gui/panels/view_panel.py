@@ -247,8 +247,13 @@ class ViewPanel(QtCore.QObject):
     def _died(self):
         _lost.extend(self._forms)
         self._forms = []
-        self.close()
-        QtCore.QTimer.singleShot(0, self._tell_lost)
+        self.end()
+
+    def end(self):
+        """FreeCAD takes the panel away; nothing where it is closed."""
+        if not self._closed:
+            self.close()
+            QtCore.QTimer.singleShot(0, self._tell_lost)
 
     def clear_view(self):
         """Takes the panel's own nodes out of the view."""

@@ -73,8 +73,10 @@ def line_of(name):
 
 def button_of_panel(choice):
     """OK, Cancel or Close of the task panel."""
-    boxes = button_boxes()
-    return next(b.button(choice) for b in boxes if b.button(choice))
+    box = next(box for box in button_boxes() if box.button(choice))
+    button = box.button(choice)
+    button.box = box  # it would go with what Python has made of the box
+    return button
 
 
 class Window:
