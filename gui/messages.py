@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the engine says, in the user's language: it composes its errors and warnings in English, with numbers.
+"""What the engine says, in the user's language: it composes its errors and warnings in English, with numbers, and calls
+parameters as Python's functions do.
 
-Those that users meet most are in a table of templates; the others stay as they are, which is better than a wrong one.
+Those that users meet most are in a table of templates; the others stay as they are, which is better than a wrong one,
+but for the names of parameters that the panels call otherwise.
 """
 
 import functools
@@ -163,6 +165,28 @@ TEMPLATES = (
         "the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 "
         "elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front",
     ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the addition is finer than the mesh, which was refined first, to edges of %1 where they meet: from %2 to %3 "
+        "elements",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is finer than the addition, which was refined first, to edges of %1 where they meet: from %2 to %3 "
+        "elements",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the addition is so much finer than the mesh that this would be refined from %1 to %2 elements, with edges of "
+        "%3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or "
+        "add it as a shell",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is so much finer than the addition that this would be refined from %1 to %2 elements, with edges of "
+        "%3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or "
+        "add it as a shell",
+    ),
     # Of names and numbers.
     QT_TRANSLATE_NOOP("FemScalpel", "name is empty; the new groups need one"),
     QT_TRANSLATE_NOOP("FemScalpel", "name '%1' is taken: the mesh already has a group '%2'; choose another"),
@@ -222,6 +246,84 @@ TEMPLATES = (
         "other. The mesh reaches from (%1) to (%2), the addition from (%3) to (%4). Move the addition, or give a "
         "larger tolerance",
     ),
+    # Of document objects.
+    QT_TRANSLATE_NOOP("FemScalpel", "'%1' has no mesh; mend what its error says first"),
+    QT_TRANSLATE_NOOP("FemScalpel", "'%1' is in no analysis"),
+    QT_TRANSLATE_NOOP("FemScalpel", "the results of '%1' are removed; solve again"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 was set, so it does not follow %2 any more"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 was set, so it is not that of %2 any more"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "FreeCAD would not apply everything in '%1' to '%2': %3. Move the tool a little, or refine the mesh there",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "the mesh that '%1' is made from is in no analysis"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 is not set; choose the FEM mesh to work on"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 is not set; choose the FEM mesh to add"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 '%2' is not a FEM mesh"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 '%2' has an error; mend it first"),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 '%2' has no mesh; make it first"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the new group '%1' would be taken for the nodes of '%2'; choose another GroupName",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "Group is not set; choose the mesh group to crack along"),
+    QT_TRANSLATE_NOOP("FemScalpel", "Group is not set; choose the mesh group to move"),
+    QT_TRANSLATE_NOOP("FemScalpel", "neither Along nor AlongPoints says which edge is rounded; give one"),
+    QT_TRANSLATE_NOOP("FemScalpel", "Along and AlongPoints both say which edge is rounded; give one of them"),
+    QT_TRANSLATE_NOOP("FemScalpel", "Addition and Source are the same mesh; choose another mesh to add"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "ToolFace is not set; choose the face of the geometry to cut with"),
+    QT_TRANSLATE_NOOP("FemScalpel", "Direction, as its expressions say it, is zero; give it a length"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1, which %2 follows, is not there any more; pick it again in the operation's panel, or set Follow to "
+        "Numbers",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1, which %2 follows, may be another face, edge or vertex now: its part has others than before; pick it "
+        "again in the operation's panel, or set Follow to Numbers",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1 has no radius any more; pick it again in the operation's panel, or set Follow to Numbers",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete",
+    ),
+)
+
+#: English for the panels, where one of them names parameters of Python's functions.
+IN_PANELS = {
+    template: template.replace(python, panel)
+    for python, panel in (
+        (
+            "refine=%4 makes fewer, refine=False none, but",
+            "“Refine first” to an edge length of %4 makes fewer, “never” none, but",
+        ),
+        (
+            "Give refine=%4, a longer edge there, or False for none;",
+            "Choose “Refine first” to an edge length of %4, or “never”;",
+        ),
+        ("(sharper than feature_angle)", "(sharper than “Sharp edges from”)"),
+        ("Choose a larger size or gradation, or a larger max_elements", "Choose a larger one"),
+        ("along: ", ""),
+    )
+    for template in TEMPLATES
+    if python in template
+}
+
+#: Parameters in what is none of these: where a word is one, and (context of the translation, name) of its field.
+PARAMETERS = (
+    (r"\bfeature_angle\b", ("Options", "Sharp edges from")),
+    (r"\btransition(?= is \d)|(?<=smaller )transition\b", ("Options", "Rings that may move")),
+    (r"`preserve`|(?<=out of )preserve\b", ("Options", "Group borders")),
+    (r"\brefine(?==)", ("Options", "Refine first")),
+    (r"\bjoin_groups(?==)", ("Merging", "Join groups of one name")),
 )
 
 #: Words that vary in them.
@@ -240,19 +342,30 @@ WORDS = (
 
 
 def in_language(text):
-    """A message of the engine in the user's language, or `text` where it is none of the table's."""
+    """A message of the engine in the user's language, in which parameters are called as in the panels."""
     for template in TEMPLATES:
         found = _pattern(template).fullmatch(text)
         if found is None:
             continue
         out = translate("FemScalpel", template)
         if out == template:
-            return text
+            if template not in IN_PANELS:
+                break
+            out = IN_PANELS[template]
         for number, part in found.groupdict().items():
             part = translate("FemScalpel", part) if part in WORDS else part
             out = out.replace("%" + number[1:], part)
         return out
-    return text
+    return _with_fields(text)
+
+
+def _with_fields(text):
+    """A message in which parameters are called as in the panels."""
+
+    for pattern, field in PARAMETERS:
+        text = re.sub(pattern, f"“{translate(*field)}”", text)
+    off = translate("FemScalpel", "off")
+    return re.sub("^along: ", "", re.sub("”=(False)?", lambda found: "” " + (off if found[1] else ""), text))
 
 
 @functools.lru_cache(maxsize=None)

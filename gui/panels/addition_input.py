@@ -128,6 +128,7 @@ class AdditionInput(PanelInput):
         if self._observer_of_document is not None:
             FreeCAD.removeDocumentObserver(self._observer_of_document)
             self._observer_of_document = None
+        self._addition = None
         super().close()
 
 

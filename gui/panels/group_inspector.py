@@ -41,6 +41,7 @@ class GroupInspectorPanel(InspectionPanel):
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Group inspector")
     ICON, UI = "FemScalpel_GroupInspector", "group_inspector.ui"
+    LARGE = (*InspectionPanel.LARGE, "entries", "_shapes")
 
     def set_up(self):
         for text, data in zip((translate("FemScalpel", "Groups"), translate("FemScalpel", "Elementary groups")), WHAT):

@@ -14,7 +14,9 @@ class MergePanel(ToolPanel):
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Merge")
     ICON = "FemScalpel_Merge"
     GROUP_NAME, OBJECT_NAME, MAKE = "ADD", "Merge", "makeMerge"
-    OFFERED = ("group_name", "feature_angle")
+    OFFERED = ("group_name", "feature_angle", "refine")
+    REFINED_WHERE = QT_TRANSLATE_NOOP("FemScalpel", "where one of them is finer")
+    REFINED_WHAT = QT_TRANSLATE_NOOP("FemScalpel", "Whether elements of both are divided first where the two meet")
     TWO_SIDES = False
     WHOLE = True
 
@@ -65,6 +67,7 @@ class MergePanel(ToolPanel):
             "join_groups": self.merging.joinGroups.isChecked(),
             "name": options["name"],
             "feature_angle": options["feature_angle"],
+            "refine": options["refine"],
         }
         return lambda scalpel: scalpel.merge(tool.mesh(), **values)
 

@@ -30,6 +30,7 @@ class MeshQualityPanel(InspectionPanel):
 
     TITLE = QT_TRANSLATE_NOOP("FemScalpel", "Mesh quality")
     ICON, UI = "FemScalpel_MeshQuality", "mesh_quality.ui"
+    LARGE = (*InspectionPanel.LARGE, "values", "_ids", "_types")
 
     def set_up(self):
         titles = (

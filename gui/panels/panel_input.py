@@ -137,7 +137,7 @@ class PanelInput(QtCore.QObject):
     def close(self):
         """Ends picking and takes everything out of the 3-D view."""
         self.stop_picking()
-        self.form, self.buttons = None, {}
+        self.form, self.buttons, self.source = None, {}, None
 
 
 class _Observer:

@@ -85,7 +85,7 @@ def summary(report):
             + "</b>"
         )
     for warning in report.warnings:
-        text += f"<br><span style='{fields.WARNING}'>{sentence(warning)}</span>"
+        text += f"<br><span style='{fields.WARNING}'>{html.escape(sentence(warning), quote=False)}</span>"
     return text
 
 

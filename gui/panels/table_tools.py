@@ -45,7 +45,11 @@ class TableTools(EventFilter):
         self.filter.setPlaceholderText(translate("FemScalpel", "Filter by name"))
         self.filter.setClearButtonEnabled(True)
         self.filter.textChanged.connect(lambda *_: self._hide_rows())
-        line = QtGui.QHBoxLayout()
+        # A widget, not a layout in a layout: PySide 2 keeps what it makes of the items of such, and hands it out for
+        # whatever comes to lie in their place, such as a field of another panel.
+        bar = QtGui.QWidget()
+        line = QtGui.QHBoxLayout(bar)
+        line.setContentsMargins(0, 0, 0, 0)
         line.addWidget(self.filter, 1)
         for name, text, tip, run in (
             (
@@ -68,7 +72,7 @@ class TableTools(EventFilter):
             button.clicked.connect(run)
             line.addWidget(button)
         layout = table.parentWidget().layout()
-        layout.insertLayout(layout.indexOf(table), line)
+        layout.insertWidget(layout.indexOf(table), bar)
         header = table.horizontalHeader()
         header.setSectionsClickable(True)
         header.sectionClicked.connect(self._sort_by)

@@ -38,6 +38,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
     Nothing is put into the document before OK; OK does everything in one transaction, by Gui.doCommand.
     """
 
+    LARGE = (*ViewPanel.LARGE, "shown", "_foreseen", "_outcome")
     #: Set by subclasses.
     TITLE = ICON = GROUP_NAME = OBJECT_NAME = MAKE = ""
     #: Whether the operator's surface has two sides, one of which can be cut away to look at it.

@@ -34,6 +34,9 @@ _lost = []
 class ViewPanel(QtCore.QObject):
     """A task panel about the mesh of one object. Subclasses make `form` first, then call start()."""
 
+    #: What a closed panel gives up: meshes, and what was drawn of them.
+    LARGE = ("source", "scene")
+
     def __init__(self, source_object, edited=None):
         super().__init__()
         self.source_object, self.edited = source_object, edited
@@ -45,6 +48,7 @@ class ViewPanel(QtCore.QObject):
         self._closed = False
         self._reading = None
         self._watch = None
+        self._box = None  # QDialogButtonBox, while the panel is shown
 
     def start(self):
         """Names the mesh, takes the view and starts reading the mesh; loaded() or failed() follow."""
@@ -81,15 +85,18 @@ class ViewPanel(QtCore.QObject):
     def _fit_buttons(self):
         """In themes with wide buttons, and languages with long words, Help is its icon alone: the panel would be wider
         than its dock."""
-        if self._closed:
+        if self._closed or self._box is None:
             return
-        for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
-            button = box.button(QtGui.QDialogButtonBox.Help) if box.isVisible() else None
-            area = _scroll_area_of(box) if button is not None else None
-            if area is not None and area.horizontalScrollBar().maximum() > 0 and button.text():
-                button.setToolTip(button.text().replace("&", ""))
-                button.setText("")
-                button.setStyleSheet("min-width: 0px; padding: 3px;")
+        button, area = self._box.button(QtGui.QDialogButtonBox.Help), _scroll_area_of(self._box)
+        if area is not None and area.horizontalScrollBar().maximum() > 0 and button.text():
+            button.setToolTip(button.text().replace("&", ""))
+            button.setText("")
+            button.setStyleSheet("min-width: 0px; padding: 3px;")
+
+    def modifyStandardButtons(self, box):
+        """Called by FreeCAD, with the box of the panel's buttons. Not to be looked for: PySide 2 would keep what it
+        makes of a box that it finds after FreeCAD has deleted that, and hand it out for what comes to lie there."""
+        self._box = box
 
     @classmethod
     def page(cls):
@@ -226,24 +233,29 @@ class ViewPanel(QtCore.QObject):
         if bar.currentMessage().endswith("…"):  # what the panel was waiting for
             bar.clearMessage()
         self._give_up_forms()
-        self.form = None
+        self.form = self._box = None
         self.forget_widgets()
+        QtCore.QTimer.singleShot(0, self._forget)
 
     def _give_up_forms(self):
-        # Python believes that it owns what FreeCAD's form loader made, and would delete it once more, or whatever is at
-        # its address by then. So the forms are taken back from FreeCAD before it deletes them; they go once no event of
-        # theirs is on its way.
+        # FreeCAD's form loader makes Python keep what it has made of the fields in a form for good, and PySide 2 would
+        # hand that out for what comes to lie in the place of fields that are deleted: panels would no longer open. So
+        # the forms are taken back from FreeCAD before it deletes them, and stay, hidden. Their signals keep the panel.
         forms, self._forms = self._forms, []
         for form in forms:
             form.hide()
             form.setParent(None)
-        QtCore.QTimer.singleShot(0, forms.clear)
 
     def _died(self):
         _lost.extend(self._forms)
         self._forms = []
-        self.close()
-        QtCore.QTimer.singleShot(0, self._tell_lost)
+        self.end()
+
+    def end(self):
+        """FreeCAD takes the panel away; nothing where it is closed."""
+        if not self._closed:
+            self.close()
+            QtCore.QTimer.singleShot(0, self._tell_lost)
 
     def clear_view(self):
         """Takes the panel's own nodes out of the view."""
@@ -252,6 +264,14 @@ class ViewPanel(QtCore.QObject):
     def forget_widgets(self):
         """Drops references to widgets."""
         raise NotImplementedError
+
+    def _forget(self):
+        """Drops all that is large."""
+        if self.is_busy():  # with a document that was closed meanwhile
+            QtCore.QTimer.singleShot(100, self._forget)
+            return
+        for name in self.LARGE:
+            setattr(self, name, None)
 
 
 def abort_transaction(document):

@@ -39,20 +39,20 @@ class WithOk:
     def _set_ok(self, enabled):
         if enabled != self._ok:
             self._ok = enabled
-            for box in self._buttons():
-                box.button(QtGui.QDialogButtonBox.Ok).setEnabled(enabled)
+            if self._box is not None:
+                self._box.button(QtGui.QDialogButtonBox.Ok).setEnabled(enabled)
 
-    @staticmethod
-    def _buttons():
-        # Looked for each time: Python must not keep what FreeCAD deletes.
-        boxes = FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
-        return [box for box in boxes if box.isVisible() and box.button(QtGui.QDialogButtonBox.Ok)]
+    def modifyStandardButtons(self, box):
+        """As of ViewPanel; there may be an error already."""
+        super().modifyStandardButtons(box)
+        box.button(QtGui.QDialogButtonBox.Ok).setEnabled(self._ok)
 
     def _take_input(self, on):
         """Whether fields and buttons take input. FreeCAD would crash of another click on one of its buttons before it
         is done with the first."""
-        for widget in [*(self.form or ()), *self._buttons()]:
-            widget.setEnabled(on)
+        for widget in [*(self.form or ()), self._box]:
+            if widget is not None:
+                widget.setEnabled(on)
 
     def accept(self):
         """OK: makes or changes the document object; stays open with a message when that is not possible."""

@@ -4,7 +4,7 @@
 from femscalpelobjects import operator_options
 
 from .. import preferences
-from ..translate import translate
+from ..translate import QT_TRANSLATE_NOOP, translate
 from . import fields
 from .preserve_input import PreserveInput
 from .sections import Section, by_row
@@ -27,6 +27,12 @@ class WithOptions:
 
     #: The options that the operator has, as the functions of ObjectsFemScalpel call them.
     OFFERED = tuple(OPTION_ROWS)
+    #: Where elements are divided first by themselves, and what of.
+    REFINED_WHERE = QT_TRANSLATE_NOOP("FemScalpel", "where the tool is finer")
+    REFINED_WHAT = QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "Whether elements near the tool (of a crack that ends inside: near its front) are divided first",
+    )
 
     def _set_up_options(self):
         o = self.options
@@ -42,11 +48,12 @@ class WithOptions:
         o.transition.setValue(preferences.transition())
         self._feature_angle = fields.Number(o.featureAngle, self.update, 30)
         for text, data in (
-            (translate("FemScalpel", "where the tool is finer"), "Automatic"),
+            (translate("FemScalpel", self.REFINED_WHERE), "Automatic"),
             (translate("FemScalpel", "never"), "Never"),
             (translate("FemScalpel", "to an edge length"), "Size"),
         ):
             o.refine.addItem(text, data)
+        o.refine.setToolTip(translate("FemScalpel", self.REFINED_WHAT))
         self._refine_size = fields.Number(o.refineSize, self.update, self.geometry.size / 50)
         o.refine.currentIndexChanged.connect(lambda *_: self._choose_refinement())
         self._choose_refinement()
@@ -74,7 +81,7 @@ class WithOptions:
                 (6, 7, 8),
                 "Refinement",
                 translate("FemScalpel", "Refinement"),
-                translate("FemScalpel", "Whether elements near the tool are divided first, and how small they become"),
+                translate("FemScalpel", "Whether elements are divided first, and how small they become"),
                 True,
             ),
             (

@@ -347,7 +347,7 @@ def _worst(report, mesh):
 class _Telling:
     """A femscalpel.Scalpel whose operators call `before_refining`."""
 
-    _SILENT = ("merge", "reshape")  # they never refine first
+    _SILENT = ("reshape",)  # it never refines first
 
     def __init__(self, scalpel, before_refining):
         self._scalpel, self.before_refining = scalpel, before_refining

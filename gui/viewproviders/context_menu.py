@@ -9,6 +9,7 @@ from femscalpelobjects.analysis import analysis_of
 
 from ..macro import record_import
 from ..panels.report_dialog import show_report_of
+from ..panels.summary import sentence
 from ..translate import icon, translate
 
 
@@ -73,4 +74,4 @@ def _move(obj, title, function):
             f"ObjectsFemScalpel.{function}(FreeCAD.getDocument({obj.Document.Name!r}).getObject({obj.Name!r}))"
         )
     except (femscalpel.Error, ValueError, RuntimeError) as error:
-        QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, str(error))
+        QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, sentence(str(error)))

@@ -38,6 +38,7 @@ class ViewProviderMeshOperation:
     """Opens the task panel the object was made with, and draws the crack that it made."""
 
     crack = None  # MadeCrack, once attached
+    _edits = None  # the panel that edits the object
 
     def __init__(self, vobj):
         vobj.Proxy = self
@@ -82,10 +83,14 @@ class ViewProviderMeshOperation:
             return False
         module = importlib.import_module("femscalpelgui.panels." + panel[1])
         with signs.busy(translate("FemScalpel", "Opening the panel…")):
-            FreeCADGui.Control.showDialog(getattr(module, panel[2])(obj.Source, obj))
+            self._edits = getattr(module, panel[2])(obj.Source, obj)
+            FreeCADGui.Control.showDialog(self._edits)
         return True
 
     def unsetEdit(self, vobj, mode=0):
+        panel, self._edits = self._edits, None
+        if panel is not None:
+            panel.end()  # before FreeCAD deletes its forms
         FreeCADGui.Control.closeDialog()
         return True
 

@@ -207,6 +207,18 @@
       <translation>%1 % des Volumens</translation>
     </message>
     <message>
+      <source>%1 '%2' has an error; mend it first</source>
+      <translation>%1 „%2“ hat einen Fehler; beheben Sie ihn zuerst</translation>
+    </message>
+    <message>
+      <source>%1 '%2' has no mesh; make it first</source>
+      <translation>%1 „%2“ hat kein Netz; erzeugen Sie es zuerst</translation>
+    </message>
+    <message>
+      <source>%1 '%2' is not a FEM mesh</source>
+      <translation>%1 „%2“ ist kein FEM-Netz</translation>
+    </message>
+    <message>
       <source>%1 and %2</source>
       <translation>%1 und %2</translation>
     </message>
@@ -259,12 +271,24 @@
       <translation>%1 hat noch kein Netz: es ist leer. Erzeugen Sie zuerst das Netz.</translation>
     </message>
     <message>
+      <source>%1 has no radius any more; pick it again in the operation's panel, or set Follow to Numbers</source>
+      <translation>%1 hat keinen Radius mehr; wählen Sie die Stelle im Fenster der Operation neu, oder setzen Sie Follow auf Numbers</translation>
+    </message>
+    <message>
       <source>%1 has no source mesh. Set its property Source to a FEM mesh first.</source>
       <translation>%1 hat kein Ausgangsnetz. Setzen Sie zuerst die Eigenschaft Source auf ein FEM-Netz.</translation>
     </message>
     <message>
       <source>%1 is not a FEM mesh. Select the mesh in the tree.</source>
       <translation>%1 ist kein FEM-Netz. Wählen Sie das Netz im Baum.</translation>
+    </message>
+    <message>
+      <source>%1 is not set; choose the FEM mesh to add</source>
+      <translation>%1 ist nicht gesetzt; wählen Sie das FEM-Netz, das hinzukommt</translation>
+    </message>
+    <message>
+      <source>%1 is not set; choose the FEM mesh to work on</source>
+      <translation>%1 ist nicht gesetzt; wählen Sie das FEM-Netz, das bearbeitet wird</translation>
     </message>
     <message>
       <source>%1 is not there any more, so its panel was closed.</source>
@@ -307,12 +331,28 @@
       <translation>%1 wurde gelesen.</translation>
     </message>
     <message>
+      <source>%1 was set, so it does not follow %2 any more</source>
+      <translation>%1 wurde gesetzt und folgt daher %2 nicht mehr</translation>
+    </message>
+    <message>
+      <source>%1 was set, so it is not that of %2 any more</source>
+      <translation>%1 wurde gesetzt und ist daher nicht mehr das von %2</translation>
+    </message>
+    <message>
       <source>%1 was written.</source>
       <translation>%1 wurde geschrieben.</translation>
     </message>
     <message>
       <source>%1, where this was picked, is not there any more or may be another one. Pick it again, or press Unlink: then the numbers stay.</source>
       <translation>%1, woher dies stammt, gibt es nicht mehr, oder es ist vielleicht etwas anderes. Wählen Sie es neu, oder drücken Sie Lösen: Dann bleiben die Zahlen.</translation>
+    </message>
+    <message>
+      <source>%1, which %2 follows, is not there any more; pick it again in the operation's panel, or set Follow to Numbers</source>
+      <translation>%1, dem %2 folgt, gibt es nicht mehr; wählen Sie es im Fenster der Operation neu, oder setzen Sie Follow auf Numbers</translation>
+    </message>
+    <message>
+      <source>%1, which %2 follows, may be another face, edge or vertex now: its part has others than before; pick it again in the operation's panel, or set Follow to Numbers</source>
+      <translation>%1, dem %2 folgt, kann jetzt eine andere Fläche, Kante oder Ecke sein: Ihr Teil hat andere als zuvor; wählen Sie es im Fenster der Operation neu, oder setzen Sie Follow auf Numbers</translation>
     </message>
     <message>
       <source>%1: %2 is %3; it must be positive</source>
@@ -325,6 +365,18 @@
     <message>
       <source>%1: 0 to %2</source>
       <translation>%1: 0 bis %2</translation>
+    </message>
+    <message>
+      <source>%1: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete</source>
+      <translation>%1: FreeCAD findet diese Knoten nicht über die Geometrie, sodass eine Last, ein Lager oder ein Material darauf unvollständig ist</translation>
+    </message>
+    <message>
+      <source>'%1' has no mesh; mend what its error says first</source>
+      <translation>„%1“ hat kein Netz; beheben Sie zuerst, was sein Fehler sagt</translation>
+    </message>
+    <message>
+      <source>'%1' is in no analysis</source>
+      <translation>„%1“ ist in keiner Analyse</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -347,6 +399,10 @@
       <translation>Ein Polygon</translation>
     </message>
     <message>
+      <source>Addition and Source are the same mesh; choose another mesh to add</source>
+      <translation>Addition und Source sind dasselbe Netz; wählen Sie ein anderes Netz, das hinzukommt</translation>
+    </message>
+    <message>
       <source>Advanced</source>
       <translation>Erweitert</translation>
     </message>
@@ -357,6 +413,10 @@
     <message>
       <source>All commands</source>
       <translation>Alle Befehle</translation>
+    </message>
+    <message>
+      <source>Along and AlongPoints both say which edge is rounded; give one of them</source>
+      <translation>Along und AlongPoints sagen beide, welche Kante gerundet wird; geben Sie nur eins an</translation>
     </message>
     <message>
       <source>An ellipse</source>
@@ -535,6 +595,10 @@
       <translation>Zylindrischer Riss</translation>
     </message>
     <message>
+      <source>Direction, as its expressions say it, is zero; give it a length</source>
+      <translation>Direction ist nach ihren Ausdrücken null; geben Sie ihr eine Länge</translation>
+    </message>
+    <message>
       <source>Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is missing, nor after the document was saved without it. Close it without saving.</source>
       <translation>Dokument %1 hat Objekte von FemScalpel (%2), die nicht neu berechnet werden, solange ein Teil von FemScalpel fehlt, und auch nicht mehr, wenn das Dokument ohne ihn gespeichert wurde. Schließen Sie es, ohne zu speichern.</translation>
     </message>
@@ -599,12 +663,24 @@
       <translation>FreeCAD übernimmt das Netz…</translation>
     </message>
     <message>
+      <source>FreeCAD would not apply everything in '%1' to '%2': %3. Move the tool a little, or refine the mesh there</source>
+      <translation>FreeCAD würde nicht alles in „%1“ auf „%2“ anwenden: %3. Verschieben Sie das Werkzeug ein wenig, oder verfeinern Sie dort das Netz</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Gruppe</translation>
     </message>
     <message>
       <source>Group inspector</source>
       <translation>Gruppen-Inspektor</translation>
+    </message>
+    <message>
+      <source>Group is not set; choose the mesh group to crack along</source>
+      <translation>Group ist nicht gesetzt; wählen Sie die Netzgruppe, an der gerissen wird</translation>
+    </message>
+    <message>
+      <source>Group is not set; choose the mesh group to move</source>
+      <translation>Group ist nicht gesetzt; wählen Sie die Netzgruppe, die verschoben wird</translation>
     </message>
     <message>
       <source>Groups</source>
@@ -625,6 +701,10 @@
     <message>
       <source>Isolated (IE)</source>
       <translation>Einzeln (IE)</translation>
+    </message>
+    <message>
+      <source>KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)</source>
+      <translation>KeepToShape ist gesetzt, aber das Netz kennt die Geometrie nicht, aus der es erzeugt wurde (seine Eigenschaft Part oder Shape)</translation>
     </message>
     <message>
       <source>Kind</source>
@@ -947,6 +1027,10 @@
       <translation>Durch das ganze Teil</translation>
     </message>
     <message>
+      <source>ToolFace is not set; choose the face of the geometry to cut with</source>
+      <translation>ToolFace ist nicht gesetzt; wählen Sie die Fläche der Geometrie, mit der geschnitten wird</translation>
+    </message>
+    <message>
       <source>Torus</source>
       <translation>Torus</translation>
     </message>
@@ -975,8 +1059,16 @@
       <translation>Was nichts hält, hat keine Lösung: Halten Sie es fest, oder lassen Sie das Werkzeug im Bauteil enden.</translation>
     </message>
     <message>
-      <source>Whether elements near the tool are divided first, and how small they become</source>
-      <translation>Ob Elemente nahe dem Werkzeug zuerst geteilt werden, und wie klein sie werden</translation>
+      <source>Whether elements are divided first, and how small they become</source>
+      <translation>Ob Elemente zuerst geteilt werden, und wie klein sie werden</translation>
+    </message>
+    <message>
+      <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
+      <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
+    </message>
+    <message>
+      <source>Whether elements of both are divided first where the two meet</source>
+      <translation>Ob Elemente von beiden zuerst geteilt werden, wo die zwei sich treffen</translation>
     </message>
     <message>
       <source>Whole part</source>
@@ -1195,6 +1287,10 @@
       <translation>negativen</translation>
     </message>
     <message>
+      <source>neither Along nor AlongPoints says which edge is rounded; give one</source>
+      <translation>Weder Along noch AlongPoints sagt, welche Kante gerundet wird; geben Sie eins an</translation>
+    </message>
+    <message>
       <source>never</source>
       <translation>nie</translation>
     </message>
@@ -1225,6 +1321,10 @@
     <message>
       <source>nothing holds it</source>
       <translation>nichts hält es</translation>
+    </message>
+    <message>
+      <source>off</source>
+      <translation>aus</translation>
     </message>
     <message>
       <source>onto a surface</source>
@@ -1375,6 +1475,14 @@
       <translation>Das Hinzugefügte trifft das Netz nicht: Nirgends kreuzen sich ihre Oberflächen, und kein Rand des einen liegt auf dem anderen. Das Netz reicht von (%1) bis (%2), das Hinzugefügte von (%3) bis (%4). Verschieben Sie es, oder geben Sie eine größere Toleranz an</translation>
     </message>
     <message>
+      <source>the addition is finer than the mesh, which was refined first, to edges of %1 where they meet: from %2 to %3 elements</source>
+      <translation>Das hinzukommende Netz ist feiner als das Netz; dieses wurde zuerst verfeinert, auf Kanten von %1, wo sie sich treffen: von %2 auf %3 Elemente</translation>
+    </message>
+    <message>
+      <source>the addition is so much finer than the mesh that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>
+      <translation>Das hinzukommende Netz ist so viel feiner als das Netz, dass dieses von %1 auf %2 Elemente verfeinert würde, mit Kanten von %3, wo sie sich treffen. Wählen Sie unter „Erst verfeinern“ eine Kantenlänge von %4, oder „nie“; oder vernetzen Sie das feinere gröber, oder fügen Sie es als Schale hinzu</translation>
+    </message>
+    <message>
       <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>
       <translation>Der Riss (%1) kann sich nicht öffnen: Alle seine Knoten liegen auf seiner Front. Verfeinern Sie das Netz dort zuerst</translation>
     </message>
@@ -1403,6 +1511,14 @@
       <translation>Das Netz ist grob für das Werkzeug (%1) mit dem Radius %2: Die ebenen Flächen der Wand lassen etwa %3 % des Lochs stehen. Verfeinern Sie das Netz dort zuerst, auf Kanten von höchstens %4</translation>
     </message>
     <message>
+      <source>the mesh is finer than the addition, which was refined first, to edges of %1 where they meet: from %2 to %3 elements</source>
+      <translation>Das Netz ist feiner als das hinzukommende; dieses wurde zuerst verfeinert, auf Kanten von %1, wo sie sich treffen: von %2 auf %3 Elemente</translation>
+    </message>
+    <message>
+      <source>the mesh is so much finer than the addition that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>
+      <translation>Das Netz ist so viel feiner als das hinzukommende, dass dieses von %1 auf %2 Elemente verfeinert würde, mit Kanten von %3, wo sie sich treffen. Wählen Sie unter „Erst verfeinern“ eine Kantenlänge von %4, oder „nie“; oder vernetzen Sie das feinere gröber, oder fügen Sie es als Schale hinzu</translation>
+    </message>
+    <message>
       <source>the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into it. Refine the mesh there first, to edges of at most %5</source>
       <translation>Das Netz ist bei (%3) zu grob für das Werkzeug (%1) mit dem Radius %2: Ein Element mit Kanten von %4 würde weit hineinreichen. Verfeinern Sie das Netz dort zuerst, auf Kanten von höchstens %5</translation>
     </message>
@@ -1417,6 +1533,18 @@
     <message>
       <source>the mesh is too coarse for the crack: no element face fits in it. Refine the mesh near the crack front first, or make the crack larger</source>
       <translation>Das Netz ist zu grob für den Riss: Keine Elementfläche passt in ihn. Verfeinern Sie das Netz bei der Rissfront zuerst, oder machen Sie den Riss größer</translation>
+    </message>
+    <message>
+      <source>the mesh that '%1' is made from is in no analysis</source>
+      <translation>Das Netz, aus dem „%1“ gemacht ist, ist in keiner Analyse</translation>
+    </message>
+    <message>
+      <source>the new group '%1' would be taken for the nodes of '%2'; choose another GroupName</source>
+      <translation>Die neue Gruppe „%1“ würde für die Knoten von „%2“ gehalten; wählen Sie einen anderen GroupName</translation>
+    </message>
+    <message>
+      <source>the results of '%1' are removed; solve again</source>
+      <translation>Die Ergebnisse von „%1“ wurden entfernt; lösen Sie neu</translation>
     </message>
     <message>
       <source>the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front</source>
@@ -1461,6 +1589,10 @@
     <message>
       <source>wall of %1</source>
       <translation>Wand: %1</translation>
+    </message>
+    <message>
+      <source>where one of them is finer</source>
+      <translation>wo eins von beiden feiner ist</translation>
     </message>
     <message>
       <source>where the tool is finer</source>
@@ -1995,10 +2127,6 @@
     <message>
       <source>The borders of the ticked groups keep their shape; those of the others may drift</source>
       <translation>Die Ränder der angekreuzten Gruppen behalten ihre Form; die der anderen dürfen sich verschieben</translation>
-    </message>
-    <message>
-      <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
-      <translation>Ob Elemente nahe dem Werkzeug (bei einem Riss, der innen endet: nahe seiner Front) zuerst geteilt werden</translation>
     </message>
     <message>
       <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better (the paper: virtual boundaries)</source>

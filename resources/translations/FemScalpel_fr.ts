@@ -207,6 +207,18 @@
       <translation>%1 % du volume</translation>
     </message>
     <message>
+      <source>%1 '%2' has an error; mend it first</source>
+      <translation>%1 « %2 » a une erreur ; corrigez-la d'abord</translation>
+    </message>
+    <message>
+      <source>%1 '%2' has no mesh; make it first</source>
+      <translation>%1 « %2 » n'a pas de maillage ; créez-le d'abord</translation>
+    </message>
+    <message>
+      <source>%1 '%2' is not a FEM mesh</source>
+      <translation>%1 « %2 » n'est pas un maillage FEM</translation>
+    </message>
+    <message>
       <source>%1 and %2</source>
       <translation>%1 et %2</translation>
     </message>
@@ -259,12 +271,24 @@
       <translation>%1 n'a pas encore de maillage : il est vide. Créez d'abord le maillage.</translation>
     </message>
     <message>
+      <source>%1 has no radius any more; pick it again in the operation's panel, or set Follow to Numbers</source>
+      <translation>%1 n'a plus de rayon ; désignez-le à nouveau dans le panneau de l'opération, ou mettez Follow sur Numbers</translation>
+    </message>
+    <message>
       <source>%1 has no source mesh. Set its property Source to a FEM mesh first.</source>
       <translation>%1 n'a pas de maillage source. Donnez d'abord un maillage EF à sa propriété Source.</translation>
     </message>
     <message>
       <source>%1 is not a FEM mesh. Select the mesh in the tree.</source>
       <translation>%1 n'est pas un maillage EF. Sélectionnez le maillage dans l'arborescence.</translation>
+    </message>
+    <message>
+      <source>%1 is not set; choose the FEM mesh to add</source>
+      <translation>%1 n'est pas défini ; choisissez le maillage FEM à ajouter</translation>
+    </message>
+    <message>
+      <source>%1 is not set; choose the FEM mesh to work on</source>
+      <translation>%1 n'est pas défini ; choisissez le maillage FEM à modifier</translation>
     </message>
     <message>
       <source>%1 is not there any more, so its panel was closed.</source>
@@ -307,12 +331,28 @@
       <translation>%1 a été lu.</translation>
     </message>
     <message>
+      <source>%1 was set, so it does not follow %2 any more</source>
+      <translation>%1 a été défini et ne suit donc plus %2</translation>
+    </message>
+    <message>
+      <source>%1 was set, so it is not that of %2 any more</source>
+      <translation>%1 a été défini et n'est donc plus celui de %2</translation>
+    </message>
+    <message>
       <source>%1 was written.</source>
       <translation>%1 a été écrit.</translation>
     </message>
     <message>
       <source>%1, where this was picked, is not there any more or may be another one. Pick it again, or press Unlink: then the numbers stay.</source>
       <translation>%1, d'où cela provient, n'existe plus ou est peut-être autre chose. Choisissez-le à nouveau, ou appuyez sur Délier : les nombres restent alors.</translation>
+    </message>
+    <message>
+      <source>%1, which %2 follows, is not there any more; pick it again in the operation's panel, or set Follow to Numbers</source>
+      <translation>%1, que %2 suit, n'existe plus ; désignez-le à nouveau dans le panneau de l'opération, ou mettez Follow sur Numbers</translation>
+    </message>
+    <message>
+      <source>%1, which %2 follows, may be another face, edge or vertex now: its part has others than before; pick it again in the operation's panel, or set Follow to Numbers</source>
+      <translation>%1, que %2 suit, est peut-être maintenant une autre face, arête ou un autre sommet : sa pièce en a d'autres qu'avant ; désignez-le à nouveau dans le panneau de l'opération, ou mettez Follow sur Numbers</translation>
     </message>
     <message>
       <source>%1: %2 is %3; it must be positive</source>
@@ -325,6 +365,18 @@
     <message>
       <source>%1: 0 to %2</source>
       <translation>%1 : 0 à %2</translation>
+    </message>
+    <message>
+      <source>%1: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete</source>
+      <translation>%1 : FreeCAD ne trouvera pas ces nœuds par la géométrie, si bien qu'une charge, un appui ou un matériau y est incomplet</translation>
+    </message>
+    <message>
+      <source>'%1' has no mesh; mend what its error says first</source>
+      <translation>« %1 » n'a pas de maillage ; corrigez d'abord ce que dit son erreur</translation>
+    </message>
+    <message>
+      <source>'%1' is in no analysis</source>
+      <translation>« %1 » n'est dans aucune analyse</translation>
     </message>
     <message>
       <source>1 node</source>
@@ -347,6 +399,10 @@
       <translation>Un polygone</translation>
     </message>
     <message>
+      <source>Addition and Source are the same mesh; choose another mesh to add</source>
+      <translation>Addition et Source sont le même maillage ; choisissez un autre maillage à ajouter</translation>
+    </message>
+    <message>
       <source>Advanced</source>
       <translation>Avancé</translation>
     </message>
@@ -357,6 +413,10 @@
     <message>
       <source>All commands</source>
       <translation>Toutes les commandes</translation>
+    </message>
+    <message>
+      <source>Along and AlongPoints both say which edge is rounded; give one of them</source>
+      <translation>Along et AlongPoints disent tous deux quelle arête est arrondie ; n'en donnez qu'un</translation>
     </message>
     <message>
       <source>An ellipse</source>
@@ -535,6 +595,10 @@
       <translation>Fissure cylindrique</translation>
     </message>
     <message>
+      <source>Direction, as its expressions say it, is zero; give it a length</source>
+      <translation>Direction est nulle selon ses expressions ; donnez-lui une longueur</translation>
+    </message>
+    <message>
       <source>Document %1 has objects of FemScalpel (%2), which do not recompute while a part of FemScalpel is missing, nor after the document was saved without it. Close it without saving.</source>
       <translation>Le document %1 a des objets de FemScalpel (%2), qui ne sont pas recalculés tant qu'une partie de FemScalpel manque, ni après que le document a été enregistré sans elle. Fermez-le sans enregistrer.</translation>
     </message>
@@ -599,12 +663,24 @@
       <translation>FreeCAD reprend le maillage…</translation>
     </message>
     <message>
+      <source>FreeCAD would not apply everything in '%1' to '%2': %3. Move the tool a little, or refine the mesh there</source>
+      <translation>FreeCAD n'appliquerait pas tout ce qui est dans « %1 » à « %2 » : %3. Déplacez un peu l'outil, ou raffinez-y le maillage</translation>
+    </message>
+    <message>
       <source>Group</source>
       <translation>Groupe</translation>
     </message>
     <message>
       <source>Group inspector</source>
       <translation>Inspecteur de groupes</translation>
+    </message>
+    <message>
+      <source>Group is not set; choose the mesh group to crack along</source>
+      <translation>Group n'est pas défini ; choisissez le groupe de maillage à fissurer</translation>
+    </message>
+    <message>
+      <source>Group is not set; choose the mesh group to move</source>
+      <translation>Group n'est pas défini ; choisissez le groupe de maillage à déplacer</translation>
     </message>
     <message>
       <source>Groups</source>
@@ -625,6 +701,10 @@
     <message>
       <source>Isolated (IE)</source>
       <translation>Isolés (IE)</translation>
+    </message>
+    <message>
+      <source>KeepToShape is set, but the mesh does not know the geometry it was made from (its property Part or Shape)</source>
+      <translation>KeepToShape est défini, mais le maillage ne connaît pas la géométrie dont il est issu (sa propriété Part ou Shape)</translation>
     </message>
     <message>
       <source>Kind</source>
@@ -947,6 +1027,10 @@
       <translation>À travers toute la pièce</translation>
     </message>
     <message>
+      <source>ToolFace is not set; choose the face of the geometry to cut with</source>
+      <translation>ToolFace n'est pas défini ; choisissez la face de la géométrie avec laquelle couper</translation>
+    </message>
+    <message>
       <source>Torus</source>
       <translation>Tore</translation>
     </message>
@@ -975,8 +1059,16 @@
       <translation>Ce que rien ne tient n'a pas de solution : fixez-le, ou faites finir l'outil dans la pièce.</translation>
     </message>
     <message>
-      <source>Whether elements near the tool are divided first, and how small they become</source>
-      <translation>Si les éléments près de l'outil sont d'abord divisés, et à quelle taille</translation>
+      <source>Whether elements are divided first, and how small they become</source>
+      <translation>Si des éléments sont d'abord divisés, et à quelle taille</translation>
+    </message>
+    <message>
+      <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
+      <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
+    </message>
+    <message>
+      <source>Whether elements of both are divided first where the two meet</source>
+      <translation>Si des éléments des deux sont d'abord divisés là où ils se rencontrent</translation>
     </message>
     <message>
       <source>Whole part</source>
@@ -1195,6 +1287,10 @@
       <translation>négatif</translation>
     </message>
     <message>
+      <source>neither Along nor AlongPoints says which edge is rounded; give one</source>
+      <translation>ni Along ni AlongPoints ne dit quelle arête est arrondie ; donnez-en un</translation>
+    </message>
+    <message>
       <source>never</source>
       <translation>jamais</translation>
     </message>
@@ -1225,6 +1321,10 @@
     <message>
       <source>nothing holds it</source>
       <translation>rien ne le tient</translation>
+    </message>
+    <message>
+      <source>off</source>
+      <translation>désactivé</translation>
     </message>
     <message>
       <source>onto a surface</source>
@@ -1375,6 +1475,14 @@
       <translation>l'ajout ne rencontre pas le maillage : leurs surfaces ne se croisent nulle part, et aucun bord de l'un n'est sur l'autre. Le maillage va de (%1) à (%2), l'ajout de (%3) à (%4). Déplacez l'ajout, ou donnez une tolérance plus grande</translation>
     </message>
     <message>
+      <source>the addition is finer than the mesh, which was refined first, to edges of %1 where they meet: from %2 to %3 elements</source>
+      <translation>l'ajout est plus fin que le maillage, qui a d'abord été raffiné, à des arêtes de %1 là où ils se rencontrent : de %2 à %3 éléments</translation>
+    </message>
+    <message>
+      <source>the addition is so much finer than the mesh that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>
+      <translation>l'ajout est tellement plus fin que le maillage que celui-ci serait raffiné de %1 à %2 éléments, avec des arêtes de %3 là où ils se rencontrent. Choisissez une longueur d'arête de %4 sous « Raffiner d'abord », ou « jamais » ; ou maillez le plus fin plus grossièrement, ou ajoutez-le comme coque</translation>
+    </message>
+    <message>
       <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>
       <translation>la fissure (%1) ne peut s'ouvrir : tous ses nœuds sont sur son front. Raffinez-y d'abord le maillage</translation>
     </message>
@@ -1403,6 +1511,14 @@
       <translation>le maillage est grossier pour l'outil (%1) de rayon %2 : les faces planes de la paroi laissent environ %3 % du trou. Raffinez-y d'abord le maillage, à des arêtes d'au plus %4</translation>
     </message>
     <message>
+      <source>the mesh is finer than the addition, which was refined first, to edges of %1 where they meet: from %2 to %3 elements</source>
+      <translation>le maillage est plus fin que l'ajout, qui a d'abord été raffiné, à des arêtes de %1 là où ils se rencontrent : de %2 à %3 éléments</translation>
+    </message>
+    <message>
+      <source>the mesh is so much finer than the addition that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>
+      <translation>le maillage est tellement plus fin que l'ajout que celui-ci serait raffiné de %1 à %2 éléments, avec des arêtes de %3 là où ils se rencontrent. Choisissez une longueur d'arête de %4 sous « Raffiner d'abord », ou « jamais » ; ou maillez le plus fin plus grossièrement, ou ajoutez-le comme coque</translation>
+    </message>
+    <message>
       <source>the mesh is too coarse for the %1 of radius %2 near (%3): an element with edges of %4 would reach deep into it. Refine the mesh there first, to edges of at most %5</source>
       <translation>le maillage est trop grossier pour l'outil (%1) de rayon %2 près de (%3) : un élément d'arêtes de %4 y pénétrerait loin. Raffinez-y d'abord le maillage, à des arêtes d'au plus %5</translation>
     </message>
@@ -1417,6 +1533,18 @@
     <message>
       <source>the mesh is too coarse for the crack: no element face fits in it. Refine the mesh near the crack front first, or make the crack larger</source>
       <translation>le maillage est trop grossier pour la fissure : aucune face d'élément n'y tient. Raffinez d'abord le maillage près du front, ou agrandissez la fissure</translation>
+    </message>
+    <message>
+      <source>the mesh that '%1' is made from is in no analysis</source>
+      <translation>le maillage dont « %1 » est issu n'est dans aucune analyse</translation>
+    </message>
+    <message>
+      <source>the new group '%1' would be taken for the nodes of '%2'; choose another GroupName</source>
+      <translation>le nouveau groupe « %1 » serait pris pour les nœuds de « %2 » ; choisissez un autre GroupName</translation>
+    </message>
+    <message>
+      <source>the results of '%1' are removed; solve again</source>
+      <translation>les résultats de « %1 » ont été supprimés ; relancez le calcul</translation>
     </message>
     <message>
       <source>the tool is finer than the mesh, which was refined first, to edges of %1 near the tool: from %2 to %3 elements. refine=%4 makes fewer, refine=False none, but then a coarser wall or front</source>
@@ -1461,6 +1589,10 @@
     <message>
       <source>wall of %1</source>
       <translation>paroi de %1</translation>
+    </message>
+    <message>
+      <source>where one of them is finer</source>
+      <translation>là où l'un des deux est plus fin</translation>
     </message>
     <message>
       <source>where the tool is finer</source>
@@ -1995,10 +2127,6 @@
     <message>
       <source>The borders of the ticked groups keep their shape; those of the others may drift</source>
       <translation>Les bords des groupes cochés gardent leur forme ; ceux des autres peuvent dériver</translation>
-    </message>
-    <message>
-      <source>Whether elements near the tool (of a crack that ends inside: near its front) are divided first</source>
-      <translation>Si les éléments près de l'outil (d'une fissure qui finit à l'intérieur : près de son front) sont d'abord divisés</translation>
     </message>
     <message>
       <source>Whether the borders of all groups keep their shape; where those of some may drift, elements can be better (the paper: virtual boundaries)</source>

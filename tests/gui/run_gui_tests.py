@@ -24,6 +24,9 @@ def main():
     parser.add_argument(
         "--script", help="what FreeCAD opens instead of running a test; it writes to FEMSCALPEL_TEST_RESULT"
     )
+    parser.add_argument("--screen", default="1280x900", help="size of the virtual screen in pixels")
+    parser.add_argument("--language", help="of the window, such as de")
+    parser.add_argument("--theme", help="FreeCAD's style sheet for the window, such as Dark-blue.qss")
     parser.add_argument(
         "names", nargs="+", help="a module, class or test; or what the script wants, in FEMSCALPEL_TESTS"
     )
@@ -44,13 +47,15 @@ def main():
             "FEMSCALPEL_TESTS": " ".join(arguments.names),
             "FEMSCALPEL_TEST_RESULT": outcome,
             "FEMSCALPEL_SCREENSHOTS": os.path.abspath(arguments.screenshots),
+            "FEMSCALPEL_LANGUAGE": arguments.language or "",
+            "FEMSCALPEL_THEME": arguments.theme or "",
         }
         what = [arguments.script] if arguments.script else ["-t", arguments.names[0]]
         command = [
             "xvfb-run",
             "-a",
             "-s",
-            "-screen 0 1280x900x24 -dpi 96",
+            f"-screen 0 {arguments.screen}x24 -dpi 96",
             arguments.freecad,
             *what,
             "--module-path",

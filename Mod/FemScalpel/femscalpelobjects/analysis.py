@@ -11,6 +11,7 @@ from femscalpel.mesh import CELL_TYPES
 
 from .geometry import element_of, geometry_of
 from .ours import made_of
+from .said import said
 
 
 def put_into_analysis(obj, strict=True):
@@ -170,7 +171,8 @@ def _retire_results(analysis, mesh):
     from femresult.resulttools import purge_results
 
     purge_results(analysis)
-    FreeCAD.Console.PrintMessage(f"{analysis.Label}: the results of '{mesh.Label}' are removed; solve again.\n")
+    text = said(f"the results of '{mesh.Label}' are removed; solve again")
+    FreeCAD.Console.PrintMessage(f"{analysis.Label}: {text}\n")
 
 
 def _analyses(doc):

@@ -18,9 +18,10 @@ from .on_shape import OnShape
 from .operator_options import KEEP_TO_SHAPE
 from .ours import made_of
 from .reason import Reason
+from .said import said
 
 if FreeCAD.GuiUp:
-    from femscalpelgui.messages import in_language
+    from femscalpelgui.translate import translate
     from femscalpelgui.view.crack_lines import crack_shape
 
 # Attribute bits of addProperty.
@@ -205,7 +206,7 @@ class MeshOperation:
         try:
             made, is_new = self._made(obj, inputs)
         except (femscalpel.Error, ValueError, TypeError) as error:
-            made = Made(inputs, None, b"none", error=f"{obj.Label}: {whole.shortened(str(error), obj.Document)}")
+            made = Made(inputs, None, b"none", error=whole.shortened(str(error), obj.Document))
             memory.keep(obj.Document, made)
             self._give(obj, made, error)
         except Exception:
@@ -214,7 +215,7 @@ class MeshOperation:
         if is_new:
             memory.keep(obj.Document, made)
             for warning in made.report.warnings:
-                FreeCAD.Console.PrintWarning(f"{obj.Label}: {in_language(warning) if FreeCAD.GuiUp else warning}\n")
+                FreeCAD.Console.PrintWarning(f"{obj.Label}: {said(warning)}\n")
         self._give(obj, made, aloud=True)
 
     def begin(self, obj, foreseen=None):
@@ -413,7 +414,7 @@ class MeshOperation:
             self._clear(obj)
             self.shown = Shown(made.inputs, made.token)
             if made.error:
-                raise Reason(made.error) from cause
+                raise Reason(f"{obj.Label}: {said(made.error)}") from cause
             return
         if not obj.Placement.isIdentity():
             obj.Placement = FreeCAD.Placement()
@@ -438,7 +439,8 @@ class MeshOperation:
         obj.GroupReport = lines
         if aloud:
             tell = FreeCAD.Console.PrintWarning if pieces.is_unsafe(held) else FreeCAD.Console.PrintMessage
-            tell(f"{obj.Label}: {sentence}\n")
+            text = pieces.sentence_of(parting, held, translate) if FreeCAD.GuiUp else sentence
+            tell(f"{obj.Label}: {text}\n")
 
     def _set_mesh(self, obj, femmesh):
         if self.shown is not None and self.shown.loaded:

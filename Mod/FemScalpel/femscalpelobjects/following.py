@@ -9,6 +9,7 @@ part, so a change that may have renumbered them is an error, unless what is foll
 import FreeCAD
 
 from .picked_geometry import axes_of, name_of, topology_of
+from .said import said
 
 NUMBERS, GEOMETRY = "Numbers", "Geometry"
 
@@ -173,10 +174,12 @@ def changed_by_hand(obj, prop):
         if axes is None or not _same(getattr(obj, place), axes.placement.multiply(obj.FollowOffset)):
             name = obj.FollowedName
             unlink(obj)
-            FreeCAD.Console.PrintWarning(f"{obj.Label}: {place} was set, so it does not follow {name} any more\n")
+            text = said(f"{place} was set, so it does not follow {name} any more")
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {text}\n")
     elif obj.SizeFollows and axes is not None and not _size_is_of(obj, axes):
         obj.SizeFollows = False
-        FreeCAD.Console.PrintWarning(f"{obj.Label}: {prop} was set, so it is not that of {obj.FollowedName} any more\n")
+        text = said(f"{prop} was set, so it is not that of {obj.FollowedName} any more")
+        FreeCAD.Console.PrintWarning(f"{obj.Label}: {text}\n")
 
 
 def _axes(obj):

@@ -12,7 +12,7 @@ from .merge import Merge
 from .reshape import Reshape
 
 
-@takes(options=operator_options.arguments("feature_angle", "group_name", group_name="ADD"))
+@takes(options=operator_options.arguments("feature_angle", "refine", "group_name", group_name="ADD"))
 def makeMerge(
     doc,
     source,

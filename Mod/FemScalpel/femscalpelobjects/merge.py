@@ -49,6 +49,7 @@ class Merge(MeshOperation):
         ("App::PropertyBool", "JoinGroups", "Whether groups of one name and kind become one", True),
         *operator_options.inputs(
             "feature_angle",
+            "refine",
             "group_name",
             GroupName=(
                 "Prefix of the new groups: NAME_SEAM, the nodes both share, and NAME_ADDED, the elements",
@@ -76,7 +77,7 @@ class Merge(MeshOperation):
             tolerance=obj.Tolerance.Value or None,
             prefix=obj.GroupPrefix,
             join_groups=obj.JoinGroups,
-            **operator_options.values(obj, mesh, "feature_angle", "group_name"),
+            **operator_options.values(obj, mesh, "feature_angle", "refine", "group_name"),
         )
 
     def _node_groups(self, source, report):

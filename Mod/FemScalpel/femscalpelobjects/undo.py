@@ -33,10 +33,8 @@ def mend(document):
         if shown is None:
             continue
         inputs = contents.inputs_of(obj)
-        if not all(mesh.FemMesh.NodeCount for mesh in made_of(obj)):
-            if "Invalid" in obj.State and shown.inputs != inputs:
-                obj.Proxy.give_back(obj, CLEARED)
-                obj.touch()
+        if _waits(obj):
+            _unmark(obj)
             continue
         if shown.inputs == inputs:
             if "Touched" in obj.State and "Invalid" not in obj.State:
@@ -50,6 +48,19 @@ def mend(document):
         else:
             obj.Proxy.give_back(obj, made)
     return unknown
+
+
+def _waits(obj):
+    """Whether what an object is made from has no mesh, as an operation that cannot be computed."""
+    return any(is_ours(mesh) and not mesh.FemMesh.NodeCount for mesh in made_of(obj))
+
+
+def _unmark(obj):
+    """Takes away an error of an object that waits, which is of what was before: FreeCAD does not compute what depends
+    on something that has failed, and the state of a document must not depend on how it came about."""
+    if "Invalid" in obj.State:
+        obj.Proxy.give_back(obj, CLEARED)
+        obj.touch()
 
 
 def _mend_and_compute(document):
@@ -115,6 +126,9 @@ class _Watch:
             hold_shortcuts(document)
 
     def slotRecomputedDocument(self, document):
+        for obj in _in_order(document):
+            if _waits(obj):
+                _unmark(obj)
         if FreeCAD.GuiUp:
             release_shortcuts()
 

@@ -142,9 +142,16 @@ def is_ready():
     return is_settled() and widget("status").text() and "…" not in widget("status").text()
 
 
+def button_boxes():
+    """The boxes of buttons that are shown. Not found in the main window: PySide 2 would keep them after FreeCAD has
+    deleted them, and hand them out for what comes to lie in their place."""
+    shown = QtGui.QApplication.allWidgets()
+    return [box for box in shown if isinstance(box, QtGui.QDialogButtonBox) and box.isVisible()]
+
+
 def press_button(*choices):
     """Clicks OK, Cancel or Close of the task panel, whichever is there."""
-    boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]
+    boxes = button_boxes()
     button = next(b.button(choice) for b in boxes for choice in choices if b.button(choice))
     QTest.mouseClick(button, QtCore.Qt.LeftButton)
     spin(0.05)
@@ -360,6 +367,7 @@ class GuiTest(unittest.TestCase):
         FreeCADGui.activateWorkbench("FemScalpelWorkbench")
         window = FreeCADGui.getMainWindow()
         without_start_page()
+        self.dress()
         resize_panel(330)
         self.reported = len(report_view())
         window.findChild(QtGui.QDockWidget, "Report view").hide()
@@ -370,6 +378,15 @@ class GuiTest(unittest.TestCase):
         self.doc = FreeCAD.newDocument("GuiTest")
         self.doc.UndoMode = 1
         spin(0.05)
+
+    def dress(self):
+        """Gives the window the language and the theme that the runner was told."""
+        if os.environ.get("FEMSCALPEL_LANGUAGE"):
+            FreeCADGui.setLocale(os.environ["FEMSCALPEL_LANGUAGE"])
+        if os.environ.get("FEMSCALPEL_THEME"):
+            path = os.path.join(FreeCAD.getResourceDir(), "Gui", "Stylesheets", os.environ["FEMSCALPEL_THEME"])
+            with open(path, encoding="utf-8") as file:
+                QtGui.QApplication.instance().setStyleSheet(file.read())
 
     def tearDown(self):
         while FreeCADGui.Control.activeDialog():

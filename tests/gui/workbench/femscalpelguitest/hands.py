@@ -4,7 +4,7 @@
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from .gui_testing import QTest, is_shown, spin, wait_until, widget
+from .gui_testing import QTest, button_boxes, is_shown, spin, wait_until, widget
 
 
 class Hands:
@@ -73,8 +73,10 @@ def line_of(name):
 
 def button_of_panel(choice):
     """OK, Cancel or Close of the task panel."""
-    boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]
-    return next(b.button(choice) for b in boxes if b.button(choice))
+    box = next(box for box in button_boxes() if box.button(choice))
+    button = box.button(choice)
+    button.box = box  # it would go with what Python has made of the box
+    return button
 
 
 class Window:

@@ -472,7 +472,7 @@ class CrackMessages(CrackTest):
     def test_options_out_of_range(self):
         self.open_panel()
         type_into("featureAngle", "0 deg")
-        self.assertIn("angle", self.wait_for_message("methodError"))
+        self.assertIn("“Sharp edges from” must be between 0", self.wait_for_message("methodError"))
         type_into("featureAngle", "30 deg")
         wait_until(lambda: not is_shown("methodError"), "the message to go")
         choose("refine", "Size")

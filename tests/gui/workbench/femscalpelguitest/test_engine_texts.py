@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the engine says is in the user's language, by templates that must be what it says today."""
 
+import functools
 import re
 
 import FreeCADGui
 import numpy as np
 
 import femscalpel as fs
+import ObjectsFemScalpel
 from femscalpelgui import help as pages
 from femscalpelgui.messages import TEMPLATES, in_language
 from femscalpeltest.meshes import grid_box
@@ -22,6 +24,12 @@ def two_boxes():
     near = grid_box((2, 2, 2), (2.0, 2.0, 2.0))
     points = np.vstack([near.points, near.points + (5, 0, 0)])
     return fs.Mesh(points, {"tetra": np.vstack([near.cells["tetra"], near.cells["tetra"] + near.node_count])})
+
+
+def rib():
+    """Thin and long, on a face of long_box()."""
+    rib = grid_box((120, 1, 8), (10.0, 0.08, 0.8))
+    return fs.Mesh(rib.points + (1.1, 2.33, 4), rib.cells)
 
 
 #: Operations that the engine refuses, or warns of.
@@ -49,9 +57,14 @@ CASES = {
     "no edge": lambda m: fs.fillet(m, "FIX", 0.5),
     "no group": lambda m: fs.reshape(m, "NOWHERE", by=(1, 0, 0)),
     "addition": lambda m: fs.merge(m, fs.Mesh(m.points + 90, m.cells), name="ADD"),
+    "much refined": lambda m: fs.drill(m, fs.Cylinder((7.2, 2.6, 2), Z, 0.06)),
+    "an addition that is finer": lambda m: fs.merge(m, rib()),
 }
+#: What Python's functions call parameters, as no field of a panel is called.
+PYTHON = re.compile(r"\b(refine|join_groups|method)=|feature_angle|max_elements|^along:")
 
 
+@functools.lru_cache(maxsize=None)
 def said(case):
     """The error, or the warnings, of an operation."""
     try:
@@ -95,11 +108,60 @@ class EngineTexts(GuiTest):
                         if "max_elements" not in template:
                             self.assertIn(f"<{number}>", translated)
 
-    def test_english_stays(self):
+    def test_english_calls_parameters_as_the_panels(self):
+        named = 0
         for name, case in CASES.items():
             for text in said(case):
-                self.assertEqual(in_language(text), text)
+                with self.subTest(case=name):
+                    if PYTHON.search(text):
+                        named += 1
+                        self.assertNotRegex(in_language(text), PYTHON)
+                    else:
+                        self.assertEqual(in_language(text), text)
+        self.assertGreaterEqual(named, 4)
         self.assertEqual(in_language("whatever"), "whatever")
+        self.assertEqual(
+            in_language("group 'A' is a group of the addition, too. join_groups=False keeps them apart"),
+            "group 'A' is a group of the addition, too. “Join groups of one name” off keeps them apart",
+        )
+        self.assertEqual(in_language("refine the mesh, in transition"), "refine the mesh, in transition")
+
+    def test_in_a_panel_in_english(self):
+        self.add_mesh(long_box())
+        self.run_command("FemScalpel_Drill")
+        self.wait_for_preview()
+        type_into("radius", "0.2")
+        wait_until(lambda: is_settled() and "Refine first" in widget("status").text(), "how much it was refined")
+        self.assertRegex(widget("status").text(), "“Refine first” to an edge length of .* makes fewer, “never”")
+        self.assertNotRegex(widget("status").text(), PYTHON)
+        screenshot("engine_text_en")
+
+    def test_objects_at_recompute(self):
+        """What an object says in the report view is in the window's language, as in a panel."""
+        FreeCADGui.setLocale("de")
+        spin(0.1)
+        mesh = self.add_mesh(long_box())
+        crack = ObjectsFemScalpel.makeCrack(self.doc, mesh, origin=(90, 0, 0), normal=X)
+        self.doc.recompute()
+        self.assertIn("Crack: Das Werkzeug (Ebene) verfehlt das Netz: Das ganze Netz liegt", self.news())
+        crack.PlanePlacement.Base.x = 7.3
+        self.doc.recompute()
+        self.assertIn("Crack: Das Bauteil zerfällt in 2 Stücke", self.news())
+        crack.Source = None
+        self.doc.recompute()
+        self.assertIn("Crack: Source ist nicht gesetzt; wählen Sie das FEM-Netz", self.news())
+        FreeCADGui.setLocale("en")
+        spin(0.1)
+        crack.touch()
+        self.doc.recompute()
+        self.assertIn("Crack: Source is not set; choose the FEM mesh to work on", self.news())
+
+    def news(self):
+        """What the report view says since this was asked last, or the test began."""
+        spin(0.2)
+        text = report_view()
+        new, self.told = text[getattr(self, "told", self.reported) :], len(text)
+        return new
 
     def test_panel(self):
         FreeCADGui.setLocale("de")

@@ -1,17 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What holds for every command: texts, when it is active, and what it says when it cannot work."""
 
+import gc
+import importlib
+
 import FreeCAD
 import FreeCADGui
 import numpy as np
 
 import femscalpel as fs
 from femscalpelgui.commands import COMMANDS, IN_MENU
+from femscalpelgui.view.preview_data import PreviewData, PreviewSource
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest
 from .test_crack_panel import long_box, traces
 
-from PySide import QtGui
+from PySide import QtCore, QtGui
+
+shiboken = importlib.import_module("shiboken2" if QtCore.qVersion().startswith("5") else "shiboken6")
 
 MESH_COMMANDS = [command for command in COMMANDS if command is not None]
 OPERATORS = (
@@ -21,6 +27,12 @@ OPERATORS = (
     "FemScalpel_Incision",
     "FemScalpel_Refine",
 )
+
+
+def meshes():
+    """How many meshes panels have read."""
+    gc.collect()
+    return sum(isinstance(obj, (PreviewSource, PreviewData)) for obj in gc.get_objects())
 
 
 def bricks():
@@ -74,6 +86,32 @@ class EveryCommand(GuiTest):
             with self.subTest(command=command.NAME):
                 self.assertFalse(FreeCADGui.Command.get(command.NAME).isActive())
                 self.assertIn("Open a document", message_during(command().Activated))
+
+    def test_nothing_is_left_of_panels(self):
+        """A panel that is closed goes, with the mesh it has read; and none of what PySide has made for it stays to be
+        taken for what comes to lie in its place."""
+        self.add_mesh(long_box())
+        self.add_mesh(long_box(), "Other")
+        for command in MESH_COMMANDS:
+            if command.NAME == "FemScalpel_Export":  # no panel
+                continue
+            with self.subTest(command=command.NAME):
+                FreeCADGui.Selection.clearSelection()
+                FreeCADGui.Selection.addSelection(self.doc.Name, "Mesh")
+                self.assertEqual(meshes(), 0)
+                self.run_command(command.NAME)
+                wait_until(lambda: meshes() > 0, "the mesh")
+                spin(0.3)
+                items = [
+                    w for w in shiboken.getAllValidWrappers() if isinstance(w, (QtGui.QWidgetItem, QtGui.QSpacerItem))
+                ]
+                boxes = len(button_boxes())
+                press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
+                self.assertEqual((items, boxes), ([], 1))
+                wait_until(lambda: meshes() == 0, "the end of the panel's mesh")
+                gc.collect()
+                wrapped = [w for w in gc.get_objects() if isinstance(w, QtGui.QDialogButtonBox)]
+                self.assertEqual(wrapped, [])
 
     def test_mesh_with_an_error(self):
         import ObjectsFemScalpel

@@ -15,7 +15,7 @@ from femscalpeltest.meshes import box_with_groups
 
 
 def ok_button():
-    boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]
+    boxes = button_boxes()
     return next(b.button(QtGui.QDialogButtonBox.Ok) for b in boxes if b.button(QtGui.QDialogButtonBox.Ok))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 import femmesh_bridge
 import femscalpel as fs
+from femscalpelgui import preferences
 from femscalpelgui.view import wall
 from femscalpelgui.view.preview_data import PreviewSource
 from femscalpeltest.meshes import grid_box
@@ -150,6 +151,35 @@ class Merge(MaterialTest):
         press_cancel()
         self.select("Mesh")
         self.assertEqual(traces(self.doc), before)
+
+    def test_refined_where_they_meet(self):
+        self.addCleanup(FreeCAD.ParamGet(preferences.GROUP).RemInt, "MostElements")
+        FreeCAD.ParamGet(preferences.GROUP).SetInt("MostElements", 6000)
+        self.select("Mesh", "Boss")
+        self.open_panel("FemScalpel_Merge")
+        self.wait_for_preview()
+        choose("refine", "Size")
+        type_into("refineSize", "0.04 mm")
+        wait_until(lambda: widget("refinementQuestion").isEnabled(), "the question")
+        self.assertIn("40.00", widget("refinementCost").text())
+        screenshot("merge_refinement_question")
+        click("refineFitting")
+        self.wait_for_preview()
+        self.assertGreater(value("refineSize"), 0.04)
+        type_into("refineSize", "0.5 mm")
+        expected = self.expected(refine=0.5)
+        self.assertGreater(expected.mesh.cell_count, 2 * self.expected(refine=False).mesh.cell_count)
+        self.shown(expected.report)
+        merge = self.made("Merge")
+        self.assertEqual((merge.Refine, merge.RefineSize.Value), ("Size", 0.5))
+        self.assertEqual(merge.FemMesh.NodeCount, expected.mesh.node_count)
+        merge.ViewObject.doubleClicked()
+        self.shown(expected.report)
+        choose("refine", "Never")
+        self.shown(self.expected(refine=False).report)
+        press_ok()
+        self.assertEqual(merge.Refine, "Never")
+        self.assertEqual(merge.FemMesh.NodeCount, self.expected(refine=False).mesh.node_count)
 
     def test_messages_at_their_fields(self):
         self.select("Mesh", "Boss")

@@ -163,7 +163,7 @@ class Sections(CrackTest):
 
     def test_ok_is_grey_while_there_is_an_error(self):
         self.open_panel()
-        boxes = [b for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible()]
+        boxes = button_boxes()
         ok = next(b.button(QtGui.QDialogButtonBox.Ok) for b in boxes if b.button(QtGui.QDialogButtonBox.Ok))
         self.assertTrue(ok.isEnabled())
         type_into("originX", "900")

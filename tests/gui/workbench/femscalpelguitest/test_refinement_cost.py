@@ -15,11 +15,7 @@ from .test_crack_panel import CrackTest
 
 
 def ok_button():
-    return next(
-        b.button(QtGui.QDialogButtonBox.Ok)
-        for b in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
-        if b.isVisible() and b.button(QtGui.QDialogButtonBox.Ok)
-    )
+    return next(b.button(QtGui.QDialogButtonBox.Ok) for b in button_boxes() if b.button(QtGui.QDialogButtonBox.Ok))
 
 
 def wait_for_question(size):

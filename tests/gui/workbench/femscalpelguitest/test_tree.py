@@ -8,7 +8,10 @@ from unittest import mock
 import FreeCAD
 import ObjectsFem
 import ObjectsFemScalpel
+from femscalpelobjects.base import MeshOperation
+from femscalpeltest.documents import geometry_link
 from .gui_testing import *  # noqa: F403
+from .mesh_content import content_of
 from .test_crack_panel import CrackTest
 
 
@@ -94,6 +97,31 @@ class ContextMenu(TreeTest):
         self.trigger("Show crack")
         self.assertEqual(self.crack.ViewObject.Transparency, 0)
         self.assertFalse(self.crack.ViewObject.Proxy.crack.lips.is_shown)
+
+
+class Recomputing(TreeTest):
+    def test_geometry_that_changes_without_the_mesh(self):
+        """Nothing of a chain is made anew for the sake of a part that is as it was."""
+        box = self.doc.addObject("Part::Box", "Box")
+        box.Length, box.Width, box.Height = 14, 5, 4
+        mesh = ObjectsFem.makeMeshGmsh(self.doc, "OfBox")
+        setattr(mesh, geometry_link(mesh), box)
+        mesh.FemMesh = self.mesh.FemMesh
+        self.doc.recompute()
+        second = self.make(self.make(mesh, 2.9, "A"), 9.1, "B")
+        before = content_of(second)
+        with mock.patch.object(MeshOperation, "_result", side_effect=AssertionError("a mesh was made")):
+            for change in (
+                lambda: box.touch(),
+                lambda: setattr(box, "Label", "Other"),
+                lambda: setattr(box.ViewObject, "ShapeColor", (1.0, 0.0, 0.0)),
+                lambda: setattr(self.doc.addObject("Part::Cylinder", "Other"), "Radius", 3),
+                lambda: mesh.touch(),
+            ):
+                change()
+                self.doc.recompute()
+                self.assertEqual(content_of(second), before)
+        self.assertEqual([o.Name for o in self.doc.Objects if "Invalid" in o.State], [])
 
 
 class MadeCrackInView(TreeTest):
