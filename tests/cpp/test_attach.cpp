@@ -69,11 +69,15 @@ TEST(MergeReport, KeepsWhatIsKnownOfTheMesh) {
 
 TEST(MergeReport, SaysTheWorstOfHowTheSeamRuns) {
     const std::string along = "the seam runs along a feature line or border line at ", wedge = " degrees: a wedge";
-    const std::string near =
-        "the seam runs within 0.15 edge lengths of a nearly parallel surface or group border at ";
-    std::vector<std::string> warnings = {along + "3" + wedge,       near + "2 nodes: thin", "other",
-                                         along + "0.5" + wedge,     near + "10 nodes: thin", "other",
-                                         "the addition: " + along + "2" + wedge, near + "9 nodes: thin"};
+    const std::string near = "the seam runs within 0.15 edge lengths of a nearly parallel surface or group border at ";
+    std::vector<std::string> warnings = {along + "3" + wedge,
+                                         near + "2 nodes: thin",
+                                         "other",
+                                         along + "0.5" + wedge,
+                                         near + "10 nodes: thin",
+                                         "other",
+                                         "the addition: " + along + "2" + wedge,
+                                         near + "9 nodes: thin"};
     join_warnings_about_the_seam(warnings);
     EXPECT_EQ(warnings, (std::vector<std::string>{along + "0.5" + wedge, near + "10 nodes: thin", "other",
                                                   "the addition: " + along + "2" + wedge}));

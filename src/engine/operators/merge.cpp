@@ -280,23 +280,6 @@ United unite_solids(Joint& joint, double tolerance, const MergeOptions& options)
     return out;
 }
 
-/// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
-std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
-    const GroupIndex added = *mesh.find_group(name, GroupKind::element);
-    std::vector<char> in_added(mesh.points.size(), 0), in_others(mesh.points.size(), 0);
-    for (const CellBlock& b : mesh.blocks()) {
-        if (traits(b.type).dimension < 2) continue;
-        for (Index c = 0; c < b.size(); ++c) {
-            std::vector<char>& in = mesh.families.contains(b.families[c], added) ? in_added : in_others;
-            for (const Index n : b.nodes(c)) in[n] = 1;
-        }
-    }
-    std::vector<Index> out;
-    for (Index n = 0; n < mesh.node_count(); ++n)
-        if (in_added[n] && in_others[n]) out.push_back(n);
-    return out;
-}
-
 /// An attempt, and what it is made of.
 struct Joined {
     std::unique_ptr<MergeRefining> refined;
@@ -485,8 +468,7 @@ Result merge_meshes(const Mesh& mesh, const Mesh& other, const MergeOptions& opt
         text << "an element that was filled in where the two meet has a mean ratio of " << united.worst
              << ": their skins meet at a sharp angle, or nodes lie close to each other there. Move the addition a "
                 "little, or refine the coarser one there first";
-        if (united.worst < poor_limit(out.report.quality_before.minimum))
-            throw QualityError(text.str(), "other");
+        if (united.worst < poor_limit(out.report.quality_before.minimum)) throw QualityError(text.str(), "other");
         out.report.warnings.push_back(text.str());
     }
     if (options.join_groups) warn_of_joined_groups(mesh, addition, out.report);

@@ -55,8 +55,8 @@ std::optional<std::pair<std::string, double>> grazing(const std::string& warning
         if (found == std::string::npos) continue;
         const std::string rest = warning.substr(found + std::string_view(kind).size());
         // "less than 0.1 degrees"
-        const double value = std::isdigit(static_cast<unsigned char>(rest.front())) ? std::strtod(rest.c_str(), nullptr)
-                                                                                    : 0;
+        const double value =
+            std::isdigit(static_cast<unsigned char>(rest.front())) ? std::strtod(rest.c_str(), nullptr) : 0;
         return std::pair(warning.substr(0, found) + kind, sign * value);
     }
     return {};
@@ -118,6 +118,22 @@ void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result
         if (solid && traits(b.type).dimension == 2) return false;
         return b.ids[c] >= last || std::ranges::any_of(b.nodes(c), [&](Index n) { return touched[n] != 0; });
     }));
+}
+
+std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
+    const GroupIndex added = *mesh.find_group(name, GroupKind::element);
+    std::vector<char> in_added(mesh.points.size(), 0), in_others(mesh.points.size(), 0);
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension < 2) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            std::vector<char>& in = mesh.families.contains(b.families[c], added) ? in_added : in_others;
+            for (const Index n : b.nodes(c)) in[n] = 1;
+        }
+    }
+    std::vector<Index> out;
+    for (Index n = 0; n < mesh.node_count(); ++n)
+        if (in_added[n] && in_others[n]) out.push_back(n);
+    return out;
 }
 
 void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nodes) {

@@ -18,6 +18,9 @@ std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, c
 void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result, const std::string& added,
                      Report& report);
 
+/// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
+std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name);
+
 /// Makes a node group NAME_SEAM of nodes.
 void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nodes);
 

@@ -89,7 +89,8 @@ std::unique_ptr<Tool> towards_cone(std::span<const Vec3> wall, const Cone& targe
     double middle = 0;
     for (const Vec2& p : profile) middle += p[1] / static_cast<double>(profile.size());
     middle = in_steps(middle, std::abs(middle));
-    const double range = std::abs((*from - to).dot(Vec2(1, middle))), radius = in_steps(line.dot(Vec2(1, middle)), range);
+    const double range = std::abs((*from - to).dot(Vec2(1, middle))),
+                 radius = in_steps(line.dot(Vec2(1, middle)), range);
     if (!(radius > 0)) return nullptr;
     const Vec3 at = target.origin() + middle * target.unit_axis();
     const double angle = std::atan(std::abs(line[1])) * 180 / std::numbers::pi,
