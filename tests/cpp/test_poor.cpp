@@ -136,7 +136,7 @@ TEST(CheckPoorest, RefusesWhatNothingWasSaidOf) {
         ADD_FAILURE() << "no error";
     } catch (const QualityError& e) {
         EXPECT_STREQ(e.parameter(), "other");
-        EXPECT_THAT(e.what(), testing::StartsWith("an element near (   0.3    0.3"));
+        EXPECT_THAT(e.what(), testing::StartsWith("an element near (    0.3     0.3 2.5e-05) would have"));
         EXPECT_THAT(e.what(), testing::EndsWith(". Move it."));
     }
     PoorPlace place;
