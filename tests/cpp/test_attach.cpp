@@ -67,5 +67,33 @@ TEST(MergeReport, KeepsWhatIsKnownOfTheMesh) {
     EXPECT_EQ(records.back().count_after, 2);
 }
 
+TEST(MergeReport, SaysTheWorstOfHowTheSeamRuns) {
+    const std::string along = "the seam runs along a feature line or border line at ", wedge = " degrees: a wedge";
+    const std::string near = "the seam runs within 0.15 edge lengths of a nearly parallel surface or group border at ";
+    std::vector<std::string> warnings = {along + "3" + wedge,
+                                         near + "2 nodes: thin",
+                                         "other",
+                                         along + "0.5" + wedge,
+                                         near + "10 nodes: thin",
+                                         "other",
+                                         "the addition: " + along + "2" + wedge,
+                                         near + "9 nodes: thin"};
+    join_warnings_about_the_seam(warnings);
+    EXPECT_EQ(warnings, (std::vector<std::string>{along + "0.5" + wedge, near + "10 nodes: thin", "other",
+                                                  "the addition: " + along + "2" + wedge}));
+    warnings.push_back(along + "less than 0.1" + wedge);
+    join_warnings_about_the_seam(warnings);
+    EXPECT_EQ(warnings[0], along + "less than 0.1" + wedge);
+}
+
+TEST(MergeReport, PoorPlacesOfBothStepsStay) {
+    Report before, after;
+    before.poor.resize(1);
+    before.poor[0].mean_ratio = 0.01;
+    after.poor.resize(2);
+    EXPECT_EQ(joined(before, after).poor.size(), 3);
+    EXPECT_EQ(joined(before, after).poor[0].mean_ratio, 0.01);
+}
+
 }  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

@@ -106,6 +106,26 @@ TEST(Imprint, WhatIsOnNoSurfaceIsAnError) {
     EXPECT_THROW(block.imprint({{0.6, 0.7, 9}, {3.3, 2.9, 9}}), QualityError);
 }
 
+TEST(Imprint, KeepsTheEdgesThatALineHasAlready) {
+    Block block;
+    const std::vector<Vec3> places{{1, 1, 1}, {2, 1, 1}, {2.5, 1.2, 1}};
+    const Ribbon ribbon(places, std::vector<Vec3>(3, Vec3::UnitZ()), false);
+    const Index a = checks::number_near(block.mesh, places[0]), b = checks::number_near(block.mesh, places[1]);
+    const Imprint imprint({{&ribbon, {0, 1, 1.5}, places, {a, b, -1}}}, false);
+    imprint.keep_edges(block.f);
+    ASSERT_EQ(block.f.kept_edges.size(), 1);
+    const auto [first, second] = *block.f.kept_edges.begin();
+    const BandMesh& band = block.f.d.band;
+    EXPECT_LT(first, second);
+    EXPECT_EQ((std::set{band.nodes[first].global, band.nodes[second].global}), (std::set{a, b}));
+    EXPECT_TRUE(block.f.d.mids.is_kept(first, second));
+    const Imprint apart({{&ribbon, {0, 1}, {places[0], {4, 4, 1}}, {a, checks::number_near(block.mesh, {4, 4, 1})}}},
+                        false);
+    block.f.kept_edges.clear();
+    apart.keep_edges(block.f);
+    EXPECT_TRUE(block.f.kept_edges.empty());  // there is no edge between them
+}
+
 TEST(SurfaceLine, BordersInsideTheMaterialAreNoSurface) {
     const Mesh mesh = checks::two_halves();
     const Workpiece f = checks::whole_workpiece(mesh, checks::away);

@@ -5,6 +5,7 @@
 #include "operators/poor.h"
 
 #include "cutting/weld.h"
+#include "mesh/quality.h"
 #include "simple_meshes.h"
 #include "tools/plane.h"
 
@@ -102,6 +103,48 @@ TEST_F(PoorTest, HeldNodesMayBeNew) {
     const int born = f.split_edge(a, b, Vec3(0, 1.5, 2), {});
     f.d.hold_beside(born, &plane);
     EXPECT_EQ(find_held_nodes(f, mesh).count, 1);
+}
+
+/// Two tetrahedra on one face, of which the second, number 8, is as high as told; node 4 is its tip.
+Mesh two_tetras(double height) {
+    Mesh mesh;
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1), Vec3(0.2, 0.2, height)})
+        mesh.add_node(x, mesh.node_count() + 1);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 2, 1, 3}, 7);
+    mesh.add_cell(CellType::tetra, std::array<Index, 4>{0, 1, 2, 4}, 8);
+    return mesh;
+}
+
+TEST(PoorestAt, IsOneOfTheElementsAtTheNodes) {
+    const Mesh mesh = two_tetras(0.01);
+    const PoorestElement poorest = poorest_at(mesh, {1});
+    EXPECT_EQ(poorest.id, 8);
+    EXPECT_NEAR(poorest.mean_ratio, mean_ratio(mesh, CellType::tetra, 1), 1e-15);
+    EXPECT_NEAR(poorest.place.z(), 0.0025, 1e-12);
+    EXPECT_EQ(poorest_at(mesh, {3}).id, 7);  // the other has not that node
+    EXPECT_EQ(poorest_at(mesh, {}).id, -1);
+}
+
+TEST(CheckPoorest, RefusesWhatNothingWasSaidOf) {
+    const PoorestElement poorest = poorest_at(two_tetras(1e-4), {4});
+    ASSERT_LT(poorest.mean_ratio, 0.01);
+    const auto check = [&](double before, std::vector<PoorPlace> said) {
+        check_poorest(poorest, before, said, "Move it.", "other");
+    };
+    try {
+        check(0.5, {});
+        ADD_FAILURE() << "no error";
+    } catch (const QualityError& e) {
+        EXPECT_STREQ(e.parameter(), "other");
+        EXPECT_THAT(e.what(), testing::StartsWith("an element near (    0.3     0.3 2.5e-05) would have"));
+        EXPECT_THAT(e.what(), testing::EndsWith(". Move it."));
+    }
+    PoorPlace place;
+    place.mean_ratio = poorest.mean_ratio;
+    EXPECT_NO_THROW(check(0.5, {place}));
+    place.mean_ratio = 2 * poorest.mean_ratio;
+    EXPECT_THROW(check(0.5, {place}), QualityError);
+    EXPECT_NO_THROW(check(5 * poorest.mean_ratio, {}));  // the input was hardly better
 }
 
 }  // namespace FILE_NAMESPACE

@@ -5,15 +5,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cancel.h"
 #include "cutting/motion_error.h"
 #include "groups/group_nodes.h"
 #include "groups/group_report.h"
 #include "mesh/quality.h"
+#include "mesh/stopwatch.h"
 #include "operators/drill.h"
 #include "operators/reshape_part.h"
+#include "operators/revolved_share.h"
 #include "simple_meshes.h"
+#include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
+#include "tools/torus.h"
 
 namespace femscalpel {
 namespace FILE_NAMESPACE {
@@ -198,6 +203,74 @@ TEST(ReshapePart, IsThatMuchOfAMotion) {
     const MotionError error("", "by", Vec3(12, 0, 0));
     EXPECT_EQ(where_text(mesh, "", error), ". The nearest other group is 'END', there.");
     EXPECT_EQ(where_text(mesh, "END", error), ".");
+}
+
+/// The text of a part of the motion of a drilled block's hole, of radius 0.9, onto a tool; its nodes are on that part.
+std::string part_onto(const Tool& tool, double share) {
+    const Cylinder hole({6, 2, 0}, {0, 0, 1}, 0.9);
+    const Tool* tools[] = {&hole};
+    const Mesh mesh = drill(block(), tools).mesh;
+    ReshapeOptions onto;
+    onto.onto = &tool;
+    const auto part = part_of_motion(mesh, *mesh.find_group("HOLE_WALL"), onto, share);
+    return part ? part->text : "none";
+}
+
+TEST(ReshapePart, OfAMotionOntoAConeIsACone) {
+    EXPECT_EQ(part_onto(Cone({6, 2, 2}, {0, 0, 1}, 1.3, 20), 0), "onto=Cylinder((6, 2, 2), (0, 0, 1), 0.9)");
+    // tan(20 degrees) / 2 is tan(10.314 degrees)
+    EXPECT_EQ(part_onto(Cone({6, 2, 2}, {0, 0, 1}, 1.3, 20), 0.5), "onto=Cone((6, 2, 2), (0, 0, 1), 1.1, 10.314)");
+    EXPECT_EQ(part_onto(Cone({6, 2, 2}, {0, 0, -1}, 1.3, 20), 1), "onto=Cone((6, 2, 2), (0, 0, -1), 1.3, 20)");
+    EXPECT_EQ(part_onto(Cone({6, 2.5, 2}, {0, 0, 1}, 1.3, 20), 0.5), "none");  // about another axis
+}
+
+TEST(ReshapePart, OfAMotionOntoATorusIsATorus) {
+    // Nodes on the torus of the same axis with radii 6 and 1.
+    Mesh mesh;
+    const FamilyIndex family = checks::family_of(mesh, "WALL", GroupKind::node);
+    for (int k = 0; k < 7; ++k)
+        for (int j = 0; j < 5; ++j) {
+            const double around = 0.3 * k, turn = 0.2 * j, far = 6 + std::cos(turn);
+            mesh.add_node({far * std::cos(around), far * std::sin(around), 2 + std::sin(turn)}, mesh.node_count() + 1);
+            mesh.node_families.back() = family;
+        }
+    ReshapeOptions onto;
+    const auto text = [&](const Torus& torus, double share) {
+        onto.onto = &torus;
+        const auto part = part_of_motion(mesh, *mesh.find_group("WALL"), onto, share);
+        return part ? part->text : "none";
+    };
+    EXPECT_EQ(text(Torus({0, 0, 2}, {0, 0, 1}, 6, 2), 0.25), "onto=Torus((0, 0, 2), (0, 0, 1), 6, 1.25)");
+    EXPECT_EQ(text(Torus({0, 0, 4}, {0, 0, 1}, 8, 2), 0.25), "onto=Torus((0, 0, 2.5), (0, 0, 1), 6.5, 1.25)");
+    EXPECT_EQ(revolved_between(mesh.points, Torus({1, 0, 2}, {0, 0, 1}, 6, 2), 0.25, 1e-6), nullptr);
+}
+
+/// Looks at a motion as long as it is let.
+void look_for_ever(const ReshapeOptions& /*part*/) {
+    for (;;) check_cancelled();
+}
+
+TEST(ReshapePart, IsLookedForAsLongAsTold) {
+    const Mesh mesh = block();
+    const GroupIndex end = *mesh.find_group("END", GroupKind::node);
+    const Stopwatch::Time started = Stopwatch::now();
+    EXPECT_EQ(advice_on_motion(mesh, end, by(-12.5), look_for_ever, look_for_ever, 0.2), " Move it less");
+    EXPECT_GE(Stopwatch::since(started), 0.2);
+    EXPECT_LT(Stopwatch::since(started), 2);
+}
+
+TEST(ReshapePart, IsLookedForUntilCancelled) {
+    const Mesh mesh = block();
+    const GroupIndex end = *mesh.find_group("END", GroupKind::node);
+    const CancelToken token;
+    const CancelScope scope(token);
+    const auto cancel_meanwhile = [&](const ReshapeOptions& part) {
+        token.cancel();
+        look_for_ever(part);
+    };
+    const Stopwatch::Time started = Stopwatch::now();
+    EXPECT_THROW(advice_on_motion(mesh, end, by(-12.5), cancel_meanwhile, look_for_ever, 60), Cancelled);
+    EXPECT_LT(Stopwatch::since(started), 2);
 }
 
 }  // namespace FILE_NAMESPACE

@@ -472,3 +472,16 @@ def test_a_hole_that_gets_less_round_is_told(gap, told):
     after = off_the_wall(result.mesh, (6.3, 10 - 1.2 - gap, 0), 1.2)
     assert (after > 1.05 * before) == told
     assert any("less round" in w for w in result.report.warnings) == told
+
+
+def test_the_part_of_a_motion_onto_a_cone_that_an_error_tells_works():
+    hole = fs.Cylinder((6, 4, 0), (0, 0, 1), 1)
+    mesh = fs.drill(grid_box((12, 8, 3), (12.0, 8.0, 3.0)), hole, name="H").mesh
+    with pytest.raises(fs.ToolError) as error:
+        fs.reshape(mesh, "H_WALL", onto=fs.Cone((6, 4, 1.5), (0, 0, 1), 3.8, 20))
+    told = re.search(r" % of the motion works.*onto=Cone\(\((.*)\), \((.*)\), (.*), (.*)\)$", str(error.value))
+    origin, axis = ([float(x) for x in told[k].split(",")] for k in (1, 2))
+    cone = fs.Cone(origin, axis, float(told[3]), float(told[4]))
+    moved = fs.reshape(mesh, "H_WALL", onto=cone).mesh
+    wall = moved.points[np.isin(moved.node_ids, moved.groups["SHAPE_WALL"].ids)]
+    assert 1 < cone.radius < 3.8 and np.abs(cone.distance(wall)).max() < 1e-9

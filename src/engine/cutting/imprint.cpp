@@ -316,13 +316,17 @@ private:
             const int a = nodes[k], b = nodes[(k + 1) % nodes.size()];
             const double from = arc_of(a), here = onward(from, arc), whole = onward(from, arc_of(b));
             if (here < 0 || here > whole || whole <= 0) continue;
-            const Contact tools = Contact(&ribbon_);
+            // An edge that is there already stays where it is, also if that is a curve beside the line.
+            const bool kept = d_.mids.is_kept(a, b);
+            const Contact tools = kept ? Contact() : Contact(&ribbon_);
             const double t = here / whole;
             const Vec3 on = exact_ ? wanted(stop) : d_.fitted_split(a, b, d_.along_edge(a, b, t), tools).at;
             const int v = f_.split_edge(a, b, on, tools);
             extend_values();
+            if (kept)
+                for (const int end : {a, b}) d_.mids.keep(end, v);
             // The edge is but the chord of a bend.
-            if (!exact_) move(v, wanted(stop), 0.05, 0.05 * surface_edge(v));
+            if (!exact_ && !kept) move(v, wanted(stop), 0.05, 0.05 * surface_edge(v));
             hold(v, stop);
             return;
         }
@@ -334,6 +338,27 @@ private:
 };
 
 }  // namespace
+
+void Imprint::keep_edges(Workpiece& f) const {
+    std::map<Index, int> band_node;
+    for (int v = 0; v < f.d.band.original_nodes(); ++v) band_node.emplace(f.d.band.nodes[v].global, v);
+    const auto node = [&](Index known) {
+        const auto found = known < 0 ? band_node.end() : band_node.find(known);
+        return found == band_node.end() ? -1 : found->second;
+    };
+    for (const ImprintLine& line : lines_) {
+        if (line.only_stops) continue;
+        std::vector<int> nodes;  // other stops may be between them
+        for (const Index known : line.known)
+            if (const int v = node(known); v >= 0) nodes.push_back(v);
+        for (std::size_t k = 0; k + (line.ribbon->closed() ? 0 : 1) < nodes.size(); ++k) {
+            const int a = nodes[k], b = nodes[(k + 1) % nodes.size()];
+            if (a == b || !are_joined(f.d, a, b)) continue;
+            f.kept_edges.insert(std::minmax(a, b));
+            if (!exact_) f.d.mids.keep(a, b);
+        }
+    }
+}
 
 void Imprint::run(Workpiece& f) {
     f.at_stop.clear();

@@ -44,6 +44,10 @@ public:
     /// Holds the planes that keep nodes at stops; must outlive the workpieces, as must the ribbons.
     Imprint(std::vector<ImprintLine> lines, bool exact) : lines_(std::move(lines)), exact_(exact) {}
 
+    /// Puts the edges between known nodes, where lines have them already, into Workpiece::kept_edges. Those that are
+    /// curved stay so, though the line is straight there; halves of one would not be on it.
+    void keep_edges(Workpiece& f) const;
+
     /// Throws QualityError that names the place where a line cannot be made edges.
     void run(Workpiece& f);
 

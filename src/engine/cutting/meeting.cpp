@@ -65,6 +65,13 @@ public:
     }
 
     Meeting run() {
+        Meeting out = find();
+        out.facets = has_facets();
+        return out;
+    }
+
+private:
+    Meeting find() {
         if (faces_[0].empty() || faces_[1].empty()) return {};
         find_fineness();
         if (are_solids()) {
@@ -87,7 +94,16 @@ public:
         return meet();
     }
 
-private:
+    /// Whether a face that lies on the other's is one of a curved surface.
+    bool has_facets() const {
+        for (const std::size_t m : {0U, 1U})
+            for (std::size_t f = 0; f < lying_[m].size(); ++f) {
+                const int face = static_cast<int>(f);
+                if (lying_[m][f] && trees_[m]->sag(face) > straight * trees_[m]->size(face)) return true;
+            }
+        return false;
+    }
+
     struct Crossing {
         Span span;
         std::array<int, 2> face;

@@ -12,6 +12,7 @@ namespace femscalpel {
 struct Meeting {
     std::vector<MeetingLine> lines;
     double tolerance = 0;  ///< the largest that there was
+    bool facets = false;   ///< whether curved faces of solids lie on each other, as facets that need not be the same
 };
 
 /// Where the surfaces of two meshes meet: where they cross, and where the border of one is on the other. A border is so

@@ -186,6 +186,7 @@ void refine(Workpiece& f, const Slots& slots, double most_elements) {
         if (element_count(band) >= most_elements) break;
         // With both ends on the tool the halves would have to be, too.
         if (f.d.contact[a].common(f.d.contact[b]) || f.d.constraints.has_fixed_middle(a, b)) continue;
+        if (f.kept_edges.contains({a, b})) continue;
         const Deformable::SplitPoint point = f.d.fitted_split(a, b, f.d.along_edge(a, b, 0.5), {});
         if (!point.fits || !(point.worst > 0.1)) continue;
         f.split_edge(a, b, point.at, {});

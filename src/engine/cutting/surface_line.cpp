@@ -21,10 +21,7 @@ constexpr double lying = 0.4;
 
 void check_joined(const Deformable& d, int a, int b) {
     const BandMesh& band = d.band;
-    const bool joined = std::ranges::any_of(band.skin.around(a), [&](int s) {
-        return is_surface_face(d, s) && std::ranges::find(band.skin[s], b) != band.skin[s].end();
-    });
-    if (joined) return;
+    if (are_joined(d, a, b)) return;
     if (band.nodes[a].at == band.nodes[b].at)
         throw QualityError("the seam runs across double nodes, of a crack's lips or a contact, at " +
                            point_text(band.nodes[a].at) +
@@ -45,6 +42,12 @@ std::string point_text(const Vec3& x) {
 
 bool is_surface_face(const Deformable& d, int skin) {
     return d.band.skin.alive(skin) && !d.constraints.geometry().surfaces[d.band.skin.tag(skin)].internal;
+}
+
+bool are_joined(const Deformable& d, int a, int b) {
+    return std::ranges::any_of(d.band.skin.around(a), [&](int s) {
+        return is_surface_face(d, s) && std::ranges::find(d.band.skin[s], b) != d.band.skin[s].end();
+    });
 }
 
 std::vector<int> line_nodes(const Workpiece& f, const ImprintLine& line, const std::vector<int>& at_stop) {

@@ -16,6 +16,9 @@ std::string point_text(const Vec3& x);
 /// Whether a face of BandMesh::skin is one of the surface, not of a border inside the material.
 bool is_surface_face(const Deformable& d, int skin);
 
+/// Whether there is an edge of the surface between two nodes of the band.
+bool are_joined(const Deformable& d, int a, int b);
+
 /// The nodes on a line, along it; `at_stop` as Workpiece::at_stop. Throws QualityError when two in a row are not joined
 /// by an edge of the surface.
 std::vector<int> line_nodes(const Workpiece& f, const ImprintLine& line, const std::vector<int>& at_stop);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,9 @@ struct Workpiece {
     std::vector<std::vector<int>> at_stop = {};
     /// By such a node: whether a border, feature line or group held it on its surface before it was held at its stop.
     std::map<int, bool> bound_at_stop = {};
+    /// Edges between nodes (the smaller first) that are not to be divided for another try: they are where a line is to
+    /// have edges.
+    std::set<std::pair<int, int>> kept_edges = {};
     std::vector<int> beam_nodes = {};  ///< on the first tool, where it is wanted, that beams end in; ascending
     std::vector<std::pair<int, int>> beam_ends = {};  ///< where beams were cut off: node, and tag of the tool
     bool patched = false;  ///< only the faces in BandMesh::cut_faces (cut_edges) are to be opened

@@ -156,6 +156,7 @@ struct Corners {
 }  // namespace
 
 Contact edge_tools(const Deformable& d, int a, int b) {
+    if (d.mids.is_kept(a, b)) return {};
     const Contact tools = d.edge_contact(a, b);
     if (!tools.has(d.barrier) ||
         (!is_curved(d.barrier) && d.constraints.is_straight(d.constraints.on_edge(d.band, a, b))) ||

@@ -83,6 +83,11 @@ public:
 
     bool is_off_tools(int a, int b) const { return off_tools_.contains(edge_key(a, b)); }
 
+    /// The edge a-b is what it was, though both its ends are on a tool that it is beside.
+    void keep(int a, int b) { kept_.insert(edge_key(a, b)); }
+
+    bool is_kept(int a, int b) const { return kept_.contains(edge_key(a, b)); }
+
     /// The input's bulges of the edges that mend() was called for, by edge.
     const std::unordered_map<std::uint64_t, Vec3>& mended() const { return mended_; }
 
@@ -98,7 +103,7 @@ private:
     bool any_ = false, ignored_ = false;
     std::vector<char> end_of_bulge_;  // by node
     std::unordered_map<std::uint64_t, Vec3> bulges_, mended_;
-    std::unordered_set<std::uint64_t> straightened_, off_tools_;
+    std::unordered_set<std::uint64_t> straightened_, off_tools_, kept_;
 };
 
 /// How far along from a to b the point `at` is, as a fraction of the chord.

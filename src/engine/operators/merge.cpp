@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -32,6 +33,7 @@
 #include "operators/merge_checks.h"
 #include "operators/merge_refining.h"
 #include "operators/merge_report.h"
+#include "operators/poor.h"
 #include "operators/sections.h"
 #include "operators/simplify_at_meeting.h"
 #include "operators/simplify_first.h"
@@ -48,9 +50,6 @@ constexpr double on_each_other = 1e-3;
 constexpr double parallel = 0.99;
 /// Elements filled in with a smaller mean ratio than this are worth another attempt, and a word.
 constexpr double poor = 0.12;
-/// And with one that is smaller than this and this part of the meshes' worst, nothing is joined.
-constexpr double useless = 0.02;
-constexpr double part_of_inputs = 0.1;
 /// Edges of the one at the line may be so many times longer than those of the other; and where that comes to nothing or
 /// to poor elements. The last is for lines that lie on each other as polygons of one circle do: finer edges part them.
 constexpr double coarser[] = {2.5, 1.1, 0.3};
@@ -60,6 +59,11 @@ constexpr double growth_to_meet = 20, growth_for_shape = 3;
 /// Elements no worse than this part of those that were there are as good as these let them be: none of a thin plate, as
 /// long as they are wide and much longer than thick, is a good one.
 constexpr double as_thin = 0.7;
+
+/// What to do where facets are in the way.
+constexpr const char* about_facets =
+    "Curved surfaces of the two lie on each other there as facets that are not the same, so that the one is now above, "
+    "now below the other. Mesh both with the same number of elements around, or a multiple of it, or with smaller ones";
 
 [[noreturn]] void fail_apart(const Mesh& mesh, const Mesh& addition) {
     check_within(mesh, addition);
@@ -159,7 +163,9 @@ Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Me
     for (auto& [type, count] : out.converted) count = std::min(count, count_of(input, type) + count_of(addition, type));
     std::erase_if(out.converted, [](const auto& entry) { return entry.second == 0; });
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
+    std::ranges::copy(other.poor, std::back_inserter(out.poor));
     join_warnings_about_stiffness(out.warnings);
+    join_warnings_about_the_seam(out.warnings);
     return out;
 }
 
@@ -168,6 +174,7 @@ struct United {
     Mesh mesh;
     std::vector<std::string> warnings;
     double worst = 1;                              ///< smallest mean ratio of what was filled in
+    std::vector<Index> seam;                       ///< nodes that both have
     std::vector<std::array<Index, 2>> seam_edges;  ///< of shells
 };
 
@@ -317,6 +324,13 @@ Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double
     for (const std::size_t m : {0U, 1U}) refined.join(m, out.joint->report(m));
     const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
     out.united = solids ? unite_solids(*out.joint, meeting.tolerance, options) : unite_shells(*out.joint, options);
+    out.united.seam = shared_nodes(out.united.mesh, options.name + "_ADDED");
+    std::vector<PoorPlace> said = out.joint->report(0).poor;
+    std::ranges::copy(out.joint->report(1).poor, std::back_inserter(said));
+    check_poorest(poorest_at(out.united.mesh, out.united.seam), out.input(), said,
+                  "The skins of the two meet at a sharp angle there, or their nodes lie close to each other. Move the "
+                  "addition a little, or refine the coarser one there first",
+                  "other");
     return out;
 }
 
@@ -340,8 +354,13 @@ Joined join(const Mesh& mesh, const Mesh& addition, const Meeting& meeting, cons
         }
         if (!automatic || (best && best->worst() >= std::min(poor, as_thin * best->input()))) break;
     }
-    if (!best) std::rethrow_exception(first);
-    return std::move(*best);
+    if (best) return std::move(*best);
+    try {
+        std::rethrow_exception(first);
+    } catch (const QualityError& error) {
+        if (!meeting.facets) throw;
+        throw QualityError(std::string(error.what()) + ". " + about_facets, error.parameter());
+    }
 }
 
 /// The two with simplices alone where they meet.
@@ -366,23 +385,6 @@ struct Simplices {
         if (converted[0] || converted[1]) meeting = find_meeting(*mesh[0], *mesh[1], options.tolerance);
     }
 };
-
-/// Nodes that elements of the group `name` and others have, mid-side nodes, too; ascending.
-std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
-    const GroupIndex added = *mesh.find_group(name, GroupKind::element);
-    std::vector<char> in_added(mesh.points.size(), 0), in_others(mesh.points.size(), 0);
-    for (const CellBlock& b : mesh.blocks()) {
-        if (traits(b.type).dimension < 2) continue;
-        for (Index c = 0; c < b.size(); ++c) {
-            std::vector<char>& in = mesh.families.contains(b.families[c], added) ? in_added : in_others;
-            for (const Index n : b.nodes(c)) in[n] = 1;
-        }
-    }
-    std::vector<Index> out;
-    for (Index n = 0; n < mesh.node_count(); ++n)
-        if (in_added[n] && in_others[n]) out.push_back(n);
-    return out;
-}
 
 /// Throws QualityError where more than two solids have a face at the seam, or half a quadrangle is another's face: a
 /// mesh that only looks right.
@@ -450,7 +452,7 @@ Result merge_meshes(const Mesh& mesh, const Mesh& other, const MergeOptions& opt
     United& united = joined.united;
     Result out;
     out.mesh = std::move(united.mesh);
-    const std::vector<Index> seam = shared_nodes(out.mesh, options.name + "_ADDED");
+    const std::vector<Index>& seam = united.seam;
     if (solids)
         check_seam(out.mesh, seam);
     else
@@ -466,8 +468,7 @@ Result merge_meshes(const Mesh& mesh, const Mesh& other, const MergeOptions& opt
         text << "an element that was filled in where the two meet has a mean ratio of " << united.worst
              << ": their skins meet at a sharp angle, or nodes lie close to each other there. Move the addition a "
                 "little, or refine the coarser one there first";
-        if (united.worst < useless && united.worst < part_of_inputs * out.report.quality_before.minimum)
-            throw QualityError(text.str(), "other");
+        if (united.worst < poor_limit(out.report.quality_before.minimum)) throw QualityError(text.str(), "other");
         out.report.warnings.push_back(text.str());
     }
     if (options.join_groups) warn_of_joined_groups(mesh, addition, out.report);

@@ -2,6 +2,11 @@
 #include "operators/merge_report.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -39,7 +44,45 @@ std::vector<ElementQuality> qualities(const Mesh& mesh, Wanted wanted) {
     return out;
 }
 
+/// How bad a warning of warn_of_grazing() is, and what kind of warning; nothing if it is another.
+std::optional<std::pair<std::string, double>> grazing(const std::string& warning) {
+    for (const auto& [kind, sign] : {std::pair("the seam meets a surface or group border at ", -1.0),
+                                     std::pair("the seam runs along a feature line or border line at ", -1.0),
+                                     std::pair("the seam runs within 0.15 edge lengths of a nearly parallel surface or "
+                                               "group border at ",
+                                               1.0)}) {
+        const std::size_t found = warning.find(kind);
+        if (found == std::string::npos) continue;
+        const std::string rest = warning.substr(found + std::string_view(kind).size());
+        // "less than 0.1 degrees"
+        const double value =
+            std::isdigit(static_cast<unsigned char>(rest.front())) ? std::strtod(rest.c_str(), nullptr) : 0;
+        return std::pair(warning.substr(0, found) + kind, sign * value);
+    }
+    return {};
+}
+
 }  // namespace
+
+void join_warnings_about_the_seam(std::vector<std::string>& warnings) {
+    std::vector<std::string> out;
+    std::map<std::string, std::pair<std::size_t, double>> worst;  // by kind: which of `out`, and how bad
+    for (std::string& warning : warnings) {
+        const auto of = grazing(warning);
+        if (!of) {
+            if (std::ranges::find(out, warning) == out.end()) out.push_back(std::move(warning));
+            continue;
+        }
+        const auto [known, fresh] = worst.try_emplace(of->first, out.size(), of->second);
+        if (fresh) {
+            out.push_back(std::move(warning));
+        } else if (of->second > known->second.second) {
+            known->second.second = of->second;
+            out[known->second.first] = std::move(warning);
+        }
+    }
+    warnings = std::move(out);
+}
 
 std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, const std::vector<GroupRecord>& known) {
     std::vector<GroupRecord> records = compare_groups(input, family_totals(input), result, family_totals(result));
@@ -77,6 +120,22 @@ void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result
     }));
 }
 
+std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {
+    const GroupIndex added = *mesh.find_group(name, GroupKind::element);
+    std::vector<char> in_added(mesh.points.size(), 0), in_others(mesh.points.size(), 0);
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension < 2) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            std::vector<char>& in = mesh.families.contains(b.families[c], added) ? in_added : in_others;
+            for (const Index n : b.nodes(c)) in[n] = 1;
+        }
+    }
+    std::vector<Index> out;
+    for (Index n = 0; n < mesh.node_count(); ++n)
+        if (in_added[n] && in_others[n]) out.push_back(n);
+    return out;
+}
+
 void add_seam(Mesh& mesh, const std::string& name, const std::vector<Index>& nodes) {
     const GroupIndex group = mesh.add_group(name + "_SEAM", GroupKind::node);
     for (const Index n : nodes) mesh.node_families[n] = mesh.families.with(mesh.node_families[n], group);
@@ -90,6 +149,7 @@ Report joined(const Report& before, Report after) {
     after.elements_added += before.elements_added;
     for (const auto& [type, count] : before.converted) after.converted[type] += count;
     after.warnings.insert(after.warnings.begin(), before.warnings.begin(), before.warnings.end());
+    after.poor.insert(after.poor.begin(), before.poor.begin(), before.poor.end());
     return after;
 }
 

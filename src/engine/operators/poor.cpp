@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "cancel.h"
 #include "cutting/weld.h"
 #include "mesh/quality.h"
 #include "words.h"
@@ -14,7 +15,9 @@ namespace femscalpel {
 namespace {
 
 /// Mean ratio below which no element may be without a word, and the part of the input's worst that is as bad.
-constexpr double poor_limit = 0.02, part_of_worst = 0.1;
+constexpr double poor_ratio = 0.02, part_of_worst = 0.1;
+/// What was said of an element holds as long as it is no worse than this part of that.
+constexpr double as_said = 0.99;
 
 /// Elements between the tool and what is so many edge lengths away have no reason to be poor.
 constexpr double roomy = 0.15;
@@ -148,6 +151,47 @@ std::string advice(const PoorPlace& place, const Holders& holders, const std::st
 
 }  // namespace
 
+double poor_limit(double worst_before) { return std::min(poor_ratio, part_of_worst * worst_before); }
+
+PoorestElement poorest_at(const Mesh& mesh, const std::vector<Index>& nodes) {
+    std::vector<char> looked_at(mesh.points.size(), 0);
+    for (const Index n : nodes) looked_at[n] = 1;
+    const int dimension = mesh.dimension() == 3 ? 3 : 2;
+    PoorestElement out;
+    CellRef worst{};
+    SparseCheck check;
+    for (const CellBlock& b : mesh.blocks()) {
+        if (traits(b.type).dimension < dimension) continue;
+        for (Index c = 0; c < b.size(); ++c) {
+            check();
+            if (std::ranges::none_of(b.nodes(c), [&](Index n) { return looked_at[n] != 0; })) continue;
+            const double quality = mean_ratio(mesh, b.type, c);
+            if (quality >= out.mean_ratio) continue;
+            out.mean_ratio = quality;
+            out.id = b.ids[c];
+            worst = {b.type, c};
+        }
+    }
+    if (out.id < 0) return out;
+    const CellTraits& t = traits(worst.type);
+    const auto n = mesh.block(worst.type).nodes(worst.cell);
+    for (int k = 0; k < t.corners; ++k) out.place += mesh.points[n[k]] / t.corners;
+    return out;
+}
+
+void check_poorest(const PoorestElement& poorest, double worst_before, const std::vector<PoorPlace>& said,
+                   const std::string& advice, const char* parameter) {
+    double known = 1;
+    for (const PoorPlace& p : said) known = std::min(known, p.mean_ratio);
+    if (poorest.id < 0 || poorest.mean_ratio >= poor_limit(worst_before) || poorest.mean_ratio >= as_said * known)
+        return;
+    std::ostringstream text;
+    text.precision(3);
+    text << "an element near (" << poorest.place.transpose() << ") would have a mean ratio of " << poorest.mean_ratio
+         << ". " << advice;
+    throw QualityError(text.str(), parameter);
+}
+
 HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
     HeldNodes out;
     Holders holders;
@@ -174,7 +218,7 @@ HeldNodes find_held_nodes(Workpiece& f, const Mesh& mesh) {
 
 std::vector<PoorPlace> find_poor_places(Workpiece& f, const Mesh& mesh, double worst_before) {
     std::map<Holders, PoorPlace> places;
-    for (const PoorElement& e : elements_below(std::min(poor_limit, part_of_worst * worst_before), f, mesh)) {
+    for (const PoorElement& e : elements_below(poor_limit(worst_before), f, mesh)) {
         Holders holders;
         PoorPlace place = look_at(e, f, mesh, holders);
         if (!holders.any()) {

@@ -25,6 +25,7 @@
 #include "operators/driver.h"
 #include "operators/edit.h"
 #include "operators/follow_fields.h"
+#include "operators/poor.h"
 #include "operators/reshape_part.h"
 #include "operators/seven_nodes.h"
 #include "operators/simplify_first.h"
@@ -38,6 +39,9 @@ namespace {
 /// The band reaches as many rings of elements around the wall as it moves edges, times this, and some more.
 constexpr double rings_per_edge = 1.5;
 constexpr int least_rings = 4, most_rings = 60;
+/// Where a motion failed, how much of it works is looked for so many times as long as that took, and within these
+/// seconds.
+constexpr double search_to_failure = 3, least_search = 4, most_search = 15;
 
 void check(const ReshapeOptions& o) {
     const int given = (o.onto != nullptr) + o.by.has_value() + o.scale.has_value();
@@ -222,6 +226,20 @@ Report report_of(const Edit& edit, const ReshapeOptions& options, Workpiece& f, 
     return report;
 }
 
+/// Throws MotionError where an element came out too poor to be of use.
+void check_quality(const Rebuilt& rebuilt, const Report& report, const char* parameter) {
+    const QualitySummary& after = report.quality_after;
+    if (after.worst.empty() || after.minimum >= poor_limit(report.quality_before.minimum)) return;
+    const Index id = after.worst.front().id;
+    for (const CellRef& c : rebuilt.after) {
+        const CellBlock& block = rebuilt.mesh.block(c.type);
+        if (block.ids[c.cell] != id) continue;
+        std::ostringstream text;
+        text << "the wall would leave so little room for an element that it had a mean ratio of " << after.minimum;
+        throw MotionError(text.str(), parameter, rebuilt.mesh.points[block.nodes(c.cell)[0]]);
+    }
+}
+
 /// How far an attempt goes.
 enum class Attempt {
     whole,
@@ -266,6 +284,7 @@ Result reshape_simplices(const Mesh& input, Covered covered, const ReshapeOption
     add_middles(f, wall, edited.rebuilt, *edited.rebuilt.mesh.find_group(naming.front, GroupKind::node));
     recount_nodes_and_facets(edited.after, edited.rebuilt.mesh);
     Result result{{}, report_of(edit, options, f, edited)};
+    check_quality(edited.rebuilt, result.report, motion.parameter);
     if (gauge) describe_drift(*gauge, drifting, f.d.band, mesh, result.report);
     result.mesh = std::move(edited.rebuilt.mesh);
     if (known.stages)
@@ -368,6 +387,7 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
     check_name(input, options.name, naming);
     (void)drifting_groups(input, options.preserve);  // whose names may be unknown
     const std::size_t stages = known.stages ? known.stages->size() : 0;
+    const Stopwatch::Time started = Stopwatch::now();
     try {
         return with_fields(reshape_whole(input, group, options, naming, known, Attempt::whole));
     } catch (const MotionError& error) {
@@ -378,9 +398,10 @@ Result reshape(const Mesh& input, const std::string& group, const ReshapeOptions
             };
         };
         const GroupIndex wall = find(input, group);
+        const double search_time = std::clamp(search_to_failure * Stopwatch::since(started), least_search, most_search);
         const std::string advice =
             where_text(input, group, error) +
-            advice_on_motion(input, wall, options, attempt(Attempt::look), attempt(Attempt::whole));
+            advice_on_motion(input, wall, options, attempt(Attempt::look), attempt(Attempt::whole), search_time);
         throw ToolError(error.what() + advice, error.parameter());
     }
 }

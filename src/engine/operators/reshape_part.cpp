@@ -16,16 +16,18 @@
 #include "groups/group_nodes.h"
 #include "groups/nearest_group.h"
 #include "mesh/stopwatch.h"
+#include "operators/revolved_share.h"
+#include "tools/cone.h"
 #include "tools/cylinder.h"
 #include "tools/plane.h"
 #include "tools/sphere.h"
+#include "tools/torus.h"
 
 namespace femscalpel {
 namespace {
 
-/// Shares are tried in so many steps, for so many seconds.
+/// Shares are tried in so many steps.
 constexpr int steps = 20;
-constexpr double longest_search = 15;
 /// Nodes whose distances from a tool differ by less than this part of the motion are equally far from it.
 constexpr double equally_far = 1e-6;
 /// A wall is on a surface if within this part of its size; as find_tools() has it, for rounded coordinates.
@@ -89,6 +91,11 @@ std::unique_ptr<Tool> parallel_to(const Tool& target, double off) {
                                           in_few_digits(cylinder->radius() + off, std::abs(off)));
     if (const auto* sphere = dynamic_cast<const Sphere*>(&target))
         return std::make_unique<Sphere>(sphere->center(), in_few_digits(sphere->radius() + off, std::abs(off)));
+    if (const auto* torus = dynamic_cast<const Torus*>(&target)) {
+        const double minor = in_few_digits(torus->minor_radius() + off, std::abs(off));
+        if (minor > 0 && minor < torus->major_radius())
+            return std::make_unique<Torus>(torus->center(), torus->unit_axis(), torus->major_radius(), minor);
+    }
     return nullptr;
 }
 
@@ -127,6 +134,12 @@ std::string tool_text(const Tool& tool) {
     if (const auto* cylinder = dynamic_cast<const Cylinder*>(&tool))
         return "onto=Cylinder(" + vector_text(cylinder->origin()) + ", " + vector_text(cylinder->unit_axis()) + ", " +
                number_text(cylinder->radius()) + ")";
+    if (const auto* cone = dynamic_cast<const Cone*>(&tool))
+        return "onto=Cone(" + vector_text(cone->origin()) + ", " + vector_text(cone->unit_axis()) + ", " +
+               number_text(cone->radius()) + ", " + number_text(cone->half_angle()) + ")";
+    if (const auto* torus = dynamic_cast<const Torus*>(&tool))
+        return "onto=Torus(" + vector_text(torus->center()) + ", " + vector_text(torus->unit_axis()) + ", " +
+               number_text(torus->major_radius()) + ", " + number_text(torus->minor_radius()) + ")";
     const auto& sphere = dynamic_cast<const Sphere&>(tool);
     return "onto=Sphere(" + vector_text(sphere.center()) + ", " + number_text(sphere.radius()) + ")";
 }
@@ -142,7 +155,10 @@ std::unique_ptr<Tool> tool_on_the_way(const Mesh& mesh, GroupIndex group, const 
         middle += x / static_cast<double>(wall.size());
     }
     if (most - least <= equally_far * std::max(std::abs(least), std::abs(most)))
-        return parallel_to(target, (1 - share) * (least + most) / 2);
+        if (auto parallel = parallel_to(target, (1 - share) * (least + most) / 2)) return parallel;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : wall) box.extend(x);
+    if (auto revolved = revolved_between(wall, target, share, on_surface * box.diagonal().norm())) return revolved;
     const std::unique_ptr<Tool> from = surface_of(mesh, group);
     return from ? between(*from, target, share, middle) : nullptr;
 }
@@ -180,8 +196,8 @@ namespace {
 /// Finds the largest share of a motion that works.
 class ShareSearch {
 public:
-    ShareSearch(const Mesh& mesh, GroupIndex group, const ReshapeOptions& options)
-        : mesh_(mesh), group_(group), options_(options) {}
+    ShareSearch(const Mesh& mesh, GroupIndex group, const ReshapeOptions& options, double longest)
+        : mesh_(mesh), group_(group), options_(options), longest_(longest) {}
 
     /// Halves what is between `works` and `fails`, in steps. False when a motion has no parts, or time is up.
     bool run(const MotionAttempt& attempt, int first) {
@@ -204,7 +220,7 @@ private:
     /// Nothing when time is up.
     std::optional<bool> try_it(const MotionAttempt& attempt, const ReshapeOptions& part) const {
         try {
-            const CancelScope until(CancelToken{}, [this] { return Stopwatch::since(started_) > longest_search; });
+            const CancelScope until(CancelToken{}, [this] { return Stopwatch::since(started_) > longest_; });
             attempt(part);
             return true;
         } catch (const Cancelled&) {
@@ -218,14 +234,15 @@ private:
     const Mesh& mesh_;
     GroupIndex group_;
     const ReshapeOptions& options_;
+    double longest_;  // in seconds
     Stopwatch::Time started_ = Stopwatch::now();
 };
 
 }  // namespace
 
 std::string advice_on_motion(const Mesh& mesh, GroupIndex group, const ReshapeOptions& options,
-                             const MotionAttempt& look, const MotionAttempt& work) {
-    ShareSearch search(mesh, group, options);
+                             const MotionAttempt& look, const MotionAttempt& work, double longest) {
+    ShareSearch search(mesh, group, options, longest);
     const bool looked = search.run(look, steps - 1);
     // What there is a way for is the most that can work. The less a wall moves, the sooner it is known.
     const int most = std::exchange(search.works, 0);

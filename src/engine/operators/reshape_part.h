@@ -30,9 +30,9 @@ std::string where_text(const Mesh& mesh, const std::string& wall, const MotionEr
 using MotionAttempt = std::function<void(const ReshapeOptions&)>;
 
 /// What to do about a motion that failed, for the end of a message: the largest share of it, in steps of a twentieth,
-/// that works, by trying, first by `look`, which costs little, then by `work`. The search ends after some seconds, with
-/// what was found by then.
+/// that works, by trying, first by `look`, which costs little, then by `work`. The search ends after `longest` seconds,
+/// with what was found by then, and at once, with Cancelled, when the caller is to end.
 std::string advice_on_motion(const Mesh& mesh, GroupIndex group, const ReshapeOptions& options,
-                             const MotionAttempt& look, const MotionAttempt& work);
+                             const MotionAttempt& look, const MotionAttempt& work, double longest);
 
 }  // namespace femscalpel

@@ -66,6 +66,7 @@ public:
     Naming naming() const override { return {}; }
 
     bool cut(Workpiece& f, const Site& site) override {
+        imprint_.keep_edges(f);
         cut_soundly(
             f,
             [&](Workpiece& g) {

@@ -164,7 +164,7 @@ class Report:
     groups: List[GroupRecord]
     held: HeldNodes
     straightened: StraightenedEdges  #: count 0 when all curved edges are where they belong
-    poor: List[PoorPlace]  #: empty when all is well
+    poor: List[PoorPlace]  #: empty when all is well; of a merged mesh also those of the addition, by its own numbers
     refinement: Optional[Refinement]  #: part of what the counts below say
     welded_pairs: int  #: of double nodes near the tool that stayed pairs: each side did as the other
     #: Quadrangles, prisms, pyramids, hexahedra near the tool that became triangles and tetrahedra first, by type: part
