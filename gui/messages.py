@@ -295,6 +295,14 @@ TEMPLATES = (
         "FemScalpel",
         "%1: FreeCAD will not find these nodes by geometry, so that a load, support or material on it is incomplete",
     ),
+    # Of files.
+    QT_TRANSLATE_NOOP("FemScalpel", "not in FreeCAD's mesh, but kept with it for operations and export: %1"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the mesh is not the one that was imported any more: what the file held beside nodes, elements and groups (a "
+        "deck's cards, fields, groups of element faces) is not written",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1 does not hold %2: files of this kind cannot"),
 )
 
 #: English for the panels, where one of them names parameters of Python's functions.

@@ -481,11 +481,10 @@ def exportMesh(obj, path):
     if FreeCAD.GuiUp:
         from femscalpelgui import exporting
 
-        said = exporting.write(obj, path)
+        sentences = exporting.write(obj, path)
     else:
-        said = imported.export(obj, path)
-    for sentence in said:
-        FreeCAD.Console.PrintWarning(f"{obj.Label}: {sentence}\n")
+        sentences = imported.export(obj, path)
+    imported.tell(obj, sentences)
 
 
 def openExample():

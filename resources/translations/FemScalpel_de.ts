@@ -239,6 +239,10 @@
       <translation>%1 kann nicht geschrieben werden: %2. Wählen Sie einen anderen Ordner oder Namen.</translation>
     </message>
     <message>
+      <source>%1 does not hold %2: files of this kind cannot</source>
+      <translation>%1 enthält nicht: %2. Dateien dieser Art können das nicht</translation>
+    </message>
+    <message>
       <source>%1 element(s) would be flat or inverted (%2): the tool passes too close to a corner or crease there. Move it a little</source>
       <translation>%1 Element(e) würden flach oder umgestülpt (%2): Das Werkzeug geht dort zu nah an einer Ecke oder einem Knick vorbei. Verschieben Sie es ein wenig</translation>
     </message>
@@ -1315,6 +1319,10 @@
       <translation>noch keines</translation>
     </message>
     <message>
+      <source>not in FreeCAD's mesh, but kept with it for operations and export: %1</source>
+      <translation>nicht in FreeCADs Netz, aber damit bewahrt für Operationen und Export: %1</translation>
+    </message>
+    <message>
       <source>nothing holds %1 of them</source>
       <translation>%1 davon hält nichts</translation>
     </message>
@@ -1513,6 +1521,10 @@
     <message>
       <source>the mesh is finer than the addition, which was refined first, to edges of %1 where they meet: from %2 to %3 elements</source>
       <translation>Das Netz ist feiner als das hinzukommende; dieses wurde zuerst verfeinert, auf Kanten von %1, wo sie sich treffen: von %2 auf %3 Elemente</translation>
+    </message>
+    <message>
+      <source>the mesh is not the one that was imported any more: what the file held beside nodes, elements and groups (a deck's cards, fields, groups of element faces) is not written</source>
+      <translation>das Netz ist nicht mehr das importierte: Was die Datei außer Knoten, Elementen und Gruppen enthielt (Karten einer Eingabe, Felder, Gruppen von Elementflächen), wird nicht geschrieben</translation>
     </message>
     <message>
       <source>the mesh is so much finer than the addition that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>

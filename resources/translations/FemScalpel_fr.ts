@@ -239,6 +239,10 @@
       <translation>%1 ne peut pas être écrit : %2. Choisissez un autre dossier ou un autre nom.</translation>
     </message>
     <message>
+      <source>%1 does not hold %2: files of this kind cannot</source>
+      <translation>%1 ne contient pas : %2. Les fichiers de ce type ne le peuvent pas</translation>
+    </message>
+    <message>
       <source>%1 element(s) would be flat or inverted (%2): the tool passes too close to a corner or crease there. Move it a little</source>
       <translation>%1 élément(s) seraient plats ou retournés (%2) : l'outil passe trop près d'un coin ou d'un pli. Déplacez-le un peu</translation>
     </message>
@@ -1315,6 +1319,10 @@
       <translation>aucun encore</translation>
     </message>
     <message>
+      <source>not in FreeCAD's mesh, but kept with it for operations and export: %1</source>
+      <translation>pas dans le maillage de FreeCAD, mais gardé avec lui pour les opérations et l’export : %1</translation>
+    </message>
+    <message>
       <source>nothing holds %1 of them</source>
       <translation>rien ne tient %1 d'entre eux</translation>
     </message>
@@ -1513,6 +1521,10 @@
     <message>
       <source>the mesh is finer than the addition, which was refined first, to edges of %1 where they meet: from %2 to %3 elements</source>
       <translation>le maillage est plus fin que l'ajout, qui a d'abord été raffiné, à des arêtes de %1 là où ils se rencontrent : de %2 à %3 éléments</translation>
+    </message>
+    <message>
+      <source>the mesh is not the one that was imported any more: what the file held beside nodes, elements and groups (a deck's cards, fields, groups of element faces) is not written</source>
+      <translation>le maillage n’est plus celui qui a été importé : ce que le fichier contenait outre nœuds, éléments et groupes (cartes d’un jeu de données, champs, groupes de faces d’éléments) n’est pas écrit</translation>
     </message>
     <message>
       <source>the mesh is so much finer than the addition that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>

@@ -290,7 +290,7 @@ class MeshOperation:
         mesh = contents.read_mesh(obj.Source)
         tell("operate")
         tools = self.tools(obj)
-        result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
+        result, on_shape = self.result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
         tell("shape")
         points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
         report = self._completed(result.report, on_shape, obj.Document)
@@ -322,26 +322,13 @@ class MeshOperation:
             whole=result.mesh if is_whole and np.array_equal(points, result.mesh.points) else None,
         )
 
-    def whole_of(self, obj):
-        """See whole.whole_of()."""
-        made = memory.of(obj.Document, self.shown.inputs) if self.shown is not None else None
-        if made is not None and made.token == self.shown.token and made.whole is not None:
-            return made.whole
-        mesh = whole.whole_of(obj.Source) if obj.Source is not None else None
-        if mesh is None:
-            return None
-        tools = self.tools(obj)
-        result, on_shape = self._result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
-        points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
-        is_same = np.array_equal(points, result.mesh.points) and whole.is_shown(result.mesh, obj.FemMesh)
-        return result.mesh if is_same else None
-
-    def _result(self, obj, mesh, tools, near):
+    def result(self, obj, mesh, tools, near):
+        """(femscalpel.Result, OnShape) of the operator on `mesh`, which has the nodes `near` marked that may move."""
         marked = mesh.copy()
         on_shape = OnShape(marked, shapes_of(obj), near)
         result = self.operate(obj, marked, tools)
         if not on_shape.covers(result.mesh):
-            return self._result(obj, mesh, tools, np.ones(mesh.node_count, bool))
+            return self.result(obj, mesh, tools, np.ones(mesh.node_count, bool))
         return result, on_shape
 
     @staticmethod

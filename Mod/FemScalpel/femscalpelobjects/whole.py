@@ -16,6 +16,7 @@ import femscalpel
 from femscalpel.mesh import CELL_TYPES
 
 from .group_names import names_of
+from .memory import memory
 from .ours import is_ours
 
 #: The property of a mesh object that holds the file.
@@ -46,7 +47,7 @@ def whole_of(obj):
     Of an object of FemScalpel it is made anew where it is not remembered. Raises femscalpel.Error.
     """
     if is_ours(obj):
-        return obj.Proxy.whole_of(obj)
+        return _made_whole(obj)
     path = getattr(obj, PROPERTY, "")
     if not path:
         return None
@@ -54,6 +55,22 @@ def whole_of(obj):
     for kind, old, new in names_of(obj):
         mesh.rename_group(old, new, kind)
     return mesh if is_shown(mesh, obj.FemMesh) else None
+
+
+def _made_whole(obj):
+    """whole_of() of an object of FemScalpel."""
+    proxy = obj.Proxy
+    made = memory.of(obj.Document, proxy.shown.inputs) if proxy.shown is not None else None
+    if made is not None and made.token == proxy.shown.token and made.whole is not None:
+        return made.whole
+    mesh = whole_of(obj.Source) if obj.Source is not None else None
+    if mesh is None:
+        return None
+    tools = proxy.tools(obj)
+    result, on_shape = proxy.result(obj, mesh, tools, proxy.where_nodes_may_move(obj, mesh, tools))
+    points = on_shape.put_back(result.mesh, tools, proxy.meant_to_leave(result.report))
+    is_same = np.array_equal(points, result.mesh.points) and is_shown(result.mesh, obj.FemMesh)
+    return result.mesh if is_same else None
 
 
 def is_shown(mesh, femmesh):
