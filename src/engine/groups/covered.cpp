@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "cancel.h"
 
@@ -47,7 +48,15 @@ private:
     bool has(FamilyIndex family) const { return mesh_.families.contains(family, group_); }
 
     void add(std::array<Index, 3> nodes) {
-        std::sort(nodes.begin(), nodes.begin() + (out_.faces ? 3 : 2));
+        // Not by std::sort, of which GCC 14 warns that it might leave so short an array.
+        const auto order = [&](std::size_t a, std::size_t b) {
+            if (nodes[b] < nodes[a]) std::swap(nodes[a], nodes[b]);
+        };
+        order(0, 1);
+        if (out_.faces) {
+            order(1, 2);
+            order(0, 1);
+        }
         out_.parts.push_back(nodes);
     }
 
