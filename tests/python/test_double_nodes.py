@@ -3,6 +3,7 @@
 shells on each other, the lips of an earlier crack."""
 
 import itertools
+import re
 
 import contact_cases
 import numpy as np
@@ -25,15 +26,19 @@ def both(kind="flat", seed=1):
 
 @pytest.mark.parametrize("kind", contact_cases.KINDS)
 def test_random_tools(kind):
-    """Seed 14 of `curved second` passes a border at 0.14 degrees: how it comes out depends on the last digit."""
-    told = 0
+    """Seed 14 of `curved second` passes a border at 0.14 degrees: how it comes out depends on the last digit, and what
+    is below 0.1 is told, with the number."""
+    poor = 0
     for seed in range(24):
         mesh, operate, removes = contact_cases.make(kind, seed)
         result = operate(mesh)
         assert contact_cases.check(kind, mesh, result, removes) == [], seed
-        assert worst_of(result.mesh) > 0.1 or result.report.poor, seed
-        told += bool(result.report.poor)
-    assert told <= (kind == "curved second")
+        if (least := worst_of(result.mesh)) <= 0.1:
+            told = [float(n) for w in result.report.warnings for n in re.findall(r"mean ratio of ([\d.]+) at best", w)]
+            assert told == [pytest.approx(least, rel=0.06)], seed
+            poor += 1
+        assert least > 0.02 or result.report.poor, seed
+    assert poor <= (kind == "curved second")
 
 
 def test_crack_beside_a_contact():

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Shells joined to shells and to solids, solids to solids."""
 
+import contextlib
+
 import numpy as np
 import pytest
 
@@ -405,11 +407,14 @@ def test_a_sleeve_lies_on_a_shaft_whose_facets_are_others(seed, second_order):
 
 
 def test_edges_are_finer_where_two_polygons_of_one_circle_part_at_an_angle_of_less_than_a_degree():
-    """The rim of a shaft and the facets of a sleeve over its end, at 0.64 degrees: 0.091 with edges as long."""
+    """The rim of a shaft and the facets of a sleeve over its end, at 0.64 degrees. Edges as long are refused, or make
+    0.124 where numbers are rounded otherwise, which is enough."""
     mesh, part = merge_cases.KINDS["on_shaft"](np.random.default_rng(73))
-    result = fs.merge(mesh, part)
-    assert worst(result.mesh) > 0.12
-    assert result.report.refinement and not [w for w in result.report.warnings if "at best" in w]
+    result, as_long = fs.merge(mesh, part), 0.0
+    with contextlib.suppress(fs.QualityError):
+        as_long = worst(fs.merge(mesh, part, refine=False).mesh)
+    assert worst(result.mesh) > 0.12 and not [w for w in result.report.warnings if "at best" in w]
+    assert bool(result.report.refinement) == (as_long < 0.12)
 
 
 @pytest.mark.parametrize("seed", range(8))

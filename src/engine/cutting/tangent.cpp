@@ -67,8 +67,7 @@ private:
         std::array<Index, 3> out{-1, -1, -1};
         const auto v = nodes(k);
         for (std::size_t i = 0; i < v.size(); ++i) out[i] = band_.nodes[v[i]].global;
-        std::sort(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(v.size()));
-        return out;
+        return ascending(out);
     }
 
     /// Unit normal out of the material.

@@ -201,7 +201,8 @@ void CurvedStar::gather() {
             const auto place = static_cast<std::size_t>(known - keys.begin());
             if (known == keys.end()) {
                 keys.push_back(key);
-                edges_.push_back({a, b, a == node_ || b == node_, false, farthest_bulge(d_, a, b), {}});
+                const MidSide unknown{Vec3::Zero(), false};
+                edges_.push_back({a, b, a == node_ || b == node_, false, farthest_bulge(d_, a, b), unknown});
             }
             e.edge[k] = static_cast<int>(place);
             e.bulges += edges_[place].bulge;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "cancel.h"
 
@@ -46,10 +47,7 @@ private:
 
     bool has(FamilyIndex family) const { return mesh_.families.contains(family, group_); }
 
-    void add(std::array<Index, 3> nodes) {
-        std::sort(nodes.begin(), nodes.begin() + (out_.faces ? 3 : 2));
-        out_.parts.push_back(nodes);
-    }
+    void add(std::array<Index, 3> nodes) { out_.parts.push_back(ascending(nodes)); }
 
     [[noreturn]] static void refuse_quadrangles(const std::string& name) {
         throw UnsupportedElementError("group '" + name +
@@ -140,6 +138,19 @@ private:
 };
 
 }  // namespace
+
+std::array<Index, 3> ascending(std::array<Index, 3> corners) {
+    // Not by std::sort, of which GCC 14 warns that it might leave so short an array.
+    const auto order = [&](std::size_t a, std::size_t b) {
+        if (corners[b] < corners[a]) std::swap(corners[a], corners[b]);
+    };
+    order(0, 1);
+    if (corners[2] >= 0) {
+        order(1, 2);
+        order(0, 1);
+    }
+    return corners;
+}
 
 Covered covered_by(const Mesh& mesh, GroupIndex group, std::optional<GroupIndex> skin_inside) {
     return Finder(mesh, group, skin_inside).run();

@@ -16,6 +16,9 @@ struct Covered {
     std::vector<std::array<Index, 3>> parts;
 };
 
+/// The corners of a face, or of an edge, with -1 as the third, as Covered has them.
+std::array<Index, 3> ascending(std::array<Index, 3> corners);
+
 /// What a group covers of the skin of a solid (of the border of shells): an element group its faces (edges), which may
 /// also be inside, a facet group its facets, a node group the faces of the skin (edges of the border) all of whose
 /// corners are members.

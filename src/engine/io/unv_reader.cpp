@@ -126,7 +126,8 @@ private:
     }
 
     Index positive(const char* what) {
-        const Index number = source_.integer((std::string("the number of ") + what).c_str());
+        const std::string number_of = std::string("the number of ") + what;
+        const Index number = source_.integer(number_of.c_str());
         if (number <= 0) source_.fail(std::string(what) + " has the number " + std::to_string(number));
         return number;
     }

@@ -14,6 +14,26 @@
 namespace femscalpel {
 namespace {
 
+// Where Expat has counters of 64 bits it deprecates the others; which there are is looked for, not told by its version.
+auto line_of(auto parser) {
+    if constexpr (requires { XML_GetCurrentLineNumber64(parser); })
+        return XML_GetCurrentLineNumber64(parser);
+    else
+        return XML_GetCurrentLineNumber(parser);
+}
+auto byte_of(auto parser) {
+    if constexpr (requires { XML_GetCurrentByteIndex64(parser); })
+        return XML_GetCurrentByteIndex64(parser);
+    else
+        return XML_GetCurrentByteIndex(parser);
+}
+auto bytes_of(auto parser) {
+    if constexpr (requires { XML_GetCurrentByteCount64(parser); })
+        return XML_GetCurrentByteCount64(parser);
+    else
+        return XML_GetCurrentByteCount(parser);
+}
+
 class VtuXmlReader {
 public:
     VtuXmlReader(std::string_view xml, const std::string& shown) : xml_(xml), shown_(shown) {}
@@ -41,7 +61,7 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw ReadError(shown_ + ":" + std::to_string(XML_GetCurrentLineNumber(parser_)) + ": " + what);
+        throw ReadError(shown_ + ":" + std::to_string(line_of(parser_)) + ": " + what);
     }
 
     /// Exceptions must not pass through expat, which is C.
@@ -68,7 +88,7 @@ private:
         XML_StopParser(parser_, XML_FALSE);
     }
 
-    std::size_t offset() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_)); }
+    std::size_t offset() const { return static_cast<std::size_t>(byte_of(parser_)); }
 
     void start(std::string_view name, std::map<std::string, std::string> values) {
         if (is_array_) {  // as InformationKey, before or after the values
@@ -90,9 +110,8 @@ private:
             head_.points = count(values, "NumberOfPoints");
             head_.cells = count(values, "NumberOfCells");
         } else if (name == "DataArray" || name == "Array") {
-            head_.arrays.push_back(
-                {section_, std::move(values), static_cast<Index>(XML_GetCurrentLineNumber(parser_)), {}});
-            inside_ = offset() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_));
+            head_.arrays.push_back({section_, std::move(values), static_cast<Index>(line_of(parser_)), {}});
+            inside_ = offset() + static_cast<std::size_t>(bytes_of(parser_));
             stop_ = xml_.size();
             is_array_ = true;
         } else if (name == "AppendedData") {
@@ -105,7 +124,7 @@ private:
     void end(std::string_view name) {
         if (within_array_ > 0) {
             if (--within_array_ == 0 && values_follow_)
-                inside_ = offset() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_));
+                inside_ = offset() + static_cast<std::size_t>(bytes_of(parser_));
             return;
         }
         --depth_;

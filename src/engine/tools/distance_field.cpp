@@ -52,7 +52,7 @@ DistanceField distance_to(std::vector<Eigen::Vector3d> points) {
     return [search = std::make_shared<const NearestPoint>(std::move(points))](const Eigen::Vector3d& x) {
         std::size_t nearest = 0;
         double squared = 0;
-        search->tree.knnSearch(x.data(), 1, &nearest, &squared);
+        [[maybe_unused]] const auto found = search->tree.knnSearch(x.data(), 1, &nearest, &squared);  // always one
         return std::sqrt(squared);
     };
 }
