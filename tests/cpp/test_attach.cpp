@@ -67,6 +67,19 @@ TEST(MergeReport, KeepsWhatIsKnownOfTheMesh) {
     EXPECT_EQ(records.back().count_after, 2);
 }
 
+TEST(MergeReport, WhatOnlyALaterStepChangedIsNotUntouched) {
+    const Mesh mesh = checks::two_halves();
+    std::vector<GroupRecord> known = merged_records(mesh, mesh, {});
+    ASSERT_GT(known.front().count_before, 0);
+    known.front().status = "untouched";
+    Mesh result = mesh;
+    std::ranges::fill(result.node_families, 0);
+    for (const CellBlock& b : mesh.blocks()) std::ranges::fill(result.block(b.type).families, 0);
+    const auto records = merged_records(mesh, result, known);
+    EXPECT_EQ(records.front().count_after, 0);
+    EXPECT_NE(records.front().status, "untouched");
+}
+
 TEST(MergeReport, SaysTheWorstOfHowTheSeamRuns) {
     const std::string along = "the seam runs along a feature line or border line at ", wedge = " degrees: a wedge";
     const std::string near = "the seam runs within 0.15 edge lengths of a nearly parallel surface or group border at ";
