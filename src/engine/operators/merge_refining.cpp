@@ -29,7 +29,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// There is no tool here, nor an option to refine.
+/// There is no tool here but two meshes; how much finer is told without advice, which would be about a tool.
 void speak_of_meshes(std::string& warning, std::size_t m) {
     const std::string tool = "the tool is finer than the mesh", option = " elements. refine=";
     const std::size_t end = warning.find(option);
