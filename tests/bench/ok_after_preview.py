@@ -109,7 +109,7 @@ def run():
             from femscalpelobjects.base import MeshOperation
 
             times = Times()
-            times.watch(MeshOperation, "_result", "engine")
+            times.watch(MeshOperation, "result", "engine")
             times.watch(femmesh_bridge, "to_femmesh", "filling a FemMesh")
             times.watch(MeshOperation, "_set_mesh", "giving it to the object")
             names = os.environ["FEMSCALPEL_TESTS"].split()

@@ -68,7 +68,7 @@ class HeldPieces(DocumentTest):
         motion.References = [(self.box, "Face2")]
         self.analysis.addObject(motion)
         motion.xFree = motion.yFree = motion.zFree = True
-        with mock.patch.object(type(self.crack.Proxy), "_result", side_effect=AssertionError("made anew")):
+        with mock.patch.object(type(self.crack.Proxy), "result", side_effect=AssertionError("made anew")):
             warnings, _ = told(self.crack)
             self.assertIn("nothing holds it", warnings[0], "it leaves every direction free")
             motion.xFree = False

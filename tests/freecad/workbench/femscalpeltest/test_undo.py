@@ -22,7 +22,7 @@ from .meshes import box_with_groups
 
 def made_meshes():
     """Records which objects make a mesh."""
-    return mock.patch.object(MeshOperation, "_result", autospec=True, side_effect=MeshOperation._result)
+    return mock.patch.object(MeshOperation, "result", autospec=True, side_effect=MeshOperation.result)
 
 
 def names(calls):

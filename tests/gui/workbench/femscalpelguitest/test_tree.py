@@ -110,7 +110,7 @@ class Recomputing(TreeTest):
         self.doc.recompute()
         second = self.make(self.make(mesh, 2.9, "A"), 9.1, "B")
         before = content_of(second)
-        with mock.patch.object(MeshOperation, "_result", side_effect=AssertionError("a mesh was made")):
+        with mock.patch.object(MeshOperation, "result", side_effect=AssertionError("a mesh was made")):
             for change in (
                 lambda: box.touch(),
                 lambda: setattr(box, "Label", "Other"),

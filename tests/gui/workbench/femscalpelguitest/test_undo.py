@@ -60,7 +60,7 @@ def step(doc, name):
 @contextlib.contextmanager
 def nothing_made():
     """Fails when a mesh is made meanwhile."""
-    with mock.patch.object(MeshOperation, "_result", side_effect=AssertionError("a mesh was made")):
+    with mock.patch.object(MeshOperation, "result", side_effect=AssertionError("a mesh was made")):
         yield
 
 
@@ -189,7 +189,7 @@ class Chain(UndoTest):
         self.move(self.doc.Crack, 1.7)
         press_undo()
         spin(0.1)
-        with mock.patch.object(MeshOperation, "_result", autospec=True, side_effect=MeshOperation._result) as made:
+        with mock.patch.object(MeshOperation, "result", autospec=True, side_effect=MeshOperation.result) as made:
             self.add_crack(self.doc.Crack002, 5.3)
         self.assertEqual([call.args[1].Name for call in made.call_args_list], ["Crack003"])
 
