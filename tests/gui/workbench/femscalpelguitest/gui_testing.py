@@ -17,6 +17,7 @@ import numpy as np
 from pivy import coin
 from PySide import QtCore, QtGui
 
+from femscalpelgui.panels.view_panel import ViewPanel
 from femscalpelgui.view.label import pixel_ratio
 from femscalpelgui.view.screen import Screen
 
@@ -142,11 +143,22 @@ def is_ready():
     return is_settled() and widget("status").text() and "…" not in widget("status").text()
 
 
+# The panel that was opened last. FreeCAD hands it the box of its buttons; one that is looked for among all widgets may
+# come as something else, which PySide 2 has kept of what lay in its place before.
+_opened = []
+
+
+def _note_buttons(panel, box, modify=ViewPanel.modifyStandardButtons):
+    _opened[:] = [panel]
+    modify(panel, box)
+
+
+ViewPanel.modifyStandardButtons = _note_buttons
+
+
 def button_boxes():
-    """The boxes of buttons that are shown. Not found in the main window: PySide 2 would keep them after FreeCAD has
-    deleted them, and hand them out for what comes to lie in their place."""
-    shown = QtGui.QApplication.allWidgets()
-    return [box for box in shown if isinstance(box, QtGui.QDialogButtonBox) and box.isVisible()]
+    """The box of buttons of the panel that is open, in a list; none without a panel."""
+    return [panel._box for panel in _opened if panel._box is not None and panel._box.isVisible()]
 
 
 def press_button(*choices):
@@ -389,11 +401,13 @@ class GuiTest(unittest.TestCase):
                 QtGui.QApplication.instance().setStyleSheet(file.read())
 
     def tearDown(self):
-        while FreeCADGui.Control.activeDialog():
-            press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
-        FreeCADGui.Selection.clearSelection()
-        for name in list(FreeCAD.listDocuments()):
-            FreeCAD.closeDocument(name)
+        try:
+            while FreeCADGui.Control.activeDialog():
+                press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
+        finally:  # FreeCAD would ask the next test whether to save them
+            FreeCADGui.Selection.clearSelection()
+            for name in list(FreeCAD.listDocuments()):
+                FreeCAD.closeDocument(name)
         spin(0.05)
         new = report_view()[self.reported :]
         # FreeCAD 1.0 writes "pyException: " before what a recompute raised.

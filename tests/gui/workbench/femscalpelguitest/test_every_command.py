@@ -10,6 +10,7 @@ import numpy as np
 
 import femscalpel as fs
 from femscalpelgui.commands import COMMANDS, IN_MENU
+from femscalpelgui.commands.import_mesh import ImportMesh
 from femscalpelgui.view.preview_data import PreviewData, PreviewSource
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest
@@ -19,7 +20,7 @@ from PySide import QtCore, QtGui
 
 shiboken = importlib.import_module("shiboken2" if QtCore.qVersion().startswith("5") else "shiboken6")
 
-MESH_COMMANDS = [command for command in COMMANDS if command is not None]
+MESH_COMMANDS = [command for command in COMMANDS if command not in (None, ImportMesh)]
 OPERATORS = (
     "FemScalpel_Crack",
     "FemScalpel_CylindricalCrack",
@@ -105,9 +106,8 @@ class EveryCommand(GuiTest):
                 items = [
                     w for w in shiboken.getAllValidWrappers() if isinstance(w, (QtGui.QWidgetItem, QtGui.QSpacerItem))
                 ]
-                boxes = len(button_boxes())
                 press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
-                self.assertEqual((items, boxes), ([], 1))
+                self.assertEqual(items, [])
                 wait_until(lambda: meshes() == 0, "the end of the panel's mesh")
                 gc.collect()
                 wrapped = [w for w in gc.get_objects() if isinstance(w, QtGui.QDialogButtonBox)]
