@@ -158,7 +158,11 @@ ViewPanel.modifyStandardButtons = _note_buttons
 
 def button_boxes():
     """The box of buttons of the panel that is open, in a list; none without a panel."""
-    return [panel._box for panel in _opened if panel._box is not None and panel._box.isVisible()]
+    ours = [panel._box for panel in _opened if panel._box is not None and panel._box.isVisible()]
+    if ours:
+        return ours
+    # One of FreeCAD's own panels.
+    return [box for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if box.isVisible()]
 
 
 def press_button(*choices):

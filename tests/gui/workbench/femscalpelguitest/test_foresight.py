@@ -142,12 +142,12 @@ class Foresight(GuiTest):
         going, go = threading.Event(), threading.Event()
         to_femmesh = femmesh_bridge.to_femmesh
 
-        def slow(mesh, groups, points, into, progress):
+        def slow(mesh, groups, points, into, progress, tell):
             if not go.is_set():
                 going.set()
                 while not go.wait(0.01):
                     progress(0.5)  # raises
-            return to_femmesh(mesh, groups, points, into, progress)
+            return to_femmesh(mesh, groups, points, into, progress, tell)
 
         self.addCleanup(go.set)
         with mock.patch.object(femmesh_bridge, "to_femmesh", slow):
@@ -165,12 +165,12 @@ class Foresight(GuiTest):
     def test_ok_waits_for_what_is_on_its_way(self):
         going, to_femmesh = threading.Event(), femmesh_bridge.to_femmesh
 
-        def slow(mesh, groups, points, into, progress):
+        def slow(mesh, groups, points, into, progress, tell):
             going.set()
             for _ in range(100):
                 time.sleep(0.01)
                 progress(0.5)
-            return to_femmesh(mesh, groups, points, into, progress)
+            return to_femmesh(mesh, groups, points, into, progress, tell)
 
         with mock.patch.object(femmesh_bridge, "to_femmesh", slow):
             self.open_panel("FemScalpel_Drill")
