@@ -88,6 +88,8 @@ class ViewPanel(QtCore.QObject):
         if self._closed or self._box is None:
             return
         button, area = self._box.button(QtGui.QDialogButtonBox.Help), _scroll_area_of(self._box)
+        if not isinstance(button, QtGui.QAbstractButton):  # what PySide 2 has kept of something that lay there before
+            return
         if area is not None and area.horizontalScrollBar().maximum() > 0 and button.text():
             button.setToolTip(button.text().replace("&", ""))
             button.setText("")

@@ -16,6 +16,8 @@ struct PoorestElement {
     double mean_ratio = 1;
     Vec3 place = Vec3::Zero();  ///< its middle
 };
+
+/// The one that is, of a mesh; nodes by index.
 PoorestElement poorest_at(const Mesh& mesh, const std::vector<Index>& nodes);
 
 /// A last look at what an operator made, where nothing tells what holds its nodes: throws QualityError that names the
