@@ -161,10 +161,8 @@ def button_boxes():
     ours = [panel._box for panel in _opened if panel._box is not None and panel._box.isVisible()]
     if ours:
         return ours
-    # One of FreeCAD's own panels. Not found in the main window: PySide 2 would keep it after FreeCAD has deleted it,
-    # and hand it out for what comes to lie in its place.
-    shown = QtGui.QApplication.allWidgets()
-    return [box for box in shown if isinstance(box, QtGui.QDialogButtonBox) and box.isVisible()]
+    # One of FreeCAD's own panels.
+    return [box for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if box.isVisible()]
 
 
 def press_button(*choices):
