@@ -287,7 +287,7 @@ class MeshOperation:
         """The Made; `femmesh`, an empty one, becomes its mesh."""
         tell = progress or (lambda step, fraction=None: None)
         tell("read")
-        mesh = contents.read_mesh(obj.Source)
+        mesh, is_whole = contents.read_mesh(obj.Source)
         tell("operate")
         tools = self.tools(obj)
         result, on_shape = self.result(obj, mesh, tools, self.where_nodes_may_move(obj, mesh, tools))
@@ -296,7 +296,6 @@ class MeshOperation:
         report = self._completed(result.report, on_shape, obj.Document)
         self._check_names(obj, report)
         groups = self._node_groups(obj.Source.FemMesh, report)
-        is_whole = whole.of_imported(obj.Source)
         femmesh_bridge.to_femmesh(
             result.mesh,
             groups,

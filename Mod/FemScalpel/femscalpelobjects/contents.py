@@ -69,13 +69,13 @@ def surroundings_of(obj):
 
 
 def read_mesh(obj):
-    """The femscalpel.Mesh of a mesh object, the whole of it where it was imported: see whole.py. Raises as
+    """(femscalpel.Mesh of a mesh object, whether it is the whole of one that was imported: see whole.py). Raises as
     femmesh_bridge.from_femmesh()."""
     mesh = _read.pop(_key(obj), None)
     entire = whole_of(obj)
     if entire is not None:
-        return entire
-    return femmesh_bridge.from_femmesh(obj.FemMesh) if mesh is None else mesh
+        return entire, True
+    return femmesh_bridge.from_femmesh(obj.FemMesh) if mesh is None else mesh, False
 
 
 def digest_of(obj):

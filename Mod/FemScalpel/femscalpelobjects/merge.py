@@ -69,7 +69,7 @@ class Merge(MeshOperation):
         if obj.Addition == obj.Source:
             raise ValueError("Addition and Source are the same mesh; choose another mesh to add")
         self.mesh_of(obj, "Addition")
-        addition = as_added(contents.read_mesh(obj.Addition), obj.Source.FemMesh)
+        addition = as_added(contents.read_mesh(obj.Addition)[0], obj.Source.FemMesh)
         return femscalpel.merge(
             mesh,
             addition,

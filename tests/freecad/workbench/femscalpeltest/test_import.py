@@ -10,6 +10,7 @@ import numpy as np
 import ObjectsFemScalpel
 
 import femscalpel as fs
+from femscalpelobjects import imported
 
 from .documents import DocumentTest, need
 
@@ -127,6 +128,11 @@ class Import(DocumentTest):
         mesh = fs.read(self.exported(self.mesh, "moved.inp"))
         self.assertFalse("STEEL" in open(os.path.join(self.folder.name, "moved.inp")).read())
         self.assertEqual(mesh.points[:, 2].min(), 3)
+        crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(3.3, 1, 4), normal=(1, 0.1, 0.2))
+        self.doc.recompute()
+        for obj in (self.mesh, crack):
+            told = imported.export(obj, os.path.join(self.folder.name, "told.inp"))
+            self.assertTrue(any("not the one that was imported" in sentence for sentence in told), obj.Label)
 
     def test_undo(self):
         self.doc.UndoMode = 1
