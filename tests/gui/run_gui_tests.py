@@ -53,7 +53,8 @@ def main():
         what = [arguments.script] if arguments.script else ["-t", arguments.names[0]]
         command = [
             "xvfb-run",
-            "-a",
+            # A free screen, looked for from a number of our own: two that look from the same one at once take the same.
+            *("-a", "-n", str(100 + os.getpid() % 30000)),
             "-s",
             f"-screen 0 {arguments.screen}x24 -dpi 96",
             arguments.freecad,
