@@ -80,7 +80,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.scene.look = self.result.look.currentData()
         self.geometry.changed.connect(self.update)
         self.geometry.picking_changed.connect(self._picking)
-        self._status(translate("FemScalpel", "Reading the mesh…"))
+        self._say_reading()
         self.start()
         self._hide_parts(True)
 
@@ -214,10 +214,13 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.geometry.stop_picking()
         self.worker.cancel()
         self.shown, self._ticket, self._settled = None, 0, 0
-        self.result.status.setProperty(SETTLED, False)
-        self._status(translate("FemScalpel", "Reading the mesh…"))
+        self._say_reading()
         self.geometry.list_groups(self.source_object)
         self._preserve.list_groups(self._group_names())
+
+    def _say_reading(self):
+        self.result.status.setProperty(SETTLED, False)
+        self._status(translate("FemScalpel", "Reading the mesh…"))
 
     def document_changed(self, stepped):
         self.expressions.document_changed()
