@@ -67,6 +67,7 @@ class LatestWins(QtCore.QObject):
         with self._wake:
             self._closed = True
             self._waiting = None
+            self._done.clear()  # nobody takes it any more, and it may be large
             if self._running:
                 self._running[0].cancel()
             self._wake.notify()
@@ -98,7 +99,10 @@ class LatestWins(QtCore.QObject):
                 with self._wake:
                     self._running = None
                     self._wake.notify_all()
-            self._done.append(outcome)
+            with self._wake:
+                if self._closed:
+                    return
+                self._done.append(outcome)
             del function, outcome
             try:
                 self._ready.emit()

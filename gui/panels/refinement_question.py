@@ -43,14 +43,15 @@ class RefinementQuestion:
         for widget in (self._text, self._fitting, self._anyway):
             layout.addWidget(widget)
         form.layout().insertWidget(0, self._box)
-        self._error = None
-        self._fitting.clicked.connect(lambda: take(self._error.fitting))
+        self._cost, self._size = None, math.inf
+        self._fitting.clicked.connect(lambda: take(self._size))
         self._anyway.clicked.connect(lambda: agree(self._accepted()))
         self.hide()
 
     def ask(self, error):
         """Asks about a TooMuch. Returns the widget that does."""
-        self._error = error
+        # Not the error itself, which holds what its computation had: the mesh.
+        self._cost, self._size = error.cost, error.fitting
         self._text.setText(
             translate(
                 "FemScalpel",
@@ -78,4 +79,4 @@ class RefinementQuestion:
 
     def _accepted(self):
         # A little more, as moving the tool a little changes the count.
-        return math.inf if self._error.cost.is_more else int(1.25 * self._error.cost.elements)
+        return math.inf if self._cost.is_more else int(1.25 * self._cost.elements)

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The thread that makes previews."""
 
+import gc
+import threading
 import time
 import unittest
+import weakref
 from unittest import mock
 
 import numpy as np
@@ -51,3 +54,42 @@ class LatestWinsTest(unittest.TestCase):
         self.worker._thread.join(60)
         self.assertFalse(self.worker._thread.is_alive())
         self.assertEqual(self.arrived, [])
+
+    def test_closing_lets_go_of_what_was_made(self):
+        class Large:
+            pass
+
+        made, end = [], threading.Event()
+
+        def work():
+            large = Large()
+            made.append(weakref.ref(large))
+            return large
+
+        def late():
+            end.wait(60)
+            return work()
+
+        # One that nobody has heard of yet, and one that ends after the panel did.
+        for function in (work, late):
+            worker = latest_wins.LatestWins(lambda *_: None, lambda *_: None)
+            worker.request(function)
+            if function is work:
+                self.assertTrue(holds_within(lambda: worker._done))
+            else:
+                self.assertTrue(holds_within(lambda: worker._running))
+            worker.close()
+            if function is late:
+                end.set()
+            worker._thread.join(60)
+            gc.collect()
+            self.assertEqual([ref() for ref in made], [None] * len(made))
+        self.assertEqual(len(made), 2)
+
+
+def holds_within(condition, seconds=60):
+    """Whether condition() comes to hold, while the window does nothing."""
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.01)
+    return bool(condition())
