@@ -68,8 +68,6 @@ class ViewPanel(QtCore.QObject):
         # FreeCAD can take the panel away without asking, as when the document is closed.
         self._forms = list(self.form)
         self._forms[0].destroyed.connect(lambda *_: self._died())
-        for milliseconds in (0, 300):  # once FreeCAD shows the panel, and it is laid out
-            QtCore.QTimer.singleShot(milliseconds, self._fit_buttons)
         self._watch = DocumentWatch(self.document, self.edited, self._document_changed, self.is_busy)
         self._read()
 
@@ -83,22 +81,24 @@ class ViewPanel(QtCore.QObject):
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
 
     def _fit_buttons(self):
-        """In themes with wide buttons, and languages with long words, Help is its icon alone: the panel would be wider
+        """Help is its icon alone: in themes with wide buttons, and languages with long words, the panel would be wider
         than its dock."""
         if self._closed or self._box is None:
             return
-        button, area = self._box.button(QtGui.QDialogButtonBox.Help), _scroll_area_of(self._box)
+        button = self._box.button(QtGui.QDialogButtonBox.Help)
         if not isinstance(button, QtGui.QAbstractButton):  # what PySide 2 has kept of something that lay there before
             return
-        if area is not None and area.horizontalScrollBar().maximum() > 0 and button.text():
+        mark = "?" if button.icon().isNull() else ""  # styles without icons
+        if button.text() != mark:
             button.setToolTip(button.text().replace("&", ""))
-            button.setText("")
+            button.setText(mark)
             button.setStyleSheet("min-width: 0px; padding: 3px;")
 
     def modifyStandardButtons(self, box):
         """Called by FreeCAD, with the box of the panel's buttons. Not to be looked for: PySide 2 would keep what it
         makes of a box that it finds after FreeCAD has deleted that, and hand it out for what comes to lie there."""
         self._box = box
+        self._fit_buttons()
 
     @classmethod
     def page(cls):
@@ -281,11 +281,6 @@ def abort_transaction(document):
     document.abortTransaction()
     # FreeCAD would still put the next change, such as one while undoing, into a new transaction of that name.
     FreeCAD.closeActiveTransaction(True)
-
-
-def _scroll_area_of(box):
-    areas = FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea)
-    return next((area for area in areas if area.isVisible() and area.isAncestorOf(box)), None)
 
 
 def _view(document):

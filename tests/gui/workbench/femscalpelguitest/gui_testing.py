@@ -361,6 +361,18 @@ def resize_panel(width):
     return True
 
 
+def theme_file(name):
+    """The style sheet of a theme of that name; other releases of FreeCAD have others."""
+    return os.path.join(FreeCAD.getResourceDir(), "Gui", "Stylesheets", name)
+
+
+def choose_theme(name):
+    """As FreeCAD does when a style sheet is chosen in the preferences."""
+    with open(theme_file(name), encoding="utf-8") as file:
+        QtGui.QApplication.instance().setStyleSheet(file.read())
+    spin(0.1)
+
+
 @functools.lru_cache(maxsize=None)
 def without_start_page():
     """Lets FreeCAD come to rest, once, so that the Start page can be closed: FreeCAD 1.1 crashes where that is gone two
@@ -400,9 +412,7 @@ class GuiTest(unittest.TestCase):
         if os.environ.get("FEMSCALPEL_LANGUAGE"):
             FreeCADGui.setLocale(os.environ["FEMSCALPEL_LANGUAGE"])
         if os.environ.get("FEMSCALPEL_THEME"):
-            path = os.path.join(FreeCAD.getResourceDir(), "Gui", "Stylesheets", os.environ["FEMSCALPEL_THEME"])
-            with open(path, encoding="utf-8") as file:
-                QtGui.QApplication.instance().setStyleSheet(file.read())
+            choose_theme(os.environ["FEMSCALPEL_THEME"])
 
     def tearDown(self):
         try:

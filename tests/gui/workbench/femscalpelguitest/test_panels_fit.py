@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Panels at the dock's default width: everything can be reached, sections fold, fields have names."""
 
+import os
+
 import femscalpel as fs
 import ObjectsFemScalpel
 from femscalpelgui import preferences
@@ -52,14 +54,21 @@ class EveryPanel(GuiTest):
         self.add_mesh(long_box())
 
     def test_nothing_is_cut_off(self):
-        """In the dock as it is 1280 pixels wide, in every language, with all sections open."""
-        for language in ("en", "de", "fr"):
+        """In the dock as it is 1280 pixels wide, in every language, with all sections open; also in a theme with wide
+        buttons."""
+        application = QtGui.QApplication.instance()
+        self.addCleanup(application.setStyleSheet, application.styleSheet())
+        looks = [("en", None), ("de", None), ("fr", None)]
+        looks += [("de", name) for name in ("Dark-blue.qss", "ProDark.qss") if os.path.exists(theme_file(name))]
+        for language, theme in looks:
             FreeCADGui.setLocale(language)
+            if theme:
+                choose_theme(theme)
             spin(0.2)
             for command in COMMANDS:
                 if command is None or command.PANEL is None:
                     continue
-                with self.subTest(command=command.NAME, language=language):
+                with self.subTest(command=command.NAME, language=language, theme=theme):
                     FreeCADGui.runCommand(command.NAME)
                     spin(0.2)
                     try:
@@ -71,7 +80,7 @@ class EveryPanel(GuiTest):
                         bar = scroll_area().horizontalScrollBar()
                         self.assertEqual(bar.maximum(), 0, "wider than the dock")
                         self.assertEqual(cut_off(scroll_area()), [])
-                        screenshot(f"fits_{language}_{command.page()}")
+                        screenshot(f"fits_{language}_{theme or ''}{command.page()}")
                     finally:
                         press_button(QtGui.QDialogButtonBox.Cancel, QtGui.QDialogButtonBox.Close)
 

@@ -9,7 +9,6 @@ import numpy as np
 from .gui_testing import *  # noqa: F403
 from .test_crack_panel import CrackTest
 
-_FOLDER = os.path.join(FreeCAD.getResourceDir(), "Gui", "Stylesheets")
 #: Contrast that is wanted of texts, by the Web Content Accessibility Guidelines.
 READABLE = 4.5
 
@@ -51,12 +50,6 @@ class Themes(CrackTest):
         application = QtGui.QApplication.instance()
         self.addCleanup(application.setStyleSheet, application.styleSheet())
 
-    def choose_theme(self, name):
-        """As FreeCAD does when a style sheet is chosen in the preferences."""
-        with open(os.path.join(_FOLDER, name), encoding="utf-8") as file:
-            QtGui.QApplication.instance().setStyleSheet(file.read())
-        spin(0.1)
-
     def check(self):
         histogram = widget("histogram")
         scale = histogram.fontMetrics().height()
@@ -79,10 +72,10 @@ class Themes(CrackTest):
 
     def test_panel_opened_in_a_theme(self):
         for name in ("Behave-dark.qss", "Dark-blue.qss", "Darker-green.qss", "Light-orange.qss", "ProDark.qss"):
-            if not os.path.exists(os.path.join(_FOLDER, name)):  # another release of FreeCAD
+            if not os.path.exists(theme_file(name)):  # another release of FreeCAD
                 continue
             with self.subTest(theme=name):
-                self.choose_theme(name)
+                choose_theme(name)
                 self.look_at_panel(name)
 
     def look_at_panel(self, name):
@@ -102,9 +95,9 @@ class Themes(CrackTest):
         self.open_panel()
         self.check()
         for name in ("Dark-blue.qss", "Light-blue.qss", "ProDark.qss"):
-            if os.path.exists(os.path.join(_FOLDER, name)):
+            if os.path.exists(theme_file(name)):
                 with self.subTest(theme=name):
-                    self.choose_theme(name)
+                    choose_theme(name)
                     self.check()
 
 
