@@ -86,5 +86,22 @@ TEST(Mesh, ValidateNamesTheOffender) {
     EXPECT_THROW(mesh.validate(), Error);
 }
 
+TEST(Mesh, NumbersLeaveRoomToCountOn) {
+    Mesh mesh = two_triangles();
+    mesh.node_ids[3] = largest_number;
+    mesh.block(CellType::triangle).ids[1] = largest_number;
+    EXPECT_NO_THROW(mesh.validate());
+    EXPECT_NO_THROW(mesh.check_numbers());
+    for (auto check : {&Mesh::validate, &Mesh::check_numbers}) {
+        Mesh large = mesh;
+        large.node_ids[3] = std::numeric_limits<Index>::max();
+        EXPECT_THAT([&] { (large.*check)(); },
+                    testing::ThrowsMessage<Error>(HasSubstr("the node number 9223372036854775807 is larger than")));
+        large = mesh;
+        large.block(CellType::triangle).ids[1] = largest_number + 1;
+        EXPECT_THAT([&] { (large.*check)(); }, testing::ThrowsMessage<Error>(HasSubstr("the element number")));
+    }
+}
+
 }  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

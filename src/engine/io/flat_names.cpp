@@ -184,7 +184,8 @@ void FlatNames::number_scope(FlatScope& scope, std::vector<const FlatScope*>& do
         used = std::max({used, nodes.last, elements.last});
     }
     const Index last = std::max(scope.nodes.last, scope.elements.last);
-    if (clash) {
+    // A number that no deck can hold is an error of the line it stands in.
+    if (clash && std::max(used, last) <= largest_deck_number) {
         scope.offset = rounded_up(used);
         if (scope.offset + last > largest_deck_number) {
             Index first = last;

@@ -269,8 +269,33 @@ void put_in_order(const SolverInput& input, const DeckSetIndex& index, const Dec
     });
 }
 
+namespace {
+
+/// Elements that a deck does not hold, neither as elements nor by a group's surface or node set: a line for each type.
+void add_left_out(const Mesh& mesh, std::vector<std::string>& out) {
+    const SolverInput* deck = solver_input(mesh);
+    const DeckPlaces places = find_deck_places(mesh, deck ? *deck : SolverInput());
+    std::array<Index, cell_type_count> count{};
+    for (const LooseElement& e : places.loose) {
+        const auto is_seen = [&](GroupIndex g) { return !mesh.groups[static_cast<std::size_t>(g)].hidden; };
+        const FamilyIndex family = mesh.block(e.type).families[static_cast<std::size_t>(e.cell)];
+        if (e.fate != Fate::free && !std::ranges::any_of(mesh.families.groups(family), is_seen))
+            ++count[static_cast<std::size_t>(e.type)];
+    }
+    for (const CellTraits& t : all_cell_types())
+        if (const Index n = count[static_cast<std::size_t>(t.type)]; n > 0)
+            out.push_back(std::to_string(n) + " elements of the type " + std::string(t.name) +
+                          " that are in no group and " +
+                          (t.dimension == 2   ? "faces of solids, which CalculiX would take for shells"
+                           : t.dimension == 1 ? "edges of others, which CalculiX would take for beams"
+                                              : "points"));
+}
+
+}  // namespace
+
 std::vector<std::string> inp_losses(const Mesh& mesh) {
     std::vector<std::string> out;
+    add_left_out(mesh, out);
     if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
     if (const SolverInput* deck = solver_input(mesh))
         for (const DeckSet& set : deck->sets()) {

@@ -31,7 +31,13 @@ Mesh read(const std::filesystem::path& path, const std::string& mesh) {
     const Format& format = format_to_read(path);
     if (!mesh.empty() && !format.meshes)
         throw ReadError(path.string() + ": files of this kind hold one mesh, without a name; leave `mesh` out");
-    return format.read(path, mesh);
+    Mesh out = format.read(path, mesh);
+    try {
+        out.check_numbers();
+    } catch (const Error& error) {
+        throw ReadError(path.string() + ": " + error.what());
+    }
+    return out;
 }
 
 std::vector<std::string> meshes_in(const std::filesystem::path& path) {

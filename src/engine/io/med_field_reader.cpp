@@ -76,7 +76,7 @@ private:
             field.units.push_back(cut_out(units, k, MED_SNAME_SIZE));
         }
         field.time_unit = cut_out(time_unit, 0, MED_SNAME_SIZE);
-        switch (type) {
+        switch (as_number(type)) {
             case MED_FLOAT64:
                 field.values = FieldValues::float64;
                 break;

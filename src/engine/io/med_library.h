@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <mutex>
 
 #include "mesh/cell_type.h"
@@ -23,6 +24,16 @@ struct QuietHdf5 {
     QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
     ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 };
+
+/// An enumeration's value as the library has read it: in a damaged file any number, which C++ does not let us load as
+/// what it is declared.
+template <class Enumeration>
+int as_number(const Enumeration& value) {
+    static_assert(sizeof(Enumeration) == sizeof(int));
+    int out = 0;
+    std::memcpy(&out, &value, sizeof out);
+    return out;
+}
 
 /// An element type as MED knows it.
 struct MedType {

@@ -106,7 +106,7 @@ public:
         const med_int count = MEDnMesh(fid_);
         if (count < 0) damaged("the list of meshes");
         for (int i = 1; i <= count; ++i)
-            if (describe_mesh(i).type == MED_UNSTRUCTURED_MESH) out.emplace_back(name_);
+            if (as_number(describe_mesh(i).type) == MED_UNSTRUCTURED_MESH) out.emplace_back(name_);
         return out;
     }
 
@@ -174,10 +174,10 @@ private:
         std::string names;
         for (int i = 1; i <= meshes; ++i) {
             const Header header = describe_mesh(i);
-            if (header.type != MED_UNSTRUCTURED_MESH) continue;
+            if (as_number(header.type) != MED_UNSTRUCTURED_MESH) continue;
             names += (names.empty() ? "'" : ", '") + std::string(name_) + "'";
             if (!wanted_.empty() && wanted_ != name_) continue;
-            if (header.axis_type != MED_CARTESIAN)
+            if (as_number(header.axis_type) != MED_CARTESIAN)
                 fail("mesh '" + std::string(name_) +
                      "' has cylindrical or spherical coordinates; convert it to Cartesian ones");
             if (header.space_dimension != header.axes) damaged("the dimension of mesh '" + std::string(name_) + "'");

@@ -34,6 +34,11 @@ void sort_obeying(std::vector<Index>& numbers) {
     });
 }
 
+std::string too_large(const char* what, Index number) {
+    return "the " + std::string(what) + " number " + std::to_string(number) + " is larger than " +
+           std::to_string(largest_number) + ", the largest there can be. Renumber the mesh";
+}
+
 }  // namespace
 
 Mesh::Mesh() {
@@ -91,6 +96,11 @@ GroupIndex Mesh::add_group(std::string group_name, GroupKind kind, bool hidden) 
     return static_cast<GroupIndex>(groups.size()) - 1;
 }
 
+void Mesh::check_numbers() const {
+    if (const Index n = largest_node_id(); n > largest_number) throw Error(too_large("node", n));
+    if (const Index n = largest_cell_id(); n > largest_number) throw Error(too_large("element", n));
+}
+
 void Mesh::validate() const {
     const auto bad_family = [this](FamilyIndex f) { return f < 0 || f >= families.size(); };
     if (node_ids.size() != points.size() || node_families.size() != points.size())
@@ -100,6 +110,7 @@ void Mesh::validate() const {
         if (!points[i].allFinite())
             throw Error("node " + std::to_string(node_ids[i]) + " has a coordinate that is not a finite number");
         if (node_ids[i] <= 0) throw Error("node number " + std::to_string(node_ids[i]) + " is not positive");
+        if (node_ids[i] > largest_number) throw Error(too_large("node", node_ids[i]));
         if (bad_family(node_families[i])) throw Error("node " + std::to_string(node_ids[i]) + " has no valid family");
     }
     std::vector<Index> ids(node_ids);
@@ -116,6 +127,7 @@ void Mesh::validate() const {
         for (Index c = 0; c < b.size(); ++c, check()) {
             const std::string who = std::string(t.name) + " element " + std::to_string(b.ids[c]);
             if (b.ids[c] <= 0) throw Error(who + ": element numbers must be positive");
+            if (b.ids[c] > largest_number) throw Error(too_large("element", b.ids[c]));
             for (Index n : b.nodes(c))
                 if (n < 0 || n >= node_count()) throw Error(who + " refers to a node that does not exist");
             if (bad_family(b.families[c])) throw Error(who + " has no valid family");

@@ -23,6 +23,8 @@ struct Fields;
 
 /// Numbers, counts and indices of nodes and elements.
 using Index = std::int64_t;
+/// The largest number of a node or element: operators count on from the largest in use.
+inline constexpr Index largest_number = Index{1} << 62;
 /// A point or vector, in the mesh's unit.
 using Vec3 = Eigen::Vector3d;
 
@@ -115,6 +117,9 @@ public:
 
     /// Appends an empty group; throws Error when a group of that name and kind exists.
     GroupIndex add_group(std::string name, GroupKind kind, bool hidden = false);
+
+    /// Throws Error where a number of a node or element is larger than largest_number.
+    void check_numbers() const;
 
     /// Throws Error that names the first offending node, element or group.
     void validate() const;
