@@ -302,6 +302,12 @@ TEMPLATES = (
         "the mesh is not the one that was imported any more: what the file held beside nodes, elements and groups (a "
         "deck's cards, fields, groups of element faces) is not written",
     ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1 is not the mesh that was imported any more, as it was moved or changed: what its file held beside nodes, "
+        "elements and groups (a deck's cards, as materials and sections; fields; groups of element faces) is left "
+        "behind",
+    ),
     QT_TRANSLATE_NOOP("FemScalpel", "%1 does not hold %2: files of this kind cannot"),
 )
 

@@ -102,12 +102,27 @@ def to_femmesh(mesh, as_node_groups=(), points=None, into=None, progress=None, t
     hold; tell(sentence) hears of it, FreeCAD's report view where that is None. Raises femscalpel.WriteError.
     """
     say = _warn if tell is None else tell
-    cells, cell_ids = mesh.cells, mesh.cell_ids
+    cell_ids = mesh.cell_ids
     _check_addable(mesh)
     left_out = [mesh.groups[name, "element"].ids for name in as_node_groups]
     left_out = np.unique(np.concatenate(left_out)) if left_out else np.empty(0, np.int64)
 
     femmesh = Fem.FemMesh() if into is None else into
+    try:
+        return _filled(femmesh, mesh, points, left_out, as_node_groups, progress, say)
+    except Exception as error:  # FreeCAD's own, or RuntimeError
+        if "bad_alloc" not in str(error):
+            raise
+        largest = max(mesh.node_ids.max(initial=0), *(ids.max(initial=0) for ids in cell_ids.values()), 0)
+        raise femscalpel.WriteError(
+            f"FreeCAD's mesh does not fit into memory: it takes room for all numbers up to the largest, {largest}. "
+            f"Renumber the mesh from 1"
+        ) from None
+
+
+def _filled(femmesh, mesh, points, left_out, as_node_groups, progress, say):
+    """The FemMesh, with the nodes, elements but those left out, and groups; see to_femmesh()."""
+    cells, cell_ids = mesh.cells, mesh.cell_ids
     done = _Fractions(progress, mesh.node_count + mesh.cell_count)
     x, y, z = (mesh.points if points is None else points).T.tolist()
     numbers = mesh.node_ids.astype(object)  # one Python integer per node, however many elements name it

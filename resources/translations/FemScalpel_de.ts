@@ -295,6 +295,10 @@
       <translation>%1 ist nicht gesetzt; wählen Sie das FEM-Netz, das bearbeitet wird</translation>
     </message>
     <message>
+      <source>%1 is not the mesh that was imported any more, as it was moved or changed: what its file held beside nodes, elements and groups (a deck's cards, as materials and sections; fields; groups of element faces) is left behind</source>
+      <translation>%1 ist nicht mehr das importierte Netz, da es verschoben oder geändert wurde: Was seine Datei außer Knoten, Elementen und Gruppen enthielt (die Karten einer Eingabedatei, wie Materialien und Querschnitte; Felder; Gruppen von Elementflächen), bleibt zurück</translation>
+    </message>
+    <message>
       <source>%1 is not there any more, so its panel was closed.</source>
       <translation>%1 gibt es nicht mehr, darum wurde der Dialog geschlossen.</translation>
     </message>

@@ -295,6 +295,10 @@
       <translation>%1 n'est pas défini ; choisissez le maillage FEM à modifier</translation>
     </message>
     <message>
+      <source>%1 is not the mesh that was imported any more, as it was moved or changed: what its file held beside nodes, elements and groups (a deck's cards, as materials and sections; fields; groups of element faces) is left behind</source>
+      <translation>%1 n’est plus le maillage importé, car il a été déplacé ou modifié : ce que son fichier contenait outre les nœuds, éléments et groupes (les cartes d’un jeu de données, comme matériaux et sections ; champs ; groupes de faces d’éléments) est laissé de côté</translation>
+    </message>
+    <message>
       <source>%1 is not there any more, so its panel was closed.</source>
       <translation>%1 n'existe plus ; son panneau a donc été fermé.</translation>
     </message>

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A closed loop through every pair of formats on models of other people: read, written in one format, read, written in
-the other, read. Coordinates, numbers, elements and every group are the same after each step, or what differs is named by
-the warning of the call that wrote it, or means the same in the other format (resources/docs/formats.md): faces of a
+the other, read. Coordinates, numbers, elements and every group are the same after each step, or what differs is named
+by the warning of the call that wrote it, or means the same in the other format (resources/docs/formats.md): faces of a
 facet group are elements of the group of that name in MED, elements that are faces or edges of others are surfaces and
 node sets in a deck.
 
@@ -109,7 +109,10 @@ def differences(before, after):
             if not means_the_same(before, after, key[1]):
                 out.append((f"{key[0]} group {key[1]!r}", f"'{key[1]}'"))
     in_changed = {
-        n for seen in (before, after) for (kind, name), ids in seen.groups.items() if kind == "element" and name in changed
+        n
+        for seen in (before, after)
+        for (kind, name), ids in seen.groups.items()
+        if kind == "element" and name in changed
         for (n,) in ids
     }
     for number in {*before.elements, *after.elements}:
@@ -174,7 +177,8 @@ def main():
     for text in faults:
         print("FAULT", text)
     print(
-        f"{len(files)} models, {len(unread)} not read; {pairs} pairs of formats closed, {sum(refused.values())} refused; "
+        f"{len(files)} models, {len(unread)} not read; {pairs} pairs of formats closed, "
+        f"{sum(refused.values())} refused; "
         f"{len(faults)} differences that no warning names"
     )
     sys.exit(bool(faults))

@@ -294,6 +294,8 @@ class MeshOperation:
         tell("shape")
         points = on_shape.put_back(result.mesh, tools, self.meant_to_leave(result.report))
         report = self._completed(result.report, on_shape, obj.Document)
+        if not is_whole:
+            report = dataclasses.replace(report, warnings=[*report.warnings, *whole.left_behind(obj.Source)])
         self._check_names(obj, report)
         groups = self._node_groups(obj.Source.FemMesh, report)
         femmesh_bridge.to_femmesh(

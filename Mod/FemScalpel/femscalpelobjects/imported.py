@@ -65,7 +65,7 @@ def export(obj, path):
     not hold; can be called on any thread. Raises as femscalpel.write()."""
     entire = whole.whole_of(obj)
     sentences = []
-    if entire is None and whole.of_imported(obj):
+    if entire is None and whole.is_more_lost(obj):
         sentences.append(
             "the mesh is not the one that was imported any more: what the file held beside nodes, elements and groups "
             "(a deck's cards, fields, groups of element faces) is not written"

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Document object: a FEM mesh with another one added to it."""
 
+import dataclasses
+
 import femscalpel
 
 from . import contents, operator_options
 from .base import MeshOperation
 from .mesh_parts import nodes_in_box, without_skin_elements
+from .whole import left_behind
 
 KEEPS = ("mesh", "addition")
 
@@ -69,16 +72,20 @@ class Merge(MeshOperation):
         if obj.Addition == obj.Source:
             raise ValueError("Addition and Source are the same mesh; choose another mesh to add")
         self.mesh_of(obj, "Addition")
-        addition = as_added(contents.read_mesh(obj.Addition)[0], obj.Source.FemMesh)
-        return femscalpel.merge(
+        addition, is_whole = contents.read_mesh(obj.Addition)
+        result = femscalpel.merge(
             mesh,
-            addition,
+            as_added(addition, obj.Source.FemMesh),
             keep=obj.Keep,
             tolerance=obj.Tolerance.Value or None,
             prefix=obj.GroupPrefix,
             join_groups=obj.JoinGroups,
             **operator_options.values(obj, mesh, "feature_angle", "refine", "group_name"),
         )
+        if not is_whole:
+            warnings = [*result.report.warnings, *left_behind(obj.Addition)]
+            result = dataclasses.replace(result, report=dataclasses.replace(result.report, warnings=warnings))
+        return result
 
     def _node_groups(self, source, report):
         return ()  # operate() has seen to that

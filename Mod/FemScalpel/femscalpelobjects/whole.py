@@ -8,6 +8,7 @@ is exported with it: the cards of a deck come out again after a crack and a hole
 
 import os
 import tempfile
+from collections import Counter
 from itertools import chain
 
 import numpy as np
@@ -24,6 +25,8 @@ PROPERTY = "WholeMesh"
 _OUTPUT = 8
 # Of the mesh's size: nodes that differ by less are where they were.
 _SAME = 1e-9
+# FreeCAD's words for groups of elements of a dimension.
+_TYPES = {1: "Edge", 2: "Face", 3: "Volume"}
 # Along which nodes are compared: the axes, and some that no model knows.
 _DIRECTIONS = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.31, 0.59, 0.74), (-0.67, 0.36, 0.65)]).T
 
@@ -35,9 +38,16 @@ def keep(obj, mesh):
         obj.addProperty("App::PropertyFileIncluded", PROPERTY, "FEM Mesh", text, _OUTPUT)
         obj.setEditorMode(PROPERTY, 1)
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, obj.Name + (".inp" if mesh.has_deck else ".med"))
+        path = os.path.join(folder, obj.Name + _ending(mesh))
         femscalpel.write(mesh, path)
         setattr(obj, PROPERTY, path)
+
+
+def _ending(mesh):
+    """Of the format that holds all of a mesh: decks their cards, .vtu groups of element faces, .med fields."""
+    if mesh.has_deck:
+        return ".inp"
+    return ".vtu" if mesh.groups.all("facet") and not mesh.fields else ".med"
 
 
 def whole_of(obj):
@@ -54,7 +64,7 @@ def whole_of(obj):
     mesh = femscalpel.read(path)
     for kind, old, new in names_of(obj):
         mesh.rename_group(old, new, kind)
-    return mesh if is_shown(mesh, obj.FemMesh) else None
+    return mesh if is_shown(mesh, obj.FemMesh) and _has_groups_of(mesh, obj.FemMesh) else None
 
 
 def _made_whole(obj):
@@ -79,7 +89,7 @@ def is_shown(mesh, femmesh):
     made anew of properties that were saved, with 16 digits, may count its nodes in another order."""
     elements = {3: femmesh.VolumeCount, 2: femmesh.FaceCount, 1: femmesh.EdgeCount}.get(mesh.dimension, 0)
     highest = [len(ids) for name, ids in mesh.cell_ids.items() if CELL_TYPES[name][0] == mesh.dimension]
-    if mesh.node_count != femmesh.NodeCount or sum(highest) != elements:
+    if mesh.node_count != femmesh.NodeCount or mesh.dimension and sum(highest) != elements:
         return False
     there = np.fromiter(chain.from_iterable(femmesh.Nodes.values()), float, 3 * femmesh.NodeCount).reshape(-1, 3)
     size = np.ptp(mesh.points, axis=0).max(initial=0.0)
@@ -87,11 +97,54 @@ def is_shown(mesh, femmesh):
     return bool((abs(away) <= _SAME * size).all())
 
 
-def of_imported(obj):
-    """Whether a mesh object was imported, or made of meshes of which the first was."""
+def _has_groups_of(mesh, femmesh):
+    """Whether a FemMesh has the groups of the femscalpel.Mesh it shows: as many members, and of nodes those in the same
+    places."""
+    dimension = {int(n): CELL_TYPES[kind][0] for kind, ids in mesh.cell_ids.items() for n in ids}
+    there = {}
+    for index in femmesh.Groups:
+        key = femmesh.getGroupName(index), femmesh.getGroupElementType(index)
+        there.setdefault(key, []).extend(femmesh.getGroupElements(index))
+    there = {key: members for key, members in there.items() if members}
+    counts, places = Counter(), {}
+    for group in mesh.groups.all():
+        if group.kind == "node" and len(group):
+            counts[group.name, "Node"] = len(group)
+            places[group.name] = mesh.points[np.isin(mesh.node_ids, group.ids)]
+        elif group.kind == "element":
+            counts.update((group.name, _TYPES[dimension[int(n)]]) for n in group.ids if dimension[int(n)])
+    if counts != {key: len(members) for key, members in there.items()}:
+        return False
+    nodes, size = femmesh.Nodes, np.ptp(mesh.points, axis=0).max(initial=0.0)
+    for name, points in places.items():
+        shown = np.array([tuple(nodes[n]) for n in there[name, "Node"]])
+        if (abs(shown.mean(axis=0) - points.mean(axis=0)) > _SAME * size).any():
+            return False
+    return True
+
+
+def left_behind(obj):
+    """What to tell of something that is made of the FemMesh of a mesh object, where that was imported with more than a
+    FemMesh holds; in a list, empty where there is nothing to tell."""
+    if not is_more_lost(obj):
+        return []
+    return [
+        f"{obj.Label} is not the mesh that was imported any more, as it was moved or changed: what its file held "
+        f"beside nodes, elements and groups (a deck's cards, as materials and sections; fields; groups of element "
+        f"faces) is left behind"
+    ]
+
+
+def is_more_lost(obj):
+    """Whether a mesh object was imported, or made of meshes of which the first was, with more in the file than nodes,
+    elements and groups of them. Raises femscalpel.Error."""
     while is_ours(obj) and obj.Source is not None:
         obj = obj.Source
-    return PROPERTY in obj.PropertiesList
+    path = getattr(obj, PROPERTY, "")
+    if not path:
+        return False
+    mesh = femscalpel.read(path)
+    return mesh.has_deck or bool(mesh.fields) or bool(mesh.groups.all("facet")) or "vertex" in mesh.cells
 
 
 def shortened(message, document):

@@ -9,6 +9,7 @@ import FreeCAD
 import numpy as np
 import ObjectsFemScalpel
 
+import femmesh_bridge
 import femscalpel as fs
 from femscalpelobjects import imported
 
@@ -133,6 +134,83 @@ class Import(DocumentTest):
         for obj in (self.mesh, crack):
             told = imported.export(obj, os.path.join(self.folder.name, "told.inp"))
             self.assertTrue(any("not the one that was imported" in sentence for sentence in told), obj.Label)
+
+    def test_what_is_made_of_a_moved_deck_says_what_is_left_behind(self):
+        other = ObjectsFemScalpel.importMesh(self.doc, self.path, name="Block")
+        other.Placement.Base.z = 2
+        for obj in (
+            ObjectsFemScalpel.makeMerge(self.doc, self.mesh, other),
+            ObjectsFemScalpel.makeCrack(self.doc, other, origin=(3.3, 1, 3), normal=(1, 0.1, 0.2)),
+        ):
+            self.doc.recompute()
+            self.assertNotIn("Invalid", obj.State)
+            self.assertTrue(
+                any(w.startswith("Block is not the mesh that was imported any more") for w in obj.Warnings),
+                obj.Warnings,
+            )
+        drill = ObjectsFemScalpel.makeDrill(self.doc, self.mesh, origin=(4.5, 1, 1), axis=(0, 0, 1), radius=0.5)
+        self.doc.recompute()
+        self.assertFalse(any("not the mesh that was imported" in w for w in drill.Warnings))
+
+    def test_a_mesh_whose_groups_were_changed_is_another_one(self):
+        def added(mesh):
+            mesh.addGroupElements(mesh.addGroup("NEW", "Node"), [10, 13])
+
+        def grown(mesh):
+            mesh.addGroupElements(group(mesh, "FIX"), [13, 16])
+
+        def removed(mesh):
+            mesh.removeGroup(group(mesh, "FIX"))
+
+        def replaced(mesh):
+            index = group(mesh, "FIX")
+            count = len(mesh.getGroupElements(index))
+            mesh.removeGroup(index)
+            mesh.addGroupElements(mesh.addGroup("FIX", "Node"), sorted(mesh.Nodes)[-count:])
+
+        def group(mesh, name):
+            return next(g for g in mesh.Groups if mesh.getGroupName(g) == name)
+
+        for change in (added, grown, removed, replaced):
+            with self.subTest(change=change.__name__):
+                obj = ObjectsFemScalpel.importMesh(self.doc, self.path)
+                femmesh = obj.FemMesh.copy()
+                change(femmesh)
+                obj.FemMesh = femmesh
+                path = os.path.join(self.folder.name, "changed.inp")
+                told = imported.export(obj, path)
+                self.assertTrue(any("not the one that was imported" in sentence for sentence in told))
+                groups = {g.name: len(g) for g in fs.read(path).groups.all("node")}
+                for g in femmesh.Groups:
+                    if femmesh.getGroupElementType(g) == "Node":
+                        self.assertEqual(groups[femmesh.getGroupName(g)], len(femmesh.getGroupElements(g)))
+                self.assertEqual("FIX" in groups, change is not removed)
+
+    def test_files_of_other_kinds_come_out_whole(self):
+        box = fs.read(self.path)
+        faces = fs.Mesh(box.points, box.cells, groups=[("SKIN", "facet", [(1, 2), (2, 2)])])
+        points = fs.Mesh(box.points[:3], {"vertex": [[0], [1], [2]]}, groups=[("P", "element", [1, 2])])
+        for name, mesh in (("faces.vtu", faces), ("points.vtu", points)):
+            path = os.path.join(self.folder.name, name)
+            fs.write(mesh, path)
+            obj = ObjectsFemScalpel.importMesh(self.doc, path)
+            again = os.path.join(self.folder.name, "again_" + name)
+            self.assertEqual(imported.export(obj, again), [])
+            back = fs.read(again)
+            self.assertEqual(list(back.cells), list(mesh.cells))
+            self.assertEqual(
+                [(g.name, g.kind, g.ids.tolist()) for g in back.groups.all()],
+                [(g.name, g.kind, g.ids.tolist()) for g in mesh.groups.all()],
+            )
+
+    def test_numbers_that_freecad_has_no_room_for(self):
+        class Full:
+            def addNode(self, *_):
+                raise RuntimeError("std::bad_alloc")
+
+        mesh = fs.Mesh(np.eye(3), {"triangle": [[0, 1, 2]]}, node_ids=[1, 2, 2147483600])
+        with self.assertRaisesRegex(fs.WriteError, "the largest, 2147483600. Renumber"):
+            femmesh_bridge.to_femmesh(mesh, into=Full())
 
     def test_undo(self):
         self.doc.UndoMode = 1
