@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "format_testing.h"
+#include "io/inp.h"
 #include "random_numbers.h"
 #include "simple_meshes.h"
 
@@ -45,6 +46,19 @@ const std::string triangle_nodes =
     "GRID,2,,0.,0.,0.\n"
     "GRID,4,,1.5,0.,0.\n"
     "GRID,6,,0.,1.25-1,-1.5D-2\n";
+
+TEST_F(Bdf, BarsAlongOthersStayBeamsInADeck) {
+    const Mesh mesh = read(triangle_nodes +
+                           "CTRIA3,1,1,2,4,6\n"
+                           "CBAR,2,2,2,4,0.,0.,1.\n"
+                           "CROD,3,2,4,6\n");
+    const fs::path path = path_.string() + ".inp";
+    write_inp(mesh, path);
+    const Mesh back = read_inp(path);
+    fs::remove(path);
+    EXPECT_THAT(back.block(CellType::line).ids, ElementsAre(2, 3));
+    EXPECT_THAT(inp_losses(mesh), ElementsAre());
+}
 
 TEST_F(Bdf, WhatWriteBdfWroteComesBackExactly) {
     Mesh mesh = checks::one_of_each(not_in_bdf);

@@ -2,6 +2,8 @@
 // Where nodes and elements stand in a deck, and how its sets come to have the members of the mesh's groups.
 #include "io/inp_sets.h"
 
+#include "deck/edge_beams.h"
+#include "io/inp.h"
 #include "io/inp_places.h"
 #include "rule_testing.h"
 #include "simple_meshes.h"
@@ -10,6 +12,7 @@ namespace femscalpel {
 namespace FILE_NAMESPACE {
 
 using namespace rule_testing;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(DeckPlaces, FollowFromWhatAnElementIs) {
@@ -42,6 +45,26 @@ TEST(DeckPlaces, FollowFromWhatAnElementIs) {
             EXPECT_EQ(e.face, 4) << "the shell's second edge";
         }
     }
+}
+
+TEST(DeckLosses, AreElementsThatAreNotWrittenAsSuch) {
+    Mesh mesh = checks::grid(1, 1, 1);
+    EXPECT_THAT(inp_losses(mesh), ElementsAre());
+    const auto n = [&](double x, double y, double z) { return checks::number_near(mesh, {x, y, z}); };
+    const Index far = mesh.add_node({5, 0, 0}, 900);
+    const FamilyIndex bars = checks::family_of(mesh, "BARS", GroupKind::element);
+    mesh.add_cell(CellType::triangle, std::array{n(0, 0, 0), n(1, 1, 0), n(1, 0, 0)}, 200);
+    mesh.add_cell(CellType::line, std::array{n(0, 0, 0), n(1, 0, 0)}, 210);
+    mesh.add_cell(CellType::line, std::array{n(0, 0, 0), n(0, 1, 0)}, 211, bars);
+    mesh.add_cell(CellType::line, std::array{n(0, 0, 1), far}, 212, bars);  // a beam of its own
+    mesh.add_cell(CellType::vertex, std::array{far}, 220, bars);
+    EXPECT_THAT(inp_losses(mesh),
+                ElementsAre("1 element of the type vertex (their groups are node sets)",
+                            "2 elements of the type line on edges of others, which would be beams (their groups are "
+                            "node sets; 1 of them in none)",
+                            "1 element of the type triangle on faces of solids, which would be shells (in no group)"));
+    mark_edge_beams(mesh);
+    EXPECT_EQ(inp_losses(mesh).size(), 2u);
 }
 
 TEST(DeckPlaces, RefuseElementsCalculixHasNot) {

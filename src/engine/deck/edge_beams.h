@@ -14,4 +14,7 @@ inline constexpr std::string_view edge_beams_group = "beams on edges";
 /// Puts all segments of the element group `of` into that group.
 void mark_edge_beams(Mesh& mesh, GroupIndex of);
 
+/// Puts all segments of a mesh into that group: those of a format whose segments are beams and bars.
+void mark_edge_beams(Mesh& mesh);
+
 }  // namespace femscalpel

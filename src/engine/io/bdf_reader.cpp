@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "cancel.h"
+#include "deck/edge_beams.h"
 #include "error.h"
 #include "io/bdf.h"
 #include "io/bdf_sets.h"
@@ -31,6 +32,7 @@ public:
         make_nodes();
         join_elements();
         make_groups();
+        mark_edge_beams(mesh_);  // CBAR and kin are never but the edges of others
         tell_rest();
         return std::move(mesh_);
     }

@@ -73,8 +73,9 @@ Mesh read_inp(const std::filesystem::path& path);
 /// then as it was before.
 void write_inp(const Mesh& mesh, const std::filesystem::path& path);
 
-/// What of a mesh a deck does not hold, a line each: elements that are faces, edges or points and in no group, the
-/// unit, and the new names of groups that the deck's cards go on naming by their sets' names.
+/// What of a mesh a deck does not hold, a line each: elements that are faces, edges or points and so are not written as
+/// elements (of a mesh that has a deck only those in no group), the unit, and the new names of groups that the deck's
+/// cards go on naming by their sets' names.
 std::vector<std::string> inp_losses(const Mesh& mesh);
 
 }  // namespace femscalpel

@@ -11,6 +11,7 @@
 #include "deck/solver_element.h"
 #include "error.h"
 #include "io/inp.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -271,24 +272,35 @@ void put_in_order(const SolverInput& input, const DeckSetIndex& index, const Dec
 
 namespace {
 
-/// Elements that a deck does not hold, neither as elements nor by a group's surface or node set: a line for each type.
+/// Elements that are not written as such, a line for each type. Of a mesh with a deck only those in no group: the
+/// others are what operators made, such as lips, and are there as surfaces and node sets.
 void add_left_out(const Mesh& mesh, std::vector<std::string>& out) {
     const SolverInput* deck = solver_input(mesh);
     const DeckPlaces places = find_deck_places(mesh, deck ? *deck : SolverInput());
-    std::array<Index, cell_type_count> count{};
+    std::array<Index, cell_type_count> count{}, in_no_group{};
     for (const LooseElement& e : places.loose) {
+        if (e.fate == Fate::free) continue;
         const auto is_seen = [&](GroupIndex g) { return !mesh.groups[static_cast<std::size_t>(g)].hidden; };
         const FamilyIndex family = mesh.block(e.type).families[static_cast<std::size_t>(e.cell)];
-        if (e.fate != Fate::free && !std::ranges::any_of(mesh.families.groups(family), is_seen))
-            ++count[static_cast<std::size_t>(e.type)];
+        const bool is_in_group = std::ranges::any_of(mesh.families.groups(family), is_seen);
+        count[static_cast<std::size_t>(e.type)] += !deck || !is_in_group;
+        in_no_group[static_cast<std::size_t>(e.type)] += !is_in_group;
     }
-    for (const CellTraits& t : all_cell_types())
-        if (const Index n = count[static_cast<std::size_t>(t.type)]; n > 0)
-            out.push_back(std::to_string(n) + " elements of the type " + std::string(t.name) +
-                          " that are in no group and " +
-                          (t.dimension == 2   ? "faces of solids, which CalculiX would take for shells"
-                           : t.dimension == 1 ? "edges of others, which CalculiX would take for beams"
-                                              : "points"));
+    for (const CellTraits& t : all_cell_types()) {
+        const Index n = count[static_cast<std::size_t>(t.type)], alone = in_no_group[static_cast<std::size_t>(t.type)];
+        if (n == 0) continue;
+        std::string text = counted(n, "element") + " of the type " +
+                           std::string(t.name) +
+                           (t.dimension == 2   ? " on faces of solids, which would be shells"
+                            : t.dimension == 1 ? " on edges of others, which would be beams"
+                                               : "");
+        if (alone == n)
+            text += " (in no group)";
+        else
+            text += std::string(" (their groups are ") + (t.dimension == 2 ? "surfaces and node sets" : "node sets") +
+                    (alone > 0 ? "; " + std::to_string(alone) + " of them in none)" : ")");
+        out.push_back(std::move(text));
+    }
 }
 
 }  // namespace
