@@ -405,15 +405,13 @@ Report Account::close(const Workpiece& f, std::span<const Blade> blades, const O
     count(rebuilt);
     report_.groups = compare_groups(before, edited.before, rebuilt.mesh, edited.after);
     find_warnings(f, blades, opening, edited);
-    if (was_refined()) {
-        join_refinement(rebuilt);
-        join_quality(rebuilt);
-    }
+    if (was_refined()) join_refinement(rebuilt);
     const Index first_new = was_refined() ? refined_->numbering.node : edit_.numbering().node;
     describe_motion(f, before, first_new, rebuilt, opening.removes, report_);
     count_group_constraints(f, before, report_);
     warn_of_held_nodes(f, before, report_);
     describe_drift(f);
+    if (was_refined()) join_quality(rebuilt);
     return std::move(report_);
 }
 

@@ -34,7 +34,8 @@ ChangedQuality changed_quality(const Mesh& mesh, const Workpiece& f, const Rebui
     for (const Changes::Part& part : rebuilt.changes.parts)
         if (attached.contains(part.parent)) attached.insert(part.element);
     const auto collect = [&](const Mesh& m, const std::vector<CellRef>& cells) {
-        return qualities_of(m, cells, [&](const CellRef& c) { return !attached.contains(m.block(c.type).ids[c.cell]); });
+        return qualities_of(m, cells,
+                            [&](const CellRef& c) { return !attached.contains(m.block(c.type).ids[c.cell]); });
     };
     return {collect(mesh, rebuilt.before), collect(rebuilt.mesh, rebuilt.after)};
 }
