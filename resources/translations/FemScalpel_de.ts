@@ -1491,6 +1491,10 @@
       <translation>Das hinzukommende Netz ist so viel feiner als das Netz, dass dieses von %1 auf %2 Elemente verfeinert würde, mit Kanten von %3, wo sie sich treffen. Wählen Sie unter „Erst verfeinern“ eine Kantenlänge von %4, oder „nie“; oder vernetzen Sie das feinere gröber, oder fügen Sie es als Schale hinzu</translation>
     </message>
     <message>
+      <source>the addition: along the seam its own curved skin is left by up to %1 (%2 edge(s)): the mesh is not flat there, or its elements have no room for curves. Refine both there first</source>
+      <translation>Das hinzukommende Netz: Entlang der Naht wird seine eigene gekrümmte Oberfläche um bis zu %1 verlassen (%2 Kante(n)): Das Netz ist dort nicht eben, oder seine Elemente haben keinen Platz für Bögen. Verfeinern Sie zuerst beide dort</translation>
+    </message>
+    <message>
       <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>
       <translation>Der Riss (%1) kann sich nicht öffnen: Alle seine Knoten liegen auf seiner Front. Verfeinern Sie das Netz dort zuerst</translation>
     </message>

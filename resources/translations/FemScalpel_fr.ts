@@ -1491,6 +1491,10 @@
       <translation>l'ajout est tellement plus fin que le maillage que celui-ci serait raffiné de %1 à %2 éléments, avec des arêtes de %3 là où ils se rencontrent. Choisissez une longueur d'arête de %4 sous « Raffiner d'abord », ou « jamais » ; ou maillez le plus fin plus grossièrement, ou ajoutez-le comme coque</translation>
     </message>
     <message>
+      <source>the addition: along the seam its own curved skin is left by up to %1 (%2 edge(s)): the mesh is not flat there, or its elements have no room for curves. Refine both there first</source>
+      <translation>l'ajout : le long de la couture, sa propre peau courbe est quittée de %1 au plus (%2 arête(s)) : le maillage n'y est pas plan, ou ses éléments n’ont pas de place pour des courbes. Raffinez d’abord les deux à cet endroit</translation>
+    </message>
+    <message>
       <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>
       <translation>la fissure (%1) ne peut s'ouvrir : tous ses nœuds sont sur son front. Raffinez-y d'abord le maillage</translation>
     </message>

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "cutting/surface_line.h"
+#include "mesh/order.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
+#include "operators/curved_rim.h"
 #include "operators/merge_report.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -196,7 +200,10 @@ Joint::Joint(const Mesh& mesh, const Mesh& addition, std::vector<JointLine> line
 void Joint::run(const Prepared& known) {
     imprint(0, known);
     for (int round = 0; round < most_rounds; ++round)
-        if (!imprint((round + 1) % 2, {})) return put_together();
+        if (!imprint((round + 1) % 2, {})) {
+            put_together();
+            return bend();
+        }
     throw QualityError(
         "the two meshes cannot be given the same nodes where they meet: their elements there differ too much in "
         "size. Refine the coarser one there first");
@@ -235,6 +242,26 @@ void Joint::put_together() {
     for (const JointLine& line : lines_)
         for (const JointLine::Stop& stop : line.stops) mesh(1).points[stop.node[1]] = mesh(0).points[stop.node[0]];
     drag_middles(before, mesh(1));
+}
+
+/// Along the seam the addition keeps its own curves where the mesh is flat.
+void Joint::bend() {
+    if (!is_second_order(*mesh_[0]) || !is_second_order(*mesh_[1])) return;
+    std::vector<CommonEdge> edges;
+    for (const JointLine& line : lines_)
+        for (std::size_t k = 0; k + (line.closed ? 0 : 1) < line.stops.size(); ++k) {
+            const JointLine::Stop &from = line.stops[k], &to = line.stops[(k + 1) % line.stops.size()];
+            edges.push_back({{{{from.node[0], to.node[0]}, {from.node[1], to.node[1]}}}, from.bound && to.bound});
+        }
+    const BentRim rim = bend_rim(*mesh_[1], mesh(0), mesh(1), edges);
+    if (rim.straight == 0) return;
+    report(1).straightened.count += rim.straight;
+    report(1).straightened.largest = std::max(report(1).straightened.largest, rim.largest);
+    std::ostringstream text;
+    text << "along the seam its own curved skin is left by up to " << rim.largest << " ("
+         << counted(rim.straight, "edge")
+         << "): the mesh is not flat there, or its elements have no room for curves. Refine both there first";
+    report(1).warnings.push_back(text.str());
 }
 
 /// The mesh with the nodes it has at stops there, and mid-side nodes half as far.

@@ -163,6 +163,8 @@ Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Me
     for (auto& [type, count] : out.converted) count = std::min(count, count_of(input, type) + count_of(addition, type));
     std::erase_if(out.converted, [](const auto& entry) { return entry.second == 0; });
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
+    out.straightened.count += other.straightened.count;
+    out.straightened.largest = std::max(out.straightened.largest, other.straightened.largest);
     std::ranges::copy(other.poor, std::back_inserter(out.poor));
     join_warnings_about_stiffness(out.warnings);
     join_warnings_about_the_seam(out.warnings);
