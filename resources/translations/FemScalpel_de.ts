@@ -1095,6 +1095,10 @@
       <translation>Netz wird für FreeCAD geschrieben…</translation>
     </message>
     <message>
+      <source>a second-order element near (%1) would be folded where the two meet: they are too coarse there for how they are curved. Refine both there first, or move the addition a little</source>
+      <translation>Ein Element zweiter Ordnung bei (%1) würde gefaltet, wo sich die beiden treffen: Sie sind dort zu grob für ihre Krümmung. Verfeinern Sie zuerst beide dort, oder verschieben Sie das hinzukommende Netz ein wenig</translation>
+    </message>
+    <message>
       <source>a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or refine the mesh there first</source>
       <translation>Ein Schlitz der Breite %1 nimmt nichts weg: Er ist schmaler, als die Elemente dort zeigen können. Machen Sie ihn breiter, oder verfeinern Sie das Netz dort zuerst</translation>
     </message>
@@ -1305,6 +1309,10 @@
     <message>
       <source>nodes</source>
       <translation>Knoten</translation>
+    </message>
+    <message>
+      <source>nodes of the two near (%1) cannot be made one: an element there would be flat. Refine both there first, or move the addition a little</source>
+      <translation>Knoten der beiden bei (%1) können nicht einer werden: Ein Element dort würde flach. Verfeinern Sie zuerst beide dort, oder verschieben Sie das hinzukommende Netz ein wenig</translation>
     </message>
     <message>
       <source>none</source>

@@ -1095,6 +1095,10 @@
       <translation>Écriture du maillage pour FreeCAD…</translation>
     </message>
     <message>
+      <source>a second-order element near (%1) would be folded where the two meet: they are too coarse there for how they are curved. Refine both there first, or move the addition a little</source>
+      <translation>un élément du second ordre près de (%1) serait replié là où les deux se rencontrent : ils y sont trop grossiers pour leur courbure. Raffinez d'abord les deux à cet endroit, ou déplacez un peu l'ajout</translation>
+    </message>
+    <message>
       <source>a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or refine the mesh there first</source>
       <translation>une entaille de largeur %1 n'enlève rien : elle est plus étroite que ce que les éléments peuvent y montrer. Élargissez-la, ou raffinez d'abord le maillage à cet endroit</translation>
     </message>
@@ -1305,6 +1309,10 @@
     <message>
       <source>nodes</source>
       <translation>nœuds</translation>
+    </message>
+    <message>
+      <source>nodes of the two near (%1) cannot be made one: an element there would be flat. Refine both there first, or move the addition a little</source>
+      <translation>des nœuds des deux près de (%1) ne peuvent devenir un seul : un élément y serait plat. Raffinez d'abord les deux à cet endroit, ou déplacez un peu l'ajout</translation>
     </message>
     <message>
       <source>none</source>

@@ -51,7 +51,7 @@ TEST(MergeChecks, ShellsThatCrossFromEdgeToEdge) {
         FAIL() << "not seen";
     } catch (const ToolError& error) {
         EXPECT_STREQ(error.parameter(), "other");
-        EXPECT_NE(std::string(error.what()).find("(1 0.5 0)"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("(  1 0.5   0)"), std::string::npos) << error.what();
     }
     // One that but touches the other's edges, and one that has a node in common with it.
     Mesh beside = mesh;

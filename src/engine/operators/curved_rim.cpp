@@ -32,7 +32,8 @@ std::vector<CurvedFacet> curved_faces(const Mesh& mesh, const Eigen::AlignedBox3
     std::unordered_map<std::uint64_t, Index> sides;
     for (const SurfaceFace& f : faces)
         for (std::size_t k = 0; k < 3; ++k) sides.emplace(mesh_edge_key(f.nodes[k], f.nodes[(k + 1) % 3]), -1);
-    for (const auto& [key, middle] : middles_of(mesh, [&](Index a, Index b) { return sides.contains(mesh_edge_key(a, b)); }))
+    for (const auto& [key, middle] :
+         middles_of(mesh, [&](Index a, Index b) { return sides.contains(mesh_edge_key(a, b)); }))
         sides[key] = middle;
     std::vector<CurvedFacet> out;
     for (const SurfaceFace& f : faces) {
@@ -48,7 +49,8 @@ std::vector<CurvedFacet> curved_faces(const Mesh& mesh, const Eigen::AlignedBox3
         }
         const Vec3 normal = (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).normalized();
         double out_of_plane = 0;
-        for (const Vec3& m : facet.mid) out_of_plane = std::max(out_of_plane, std::abs(normal.dot(m - facet.corner[0])));
+        for (const Vec3& m : facet.mid)
+            out_of_plane = std::max(out_of_plane, std::abs(normal.dot(m - facet.corner[0])));
         facet.centre = (facet.corner[0] + facet.corner[1] + facet.corner[2]) / 3;
         facet.radius = longest + facet.sag;
         facet.curved = true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "mesh/surface_tree.h"
 #include "operators/curved_rim.h"
 #include "operators/merge_report.h"
+#include "operators/poor.h"
 #include "words.h"
 
 namespace femscalpel {
@@ -154,13 +156,27 @@ void bring_onto(const Mesh& mesh, std::vector<JointLine>& lines) {
                 stop.at = foot.at;
 }
 
-/// imprint_seam(), with an error that says what there is to be done where meshes are merged.
-Seamed imprinted(const Mesh& mesh, std::vector<ImprintLine> lines, std::size_t m, const OperatorOptions& options,
-                 const Prepared& known) {
+/// The element with the least mean ratio.
+PoorestElement poorest(const Mesh& mesh) {
+    std::vector<Index> all(mesh.points.size());
+    std::iota(all.begin(), all.end(), 0);
+    return poorest_at(mesh, all);
+}
+
+/// imprint_seam(), with an error that says what there is to be done where meshes are merged. `own`: mesh m as it was,
+/// before nodes of it were moved to where the other has them.
+Seamed imprinted(const Mesh& mesh, const Mesh& own, std::vector<ImprintLine> lines, std::size_t m,
+                 const OperatorOptions& options, const Prepared& known) {
     try {
         return imprint_seam(mesh, std::move(lines), m == 1, options, known);
     } catch (const QualityError& error) {
         const std::string text = error.what(), mesh_is = "the mesh already has";
+        if (text.starts_with(mesh_is) && text.find("flat or inverted") != std::string::npos)
+            if (const PoorestElement now = poorest(mesh); now.mean_ratio < poorest(own).mean_ratio)
+                throw QualityError("nodes of the two near " + point_text(now.place) +
+                                       " cannot be made one: an element there would be flat. Refine both there first, "
+                                       "or move the addition a little",
+                                   "other");
         if (m == 0 || !text.starts_with(mesh_is)) throw;
         throw QualityError("the addition already has" + text.substr(mesh_is.size()), "other");
     } catch (const UnsupportedElementError& error) {
@@ -224,7 +240,7 @@ bool Joint::imprint(std::size_t m, const Prepared& known) {
     }
     const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
     // The mesh's nodes stay on its surface, the addition's come to the mesh's.
-    Seamed seamed = imprinted(input, std::move(wanted), m, options_, known);
+    Seamed seamed = imprinted(input, *mesh_[m], std::move(wanted), m, options_, known);
     bool more = false;
     for (std::size_t k = 0; k < lines_.size(); ++k)
         more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;

@@ -39,6 +39,7 @@
 #include "operators/simplify_first.h"
 #include "operators/tie.h"
 #include "operators/trim.h"
+#include "operators/unfold.h"
 #include "operators/unite.h"
 #include "words.h"
 
@@ -326,6 +327,7 @@ Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double
     for (const std::size_t m : {0U, 1U}) refined.join(m, out.joint->report(m));
     const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
     out.united = solids ? unite_solids(*out.joint, meeting.tolerance, options) : unite_shells(*out.joint, options);
+    unfold(out.united.mesh, {&mesh, &addition});
     out.united.seam = shared_nodes(out.united.mesh, options.name + "_ADDED");
     std::vector<PoorPlace> said = out.joint->report(0).poor;
     std::ranges::copy(out.joint->report(1).poor, std::back_inserter(said));
