@@ -100,3 +100,22 @@ def test_a_rim_that_has_no_room_for_its_curve_is_told():
     assert told.count > 0 and told.largest == pytest.approx(1.5 * (1 - np.cos(np.pi / 12)), rel=1e-3)
     words = f"the addition: along the seam its own curved skin is left by up to {told.largest:.6g} ({told.count} edges)"
     assert any(w.startswith(words) for w in result.report.warnings)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 10, 14, 24, 32, 34])
+def test_nothing_is_folded_beside_curved_walls(seed):
+    """What is filled in beside a round bore is straight; edges inside that were curved would fold it."""
+    rng = np.random.default_rng(seed)
+    rng.integers(4, 8)
+    radius = rng.uniform(0.7, 2)
+    counts = (int(rng.integers(2, 4)), int(rng.integers(3, 6)))
+    shaft = round_rod(np.array([0, 0, -3.0]), 2 * radius, 3, counts)
+    tube = fs.drill(shaft, fs.Cylinder((0, 0, 0), (0, 0, 1), 0.9 * radius), refine=False).mesh
+    angle = rng.uniform(0, 6.28)
+    deep = rng.choice([0.0, rng.uniform(0.3, 0.9)])
+    at = np.array([1.5 * radius * np.cos(angle), 1.5 * radius * np.sin(angle), -deep])
+    boss = rod(at, rng.uniform(0.2, 0.55) * radius, 1 + deep, (int(rng.integers(1, 4)), 3), "BOSS")
+    result = fs.merge(tube, boss, keep=("mesh", "addition")[int(rng.integers(2))])
+    check_conforming(result.mesh)
+    curved, straight = jacobians(result.mesh)
+    assert (curved > 0.02 * straight).all()

@@ -8,10 +8,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cancel.h"
 #include "deformation/curved_shape.h"
 #include "deformation/foot.h"
 #include "mesh/middles.h"
-#include "mesh/stopwatch.h"
 #include "mesh/surface.h"
 
 namespace femscalpel {

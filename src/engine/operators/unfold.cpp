@@ -8,10 +8,10 @@
 #include <unordered_set>
 #include <vector>
 
+#include "cancel.h"
 #include "cutting/surface_line.h"
 #include "deformation/curved_shape.h"
 #include "mesh/middles.h"
-#include "mesh/stopwatch.h"
 
 namespace femscalpel {
 namespace {
