@@ -104,8 +104,8 @@ private:
                     if (found == edges_.end()) continue;
                     Edge& edge = found->second;
                     edge.around.push_back({b.type, c});
-                    edge.kept = edge.kept || b.type != CellType::tetra10 ||
-                                (edge.family >= 0 && edge.family != b.families[c]);
+                    edge.kept =
+                        edge.kept || b.type != CellType::tetra10 || (edge.family >= 0 && edge.family != b.families[c]);
                     edge.family = b.families[c];
                     if (b.type != CellType::tetra10) continue;
                     edge.a = n[t.edges[k][0]];
