@@ -210,6 +210,21 @@ TEMPLATES = (
     ),
     QT_TRANSLATE_NOOP("FemScalpel", "the mesh has no group '%1'"),
     # Of edges, walls and additions.
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "nodes of the two near (%1) cannot be made one: an element there would be flat. Refine both there first, or "
+        "move the addition a little",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "a second-order element near (%1) would be folded where the two meet: they are too coarse there for how they "
+        "are curved. Refine both there first, or move the addition a little",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "the addition: along the seam its own curved skin is left by up to %1 (%2 edge(s)): the mesh is not flat "
+        "there, or its elements have no room for curves. Refine both there first",
+    ),
     QT_TRANSLATE_NOOP("FemScalpel", "the edge goes on beyond what was named, and is rounded as far as it goes"),
     QT_TRANSLATE_NOOP(
         "FemScalpel",

@@ -1099,6 +1099,10 @@
       <translation>Netz wird für FreeCAD geschrieben…</translation>
     </message>
     <message>
+      <source>a second-order element near (%1) would be folded where the two meet: they are too coarse there for how they are curved. Refine both there first, or move the addition a little</source>
+      <translation>Ein Element zweiter Ordnung bei (%1) würde gefaltet, wo sich die beiden treffen: Sie sind dort zu grob für ihre Krümmung. Verfeinern Sie zuerst beide dort, oder verschieben Sie das hinzukommende Netz ein wenig</translation>
+    </message>
+    <message>
       <source>a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or refine the mesh there first</source>
       <translation>Ein Schlitz der Breite %1 nimmt nichts weg: Er ist schmaler, als die Elemente dort zeigen können. Machen Sie ihn breiter, oder verfeinern Sie das Netz dort zuerst</translation>
     </message>
@@ -1311,6 +1315,10 @@
       <translation>Knoten</translation>
     </message>
     <message>
+      <source>nodes of the two near (%1) cannot be made one: an element there would be flat. Refine both there first, or move the addition a little</source>
+      <translation>Knoten der beiden bei (%1) können nicht einer werden: Ein Element dort würde flach. Verfeinern Sie zuerst beide dort, oder verschieben Sie das hinzukommende Netz ein wenig</translation>
+    </message>
+    <message>
       <source>none</source>
       <translation>keines</translation>
     </message>
@@ -1493,6 +1501,10 @@
     <message>
       <source>the addition is so much finer than the mesh that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>
       <translation>Das hinzukommende Netz ist so viel feiner als das Netz, dass dieses von %1 auf %2 Elemente verfeinert würde, mit Kanten von %3, wo sie sich treffen. Wählen Sie unter „Erst verfeinern“ eine Kantenlänge von %4, oder „nie“; oder vernetzen Sie das feinere gröber, oder fügen Sie es als Schale hinzu</translation>
+    </message>
+    <message>
+      <source>the addition: along the seam its own curved skin is left by up to %1 (%2 edge(s)): the mesh is not flat there, or its elements have no room for curves. Refine both there first</source>
+      <translation>Das hinzukommende Netz: Entlang der Naht wird seine eigene gekrümmte Oberfläche um bis zu %1 verlassen (%2 Kante(n)): Das Netz ist dort nicht eben, oder seine Elemente haben keinen Platz für Bögen. Verfeinern Sie zuerst beide dort</translation>
     </message>
     <message>
       <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>

@@ -1099,6 +1099,10 @@
       <translation>Écriture du maillage pour FreeCAD…</translation>
     </message>
     <message>
+      <source>a second-order element near (%1) would be folded where the two meet: they are too coarse there for how they are curved. Refine both there first, or move the addition a little</source>
+      <translation>un élément du second ordre près de (%1) serait replié là où les deux se rencontrent : ils y sont trop grossiers pour leur courbure. Raffinez d'abord les deux à cet endroit, ou déplacez un peu l'ajout</translation>
+    </message>
+    <message>
       <source>a slot of width %1 removes nothing: it is narrower than what the elements there can show. Make it wider, or refine the mesh there first</source>
       <translation>une entaille de largeur %1 n'enlève rien : elle est plus étroite que ce que les éléments peuvent y montrer. Élargissez-la, ou raffinez d'abord le maillage à cet endroit</translation>
     </message>
@@ -1311,6 +1315,10 @@
       <translation>nœuds</translation>
     </message>
     <message>
+      <source>nodes of the two near (%1) cannot be made one: an element there would be flat. Refine both there first, or move the addition a little</source>
+      <translation>des nœuds des deux près de (%1) ne peuvent devenir un seul : un élément y serait plat. Raffinez d'abord les deux à cet endroit, ou déplacez un peu l'ajout</translation>
+    </message>
+    <message>
       <source>none</source>
       <translation>aucun</translation>
     </message>
@@ -1493,6 +1501,10 @@
     <message>
       <source>the addition is so much finer than the mesh that this would be refined from %1 to %2 elements, with edges of %3 where they meet. Give refine=%4, a longer edge there, or False for none; or mesh the finer one coarser, or add it as a shell</source>
       <translation>l'ajout est tellement plus fin que le maillage que celui-ci serait raffiné de %1 à %2 éléments, avec des arêtes de %3 là où ils se rencontrent. Choisissez une longueur d'arête de %4 sous « Raffiner d'abord », ou « jamais » ; ou maillez le plus fin plus grossièrement, ou ajoutez-le comme coque</translation>
+    </message>
+    <message>
+      <source>the addition: along the seam its own curved skin is left by up to %1 (%2 edge(s)): the mesh is not flat there, or its elements have no room for curves. Refine both there first</source>
+      <translation>l'ajout : le long de la couture, sa propre peau courbe est quittée de %1 au plus (%2 arête(s)) : le maillage n'y est pas plan, ou ses éléments n’ont pas de place pour des courbes. Raffinez d’abord les deux à cet endroit</translation>
     </message>
     <message>
       <source>the crack along the %1 cannot open: all its nodes are on its front. Refine the mesh there first</source>

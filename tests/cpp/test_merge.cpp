@@ -138,6 +138,32 @@ TEST(Seam, IsEdgesOfTheResult) {
     EXPECT_TRUE(seamed.result.mesh.groups.empty());
 }
 
+TEST(Joint, NodesThatCannotBeBroughtTogetherAreNoFaultOfTheMesh) {
+    Mesh floor, wall;
+    checks::add_plate(floor, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 4, 4);
+    checks::add_plate(wall, {0, 2, 0}, {1, 0, 0}, {0, 0, 1}, 4, 1);
+    MeetingLine line;
+    for (const double x : {0.0, 4.0})
+        line.points.push_back({{x, 2, 0},
+                               {Vec3(0, 0, 1), Vec3(0, 1, 0)},
+                               {checks::number_near(floor, {x, 2, 0}), checks::number_near(wall, {x, 2, 0})},
+                               {1, 1}});
+    std::vector<JointLine> lines;
+    lines.push_back(line_of(line, floor));
+    // A node that would have to pass over its neighbours.
+    lines.front().stops.front().node[0] = checks::number_near(floor, {1, 1, 0});
+    OperatorOptions options;
+    options.name = "JOINT";
+    Joint joint(floor, wall, std::move(lines), options);
+    try {
+        joint.run({});
+        FAIL() << "joined";
+    } catch (const QualityError& error) {
+        EXPECT_STREQ(error.parameter(), "other");
+        EXPECT_THAT(error.what(), testing::StartsWith("nodes of the two near ("));
+    }
+}
+
 TEST(Joint, StopsAreAtEndsBendsAndNodes) {
     MeetingLine line;
     const std::array<Vec3, 2> normals{Vec3::UnitZ(), Vec3::UnitY()};

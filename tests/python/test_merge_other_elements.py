@@ -8,7 +8,7 @@ import pytest
 import femscalpel as fs
 from merge_cases import KINDS, in_one_line, of_quadrangles, with_middles
 from merge_parts import block, check_conforming, check_untouched, pipe, plate, rod
-from mixed_meshes import grid, prisms_of, worst_of
+from mixed_meshes import grid, prisms_of, second_order, worst_of
 
 
 def bricks(origin, size, counts, kind, name):
@@ -123,3 +123,48 @@ def test_quadrangles_of_first_order_in_a_deck_are_warned_of(tmp_path):
     assert any(text in w for w in fs.merge(fs.read(path), rib).report.warnings)
     assert any(text in w for w in fs.crack(fs.read(path), fs.Plane((3.1, 2, 0), (1, 0.2, 0))).report.warnings)
     assert not any(text in w for w in fs.merge(floor, rib).report.warnings)
+
+
+def of_nine_nodes(counts, size, name, place, bend=0.0):
+    """A shell of quadrangles with a node in their middle, all its nodes in a group; with its height along z if placed
+    above the ground, else flat or bent about y."""
+    points, cells = second_order(*grid(counts, 0.15), "quad")
+    points = points / [*counts, 1] * [*size, 1]
+    cells = np.column_stack([cells, len(points) + np.arange(len(cells))])
+    points = np.vstack([points, points[cells[:, :4]].mean(axis=1)])
+    points[:, 2] = bend * points[:, 0] * (size[0] - points[:, 0])
+    if place is not None:
+        points = points[:, [0, 2, 1]] + place
+    groups = {name: ("element", np.arange(1, len(cells) + 1)), name + "_N": ("node", np.arange(1, len(points) + 1))}
+    return fs.Mesh(points, {"quad9": cells}, groups=groups)
+
+
+@pytest.mark.parametrize("bend", [0, 0.02])
+@pytest.mark.parametrize("part", ["quad9", "triangle"])
+def test_quadrangles_of_nine_nodes(bend, part, tmp_path):
+    """They become triangles of six nodes there; their middle nodes go where none is needed, and are in no element's
+    way."""
+    floor = of_nine_nodes((10, 10), (10, 10), "FLOOR", None, bend)
+    place = np.array([2.3, 5.1, 0.25 if bend else 0])
+    if part == "quad9":
+        rib = of_nine_nodes((6, 3), (5, 2), "RIB", place)
+    else:
+        rib = plate(place, (5, 0.2, 0), (0, 0, 2), (6, 3), "RIB")
+    result = fs.merge(floor, rib)
+    mesh = result.mesh
+    mesh.validate()
+    check_conforming(mesh)
+    assert in_one_line(mesh) and worst_of(mesh) > 0.25
+    assert set(mesh.cells) == {"quad9", "triangle6"} and result.report.converted["quad9"] > 18 * (part == "quad9")
+    assert measure_of(mesh, "FLOOR") == pytest.approx(measure_of(floor, "FLOOR"), rel=1e-5 if bend else 1e-12)
+    in_use = np.unique(np.concatenate([c.reshape(-1) for c in mesh.cells.values()]))
+    assert len(in_use) == mesh.node_count
+    in_floor = np.isin(mesh.cell_ids["triangle6"], mesh.groups["FLOOR"].ids)
+    nodes = set(mesh.node_ids[mesh.cells["triangle6"][in_floor]].flat) | set(mesh.node_ids[mesh.cells["quad9"]].flat)
+    assert nodes == set(mesh.groups["FLOOR_N"].ids)
+    fs.write(mesh, tmp_path / "joined.med")
+    assert {k: len(c) for k, c in fs.read(tmp_path / "joined.med").cells.items()} == {
+        k: len(c) for k, c in mesh.cells.items()
+    }
+    with pytest.raises(fs.WriteError, match="elements of type quad9: CalculiX has no such element"):
+        fs.write(mesh, tmp_path / "joined.inp")

@@ -5,10 +5,12 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
+from merge_cases import in_one_line, with_middles
 from merge_parts import block, check_conforming, plate, worst
 from meshes import grid_box
 
 TURN = np.array([[np.cos(0.3), -np.sin(0.3), 0], [np.sin(0.3), np.cos(0.3), 0], [0, 0, 1]])
+KIND = ("triangle", "triangle6")
 PLACE = (5.13, 4.87, 5)
 
 
@@ -58,6 +60,31 @@ def test_refinement_is_the_users_to_choose(base):
 
     with pytest.raises(KeyboardInterrupt):
         fs.merge(base, thin, refine=0.4, before_refining=stop)
+
+
+@pytest.mark.parametrize("second_order", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("turn", [0.2, 0.35, 1.1])
+def test_narrow_elements_do_not_get_narrower(seed, turn, second_order):
+    """A seam crosses all edges of narrow elements side by side: of its nodes there, half would be too many, also where
+    they were mid-side nodes. These are not lost, and stay in their groups."""
+    floor = plate((0, 0, 0), (10, 0, 0), (0, 10, 0), (11, 11), "FLOOR", 0.2, seed)
+    along = 2.4 * np.array([np.cos(turn), np.sin(turn), 0])
+    rib = plate((5, 5, -1) - along / 2, along, (-0.1 * along[1], 0.1 * along[0], 2.9), (20, 1), "RIB")
+    if second_order:
+        floor, rib = with_middles(floor), with_middles(rib)
+    for mesh, name in ((floor, "ALL_OF_FLOOR"), (rib, "ALL_OF_RIB")):
+        mesh.add_group(name, "node", mesh.node_ids)
+    result = fs.merge(floor, rib).mesh
+    check_conforming(result)
+    assert in_one_line(result)
+    assert worst(result) > 1.3 * worst(rib)
+    in_use = np.unique(np.concatenate([c.reshape(-1) for c in result.cells.values()]))
+    assert len(in_use) == result.node_count and set(floor.node_ids) <= set(result.node_ids)
+    for name, group in (("ALL_OF_FLOOR", "FLOOR"), ("ALL_OF_RIB", "RIB")):
+        elements = np.isin(result.cell_ids[KIND[second_order]], result.groups[group].ids)
+        nodes = result.node_ids[np.unique(result.cells[KIND[second_order]][elements])]
+        assert set(nodes) == set(result.groups[name].ids)
 
 
 def test_an_addition_that_is_much_too_fine_is_refused_with_what_to_do():

@@ -5,7 +5,9 @@ import numpy as np
 import pytest
 
 import femscalpel as fs
+from merge_parts import block, rod
 from meshes import grid_box, quadratic
+from mixed_meshes import grid
 
 REGULAR = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
 
@@ -174,3 +176,55 @@ def test_measure_of_curved_pyramids_is_that_of_the_hexahedron_they_fill():
     found = fs.measure(fs.Mesh(points, {"hexahedron20": [range(20)], "pyramid13": pyramids}))
     assert abs(found["hexahedron20"][0] - 1) > 1e-3
     assert found["pyramid13"].sum() == pytest.approx(found["hexahedron20"][0], rel=1e-12)
+
+
+def least_of_changed(before, after):
+    """The least mean ratio of solids with other corners, or other places of these, than in the mesh before."""
+
+    def corners(mesh, kind):
+        nodes = np.asarray(mesh.cells[kind])
+        return {n: (tuple(mesh.node_ids[c]), mesh.points[c].tobytes()) for n, c in zip(mesh.cell_ids[kind], nodes)}
+
+    ratios = [1.0]
+    for kind, all_of in fs.mean_ratio(after).items():
+        if kind.startswith(("tetra", "pyramid", "wedge", "hexahedron")):
+            was = corners(before, kind) if kind in before.cells else {}
+            ratios += [q for q, (n, c) in zip(all_of, corners(after, kind).items()) if was.get(n) != c]
+    return min(ratios)
+
+
+def least(mesh):
+    return min(q.min() for kind, q in fs.mean_ratio(mesh).items() if not kind.startswith(("line", "tri", "vertex")))
+
+
+@pytest.mark.parametrize("angle", [0.1, 0.2, 0.4])
+def test_reports_count_what_was_converted_beside_the_band(angle):
+    """Pyramids and tetrahedra are farther from the tool than what it divides, and can be worse."""
+    points, cells = grid((12, 7, 7), 0.2)
+    mesh = fs.Mesh(points, {"hexahedron": cells})
+    result = fs.crack(mesh, fs.Plane((6, 3.5, 3.5), (1, angle, 0.2)))
+    quality = result.report.quality
+    assert quality.after.minimum == pytest.approx(least_of_changed(mesh, result.mesh), abs=1e-12)
+    assert quality.before.minimum >= least(mesh) and quality.before.count < quality.after.count
+
+
+def test_reports_count_what_was_divided_beside_the_band():
+    """Edges that grow slowly away from a fine hole."""
+    mesh = grid_box((8, 8, 8), (10.0, 10.0, 10.0))
+    hole = fs.Cylinder((5, 5, 0), (0.1, 0, 1), 0.5)
+    result = fs.drill(mesh, hole, transition=1)
+    quality, divided = result.report.quality, result.report.refinement
+    assert divided.elements_after > divided.elements_before
+    assert quality.after.minimum == pytest.approx(least_of_changed(mesh, result.mesh), abs=1e-12)
+    changed = set(result.mesh.cell_ids["tetra"]) - set(mesh.cell_ids["tetra"])
+    assert quality.after.count >= len(changed)
+
+
+@pytest.mark.parametrize("keep", ["mesh", "addition"])
+def test_reports_of_merge_count_all_that_changed(keep):
+    base, boss = block((0, 0, 0), (6, 6, 2), (8, 8, 3), "BASE"), rod((0.3, 0.2, 1.5), 1.2, 2.5, (3, 5), "BOSS")
+    result = fs.merge(base, boss, keep=keep)
+    quality = result.report.quality
+    added = np.isin(result.mesh.cell_ids["tetra"], result.mesh.groups["ADD_ADDED"].ids)
+    of_added = fs.mean_ratio(result.mesh)["tetra"][added].min()
+    assert quality.after.minimum == pytest.approx(min(of_added, least_of_changed(base, result.mesh)), abs=1e-12)

@@ -30,11 +30,14 @@ public:
     /// Merges new nodes of bad elements away; true if any was.
     bool merge_nodes(double goal) {
         bool any = false;
+        // A seam crosses every edge of narrow elements that lie side by side: of its nodes many have to go, also those
+        // that were mid-side nodes. Elsewhere these stay the corners that they became.
+        const bool is_seam = !f_.at_stop.empty();
         // A node is in many elements; what it could not do once it cannot again, unless something was merged nearby.
         std::vector<char> in_vain(static_cast<std::size_t>(band_.size()), 0);
         for (const auto& [quality, nodes] : bad_elements(goal))
             for (const int p : nodes) {
-                if (p < 0 || in_vain[p] || !band_.is_new(p) || band_.nodes[p].global >= 0) continue;
+                if (p < 0 || in_vain[p] || !band_.is_new(p) || (band_.nodes[p].global >= 0 && !is_seam)) continue;
                 const int target = merger_.merge(p);
                 in_vain[p] = 1;
                 if (target < 0) continue;

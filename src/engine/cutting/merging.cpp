@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <tuple>
 
 #include "cancel.h"
 #include "deformation/curved_shape.h"
@@ -96,6 +97,70 @@ double NodeMerger::quality_merged(int p, int t) const {
     return worst;
 }
 
+/// Mid-side nodes of the input that have no edge once p is gone: the one it was, and those that edges of it were given.
+std::vector<Index> NodeMerger::homeless_middles(int p) const {
+    std::vector<Index> out;
+    if (band_.mid_nodes.empty()) return out;
+    if (band_.is_new(p) && band_.nodes[p].global >= 0) out.push_back(band_.nodes[p].global);
+    for (const int x : candidates_)
+        if (const auto mid = band_.mid_nodes.find(edge_key(p, x));
+            mid != band_.mid_nodes.end() && band_.is_handed_over(p, x))
+            out.push_back(mid->second);
+    return out;
+}
+
+/// Edges of second-order elements around t that have a node born here and no mid-side node of the input, once p is
+/// there; those at t first.
+std::vector<std::array<int, 2>> NodeMerger::free_edges(int p, int t) const {
+    std::vector<std::array<int, 2>> out;
+    const auto look = [&](BandElement element) {
+        const auto nodes = element.nodes(band_);
+        const auto has = [&](int v) { return std::ranges::find(nodes, v) != nodes.end(); };
+        if (has(p) && has(t)) return;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const auto [a, b] = std::minmax(nodes[i] == p ? t : nodes[i], nodes[j] == p ? t : nodes[j]);
+                if (!band_.is_handed_over(a, b)) continue;
+                const auto mid = band_.mid_nodes.find(edge_key(a, b));
+                if (mid == band_.mid_nodes.end()) out.push_back({a, b});
+            }
+    };
+    for_second_order_around(d_, p, look);
+    for_second_order_around(d_, t, look);
+    std::ranges::sort(out, {},
+                      [t](const std::array<int, 2>& e) { return std::tuple(e[0] != t && e[1] != t, e[0], e[1]); });
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+/// Whether there is an edge for each mid-side node that would have none were p moved onto t.
+bool NodeMerger::find_homes(int p, int t) {
+    homes_.clear();
+    const std::vector<Index> homeless = homeless_middles(p);
+    if (homeless.empty()) return true;
+    if (band_.is_new(p) && band_.nodes[p].global >= 0) {
+        const auto& [a, b] = band_.births[p - band_.original_nodes()];
+        if (d_.constraints.has_fixed_middle(a, b)) return false;
+    }
+    std::vector<std::array<int, 2>> edges = free_edges(p, t);
+    for (const Index middle : homeless) {
+        const auto home =
+            std::ranges::find_if(edges, [&](const auto& e) { return d_.membership.may_hand_over(middle, e[0], e[1]); });
+        if (home == edges.end()) return false;
+        homes_.push_back({edge_key((*home)[0], (*home)[1]), middle});
+        edges.erase(home);
+    }
+    return true;
+}
+
+void NodeMerger::hand_over(int p) {
+    if (homes_.empty()) return;
+    for (const int x : candidates_)
+        if (band_.is_handed_over(p, x)) band_.mid_nodes.erase(edge_key(p, x));
+    if (band_.is_new(p)) band_.nodes[p].global = -1;
+    for (const auto& [edge, middle] : homes_) band_.mid_nodes.emplace(edge, middle);
+}
+
 int NodeMerger::merge(int p) {
     check_cancelled();
     if (band_.tetras.around(p).empty() && band_.triangles.around(p).empty()) return -1;
@@ -110,7 +175,8 @@ int NodeMerger::merge(int p) {
             target = t;
         }
     }
-    if (target < 0) return -1;
+    if (target < 0 || !find_homes(p, target)) return -1;
+    hand_over(p);
     band_.merge_node(p, target);
     d_.contact[p] = {};
     return target;

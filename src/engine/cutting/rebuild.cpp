@@ -169,7 +169,10 @@ private:
             note_born(a, b, !f_.d.constraints.is_skin_edge(band_, a, b));
             return mesh.add_node(half_way(a, b), next_node_++, mesh.families.intersect(family(a), family(b)));
         }
-        if (moved(a) || moved(b) || f_.d.edge_contact(a, b) || f_.d.mids.is_mended(a, b)) {
+        if (band_.is_handed_over(a, b)) {
+            mesh.points[original->second] = half_way(a, b);
+            mesh.node_families[original->second] = mesh.families.intersect(family(a), family(b));
+        } else if (moved(a) || moved(b) || f_.d.edge_contact(a, b) || f_.d.mids.is_mended(a, b)) {
             const Vec3 at = half_way(a, b);
             // Straight to within the digits of a text file stays as it is.
             if (moved(a) || moved(b) ||

@@ -37,7 +37,7 @@ void NodeMembership::add_node(const BandMesh& band, int node) {
                       of_middles = families_.unite(middles_[a], middles_[b]);
     middles_.push_back(of_middles);
     const Index middle = band.nodes[node].global;
-    if (middle < 0) {
+    if (middle < 0 || band.is_handed_over(a, b)) {
         in_.push_back(common_to_ends);
         return;
     }
@@ -47,6 +47,14 @@ void NodeMembership::add_node(const BandMesh& band, int node) {
     for (const GroupIndex g : Groups(candidates.begin(), candidates.end()))
         if (!hidden_[g] && !families_.contains(of_middles, g)) family = families_.with(family, g);
     in_.push_back(family);
+}
+
+bool NodeMembership::may_hand_over(Index middle, int a, int b) const {
+    const auto own = of_middle_.find(middle);
+    if (own == of_middle_.end()) return true;
+    return std::ranges::all_of(families_.groups(own->second), [&](GroupIndex g) {
+        return !hidden_[g] && families_.contains(in_[a], g) && families_.contains(in_[b], g);
+    });
 }
 
 bool NodeMembership::merge_links(const BandMesh& band, int p, int t) const {

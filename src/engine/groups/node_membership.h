@@ -24,6 +24,10 @@ public:
     /// The node groups of a band node.
     std::span<const GroupIndex> groups(int node) const { return families_.groups(in_[node]); }
 
+    /// Whether a mid-side node of the input may become that of the edge a-b instead of its own: all its groups have
+    /// both ends, and none is hidden.
+    bool may_hand_over(Index middle, int a, int b) const;
+
     /// Whether moving node `p` onto its neighbour `t` (BandMesh::merge_node()) would link members of a group that
     /// were not linked: as corners of an edge, face or tetrahedron that is not there yet. A node born on such an edge
     /// later would join the group through isolated nodes.

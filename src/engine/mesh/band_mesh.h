@@ -176,8 +176,12 @@ public:
     std::vector<CellRef> line_cells;
     std::vector<CellRef> vertex_cells;
 
-    /// Mid-side node of the input mesh on an edge between two nodes of the input mesh, if quadratic.
+    /// Mid-side node of the input mesh on an edge between two nodes of the input mesh, if quadratic; and those whose
+    /// edge was split and is gone (NodeMerger), each on another edge, one with a node born here.
     std::unordered_map<std::uint64_t, Index> mid_nodes;
+
+    /// Whether the mid-side node of the edge a-b, if it has one, was that of another edge in the input.
+    bool is_handed_over(int a, int b) const { return is_new(a) || is_new(b); }
 
     /// The ends of the edge a node was born on, by node minus original_nodes().
     struct Birth {

@@ -2,6 +2,7 @@
 #include "operators/account.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 #include <unordered_set>
@@ -17,16 +18,12 @@ namespace femscalpel {
 namespace {
 
 /// Elements of the band's moving part before and after.
-struct BandQuality {
-    std::vector<ElementQuality> before, after;
-};
-
-BandQuality band_quality(const Workpiece& f, const Mesh& mesh) {
+ChangedQuality band_quality(const Workpiece& f, const Mesh& mesh) {
     const BandMesh& band = f.d.band;
     std::vector<char> in(static_cast<std::size_t>(band.size()), 0);
     for (const int v : f.nodes) in[v] = 1;
     for (const int v : f.transition) in[v] = 1;
-    BandQuality out;
+    ChangedQuality out;
     const auto look = [&](const auto& list, const auto& cells, auto counts, auto quality_now) {
         std::vector<char> counted(cells.size(), 0);
         check_cancelled();
@@ -273,9 +270,9 @@ void Account::judge(Workpiece& f, std::span<const Blade> blades, const Opening& 
     warn_of_parted_lips(f);
     report_.held = find_held_nodes(f, mesh);
     report_.straightened = {.count = f.straightened, .largest = f.straightened_off};
-    BandQuality quality = band_quality(f, mesh);
-    report_.quality_before = summarise(std::move(quality.before));
-    report_.quality_after = summarise(std::move(quality.after));
+    quality_ = band_quality(f, mesh);
+    report_.quality_before = summarise(quality_.before);
+    report_.quality_after = summarise(quality_.after);
     report_.poor = find_poor_places(f, mesh, report_.quality_before.minimum);
     for (std::string& warning : warnings_of_opened_areas(f.d.band, mesh)) f.warnings.push_back(std::move(warning));
 }
@@ -357,6 +354,21 @@ void Account::join_refinement(const Rebuilt& rebuilt) {
     });
 }
 
+/// Elements that were divided or converted first count as those they were made of, also beside the band.
+void Account::join_quality(const Rebuilt& rebuilt) {
+    const ChangedQuality& first = refined_->trace.quality;
+    std::unordered_set<Index> made, done;
+    for (const ElementQuality& q : first.after) made.insert(q.id);
+    for (const ElementQuality& q : quality_.before) done.insert(q.id);
+    for (const CellRef& c : rebuilt.before) done.insert(edit_.mesh().block(c.type).ids[c.cell]);
+    std::erase_if(quality_.before, [&](const ElementQuality& q) { return made.contains(q.id); });
+    std::ranges::copy(first.before, std::back_inserter(quality_.before));
+    std::ranges::copy_if(first.after, std::back_inserter(quality_.after),
+                         [&](const ElementQuality& q) { return !done.contains(q.id); });
+    report_.quality_before = summarise(std::move(quality_.before));
+    report_.quality_after = summarise(std::move(quality_.after));
+}
+
 void describe_drift(const DriftGauge& gauge, const std::vector<bool>& drifting, const BandMesh& now, const Mesh& before,
                     Report& report) {
     const std::vector<double> drift = gauge.drift(now, before);
@@ -399,6 +411,7 @@ Report Account::close(const Workpiece& f, std::span<const Blade> blades, const O
     count_group_constraints(f, before, report_);
     warn_of_held_nodes(f, before, report_);
     describe_drift(f);
+    if (was_refined()) join_quality(rebuilt);
     return std::move(report_);
 }
 

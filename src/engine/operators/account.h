@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "groups/preserve.h"
+#include "operators/changed_quality.h"
 #include "operators/edit.h"
 #include "operators/options.h"
 #include "operators/refine_first.h"
@@ -44,6 +45,7 @@ private:
     std::vector<std::string> deck_warnings(const Edited& edited) const;
     void find_warnings(const Workpiece& f, std::span<const Blade> blades, const Opening& opening, const Edited& edited);
     void join_refinement(const Rebuilt& rebuilt);
+    void join_quality(const Rebuilt& rebuilt);
     void describe_drift(const Workpiece& f);
 
     const OperatorOptions& options_;
@@ -52,6 +54,7 @@ private:
     const std::vector<bool>& drifting_;
     std::optional<DriftGauge> gauge_;      // of drifting groups
     std::optional<DriftGauge> shortcuts_;  // of the others, if they have any
+    ChangedQuality quality_;               // of the band
     Report report_;
 };
 

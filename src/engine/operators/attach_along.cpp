@@ -47,9 +47,9 @@ struct LyingBeam {
 };
 
 /// Finds the beams, and makes the shell whose foot they are.
-class Foot {
+class FootOfBeams {
 public:
-    Foot(const Mesh& mesh, const Mesh& addition, std::optional<double> tolerance)
+    FootOfBeams(const Mesh& mesh, const Mesh& addition, std::optional<double> tolerance)
         : mesh_(mesh), addition_(addition), given_(tolerance) {
         const Eigen::AlignedBox3d box = box_around(addition);
         outer_ = outer_faces(mesh, grown(box, std::max(box.diagonal().norm(), given_.value_or(0))));
@@ -236,7 +236,7 @@ struct Divisions {
     BeamCuts cuts;
     std::vector<Index> nodes;
 
-    Divisions(const Mesh& mesh, const Mesh& addition, const Foot& foot, const Imprinted& imprinted) {
+    Divisions(const Mesh& mesh, const Mesh& addition, const FootOfBeams& foot, const Imprinted& imprinted) {
         for (const LyingBeam& beam : foot.beams()) {
             BeamCut cut{beam.cell, {}};
             const std::size_t parts = beam.nodes.size() - 1;
@@ -285,7 +285,7 @@ private:
 
 std::optional<AttachedAlong> attach_along(const Mesh& mesh, const Mesh& addition, const MergeOptions& options,
                                           const Prepared& known, std::vector<std::string>& bowed) {
-    Foot foot(mesh, addition, options.tolerance);
+    FootOfBeams foot(mesh, addition, options.tolerance);
     foot.run();
     if (foot.bowed() > 0)
         bowed.push_back(counted(foot.bowed(), "beam") + ", as at " + point_text(foot.bowed_at()) +

@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "cutting/surface_line.h"
+#include "mesh/order.h"
 #include "mesh/surface.h"
 #include "mesh/surface_tree.h"
+#include "operators/curved_rim.h"
 #include "operators/merge_report.h"
+#include "operators/poor.h"
+#include "words.h"
 
 namespace femscalpel {
 namespace {
@@ -150,13 +156,27 @@ void bring_onto(const Mesh& mesh, std::vector<JointLine>& lines) {
                 stop.at = foot.at;
 }
 
-/// imprint_seam(), with an error that says what there is to be done where meshes are merged.
-Seamed imprinted(const Mesh& mesh, std::vector<ImprintLine> lines, std::size_t m, const OperatorOptions& options,
-                 const Prepared& known) {
+/// The element with the least mean ratio.
+PoorestElement poorest(const Mesh& mesh) {
+    std::vector<Index> all(mesh.points.size());
+    std::iota(all.begin(), all.end(), 0);
+    return poorest_at(mesh, all);
+}
+
+/// imprint_seam(), with an error that says what there is to be done where meshes are merged. `own`: mesh m as it was,
+/// before nodes of it were moved to where the other has them.
+Seamed imprinted(const Mesh& mesh, const Mesh& own, std::vector<ImprintLine> lines, std::size_t m,
+                 const OperatorOptions& options, const Prepared& known) {
     try {
         return imprint_seam(mesh, std::move(lines), m == 1, options, known);
     } catch (const QualityError& error) {
         const std::string text = error.what(), mesh_is = "the mesh already has";
+        if (text.starts_with(mesh_is) && text.find("flat or inverted") != std::string::npos)
+            if (const PoorestElement now = poorest(mesh); now.mean_ratio < poorest(own).mean_ratio)
+                throw QualityError("nodes of the two near " + point_text(now.place) +
+                                       " cannot be made one: an element there would be flat. Refine both there first, "
+                                       "or move the addition a little",
+                                   "other");
         if (m == 0 || !text.starts_with(mesh_is)) throw;
         throw QualityError("the addition already has" + text.substr(mesh_is.size()), "other");
     } catch (const UnsupportedElementError& error) {
@@ -196,7 +216,10 @@ Joint::Joint(const Mesh& mesh, const Mesh& addition, std::vector<JointLine> line
 void Joint::run(const Prepared& known) {
     imprint(0, known);
     for (int round = 0; round < most_rounds; ++round)
-        if (!imprint((round + 1) % 2, {})) return put_together();
+        if (!imprint((round + 1) % 2, {})) {
+            put_together();
+            return bend();
+        }
     throw QualityError(
         "the two meshes cannot be given the same nodes where they meet: their elements there differ too much in "
         "size. Refine the coarser one there first");
@@ -217,7 +240,7 @@ bool Joint::imprint(std::size_t m, const Prepared& known) {
     }
     const Mesh input = with_nodes_in_place(done_[m] ? results_[m].mesh : *mesh_[m], m);
     // The mesh's nodes stay on its surface, the addition's come to the mesh's.
-    Seamed seamed = imprinted(input, std::move(wanted), m, options_, known);
+    Seamed seamed = imprinted(input, *mesh_[m], std::move(wanted), m, options_, known);
     bool more = false;
     for (std::size_t k = 0; k < lines_.size(); ++k)
         more = take(lines_[k], m, seamed.lines[k], seamed.result.mesh) || more;
@@ -235,6 +258,26 @@ void Joint::put_together() {
     for (const JointLine& line : lines_)
         for (const JointLine::Stop& stop : line.stops) mesh(1).points[stop.node[1]] = mesh(0).points[stop.node[0]];
     drag_middles(before, mesh(1));
+}
+
+/// Along the seam the addition keeps its own curves where the mesh is flat.
+void Joint::bend() {
+    if (!is_second_order(*mesh_[0]) || !is_second_order(*mesh_[1])) return;
+    std::vector<CommonEdge> edges;
+    for (const JointLine& line : lines_)
+        for (std::size_t k = 0; k + (line.closed ? 0 : 1) < line.stops.size(); ++k) {
+            const JointLine::Stop &from = line.stops[k], &to = line.stops[(k + 1) % line.stops.size()];
+            edges.push_back({{{{from.node[0], to.node[0]}, {from.node[1], to.node[1]}}}, from.bound && to.bound});
+        }
+    const BentRim rim = bend_rim(*mesh_[1], mesh(0), mesh(1), edges);
+    if (rim.straight == 0) return;
+    report(1).straightened.count += rim.straight;
+    report(1).straightened.largest = std::max(report(1).straightened.largest, rim.largest);
+    std::ostringstream text;
+    text << "along the seam its own curved skin is left by up to " << rim.largest << " ("
+         << counted(rim.straight, "edge")
+         << "): the mesh is not flat there, or its elements have no room for curves. Refine both there first";
+    report(1).warnings.push_back(text.str());
 }
 
 /// The mesh with the nodes it has at stops there, and mid-side nodes half as far.

@@ -54,6 +54,7 @@ public:
 private:
     bool imprint(std::size_t m, const Prepared& known);
     void put_together();
+    void bend();
     Mesh with_nodes_in_place(const Mesh& mesh, std::size_t m) const;
     const Ribbon* ribbon_through_stops(const JointLine& line, std::size_t m);
 

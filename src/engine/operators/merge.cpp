@@ -39,6 +39,7 @@
 #include "operators/simplify_first.h"
 #include "operators/tie.h"
 #include "operators/trim.h"
+#include "operators/unfold.h"
 #include "operators/unite.h"
 #include "words.h"
 
@@ -163,6 +164,8 @@ Report report_of(const Mesh& input, const Mesh& addition, Joint& joint, const Me
     for (auto& [type, count] : out.converted) count = std::min(count, count_of(input, type) + count_of(addition, type));
     std::erase_if(out.converted, [](const auto& entry) { return entry.second == 0; });
     for (const std::string& w : other.warnings) out.warnings.push_back("the addition: " + w);
+    out.straightened.count += other.straightened.count;
+    out.straightened.largest = std::max(out.straightened.largest, other.straightened.largest);
     std::ranges::copy(other.poor, std::back_inserter(out.poor));
     join_warnings_about_stiffness(out.warnings);
     join_warnings_about_the_seam(out.warnings);
@@ -324,6 +327,7 @@ Joined join_once(const Mesh& mesh, const Mesh& addition, Meeting meeting, double
     for (const std::size_t m : {0U, 1U}) refined.join(m, out.joint->report(m));
     const bool solids = mesh.dimension() == 3 && addition.dimension() == 3;
     out.united = solids ? unite_solids(*out.joint, meeting.tolerance, options) : unite_shells(*out.joint, options);
+    unfold(out.united.mesh, {&mesh, &addition});
     out.united.seam = shared_nodes(out.united.mesh, options.name + "_ADDED");
     std::vector<PoorPlace> said = out.joint->report(0).poor;
     std::ranges::copy(out.joint->report(1).poor, std::back_inserter(said));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -11,25 +12,11 @@
 #include <utility>
 
 #include "cancel.h"
-#include "cutting/rebuild.h"
 #include "groups/group_report.h"
 #include "mesh/quality.h"
 
 namespace femscalpel {
 namespace {
-
-void add_quality(QualitySummary& sum, const QualitySummary& more) {
-    const Index count = sum.count + more.count;
-    if (count > 0)
-        sum.mean = (sum.mean * static_cast<double>(sum.count) + more.mean * static_cast<double>(more.count)) /
-                   static_cast<double>(count);
-    sum.count = count;
-    sum.minimum = std::min(sum.minimum, more.minimum);
-    for (std::size_t k = 0; k < sum.histogram.size(); ++k) sum.histogram[k] += more.histogram[k];
-    std::vector<ElementQuality> worst = std::move(sum.worst);
-    worst.insert(worst.end(), more.worst.begin(), more.worst.end());
-    sum.worst = summarise(std::move(worst)).worst;
-}
 
 /// The shape of the elements of two and three dimensions for which `wanted` is true.
 template <class Wanted>
@@ -43,6 +30,43 @@ std::vector<ElementQuality> qualities(const Mesh& mesh, Wanted wanted) {
     }
     return out;
 }
+
+/// Which elements of a result are those of the input, with the same nodes where they were.
+class Unchanged {
+public:
+    Unchanged(const Mesh& input, const Mesh& result) : input_(input) {
+        std::unordered_map<Index, Index> known;
+        known.reserve(input.points.size());
+        for (Index n = 0; n < input.node_count(); ++n) known.emplace(input.node_ids[n], n);
+        for (Index n = 0; n < result.node_count(); ++n) {
+            const auto found = known.find(result.node_ids[n]);
+            const bool same = found != known.end() && input.points[found->second] == result.points[n];
+            was_.push_back(same ? found->second : -1);
+        }
+    }
+
+    bool is(const CellBlock& block, Index cell) const {
+        const CellBlock& before = input_.block(block.type);
+        const Index row = row_of(before, block.ids[cell], cell);
+        return row >= 0 && std::ranges::equal(block.nodes(cell), before.nodes(row),
+                                              [&](Index now, Index then) { return was_[now] == then; });
+    }
+
+private:
+    /// Where the element with a number is in a block of the input, most often in the place `guess`; -1 if it is not.
+    Index row_of(const CellBlock& block, Index number, Index guess) const {
+        if (guess < block.size() && block.ids[guess] == number) return guess;
+        std::unordered_map<Index, Index>& rows = rows_[static_cast<std::size_t>(block.type)];
+        if (rows.empty())
+            for (Index c = 0; c < block.size(); ++c) rows.emplace(block.ids[c], c);
+        const auto found = rows.find(number);
+        return found == rows.end() ? -1 : found->second;
+    }
+
+    const Mesh& input_;
+    std::vector<Index> was_;                                                      // by node of the result; or -1
+    mutable std::array<std::unordered_map<Index, Index>, cell_type_count> rows_;  // by number, once needed
+};
 
 /// How bad a warning of warn_of_grazing() is, and what kind of warning; nothing if it is another.
 std::optional<std::pair<std::string, double>> grazing(const std::string& warning) {
@@ -103,21 +127,26 @@ std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, c
 
 void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result, const std::string& added,
                      Report& report) {
-    add_quality(report.quality_before, summarise(qualities(addition, [](const CellBlock&, Index) { return true; })));
-    std::unordered_map<Index, Index> known;
-    for (Index n = 0; n < input.node_count(); ++n) known.emplace(input.node_ids[n], n);
-    std::vector<char> touched(result.points.size(), 1);
-    for (Index n = 0; n < result.node_count(); ++n)
-        if (const auto found = known.find(result.node_ids[n]); found != known.end())
-            touched[n] = input.points[found->second] == result.points[n] ? 0 : 1;
-    const Index last = next_numbers(input).cell;
     const GroupIndex group = *result.find_group(added, GroupKind::element);
     const bool solid = result.dimension() == 3;
+    const Unchanged unchanged(input, result);
+    std::vector<Index> untouched;
     report.quality_after = summarise(qualities(result, [&](const CellBlock& b, Index c) {
         if (result.families.contains(b.families[c], group)) return true;
         if (solid && traits(b.type).dimension == 2) return false;
-        return b.ids[c] >= last || std::ranges::any_of(b.nodes(c), [&](Index n) { return touched[n] != 0; });
+        if (!unchanged.is(b, c)) return true;
+        untouched.push_back(b.ids[c]);
+        return false;
     }));
+    std::ranges::sort(untouched);
+    std::vector<ElementQuality> before = qualities(addition, [](const CellBlock&, Index) { return true; });
+    std::ranges::copy(qualities(input,
+                                [&](const CellBlock& b, Index c) {
+                                    return !(solid && traits(b.type).dimension == 2) &&
+                                           !std::ranges::binary_search(untouched, b.ids[c]);
+                                }),
+                      std::back_inserter(before));
+    report.quality_before = summarise(std::move(before));
 }
 
 std::vector<Index> shared_nodes(const Mesh& mesh, const std::string& name) {

@@ -12,9 +12,9 @@ namespace femscalpel {
 /// what it says of moved nodes and borders is kept.
 std::vector<GroupRecord> merged_records(const Mesh& input, const Mesh& result, const std::vector<GroupRecord>& known);
 
-/// Puts the quality of what was joined into a report that holds that of the mesh before: of the elements of the mesh
-/// that were changed, and of all of the addition, which are the element group `added` of the result; but for the mesh's
-/// triangles where there are tetrahedra, whose skin they are.
+/// Puts the quality of what was joined into a report, before and after: of the elements of the mesh that were changed,
+/// and of all of the addition, which are the element group `added` of the result; but for the mesh's triangles where
+/// there are tetrahedra, whose skin they are.
 void describe_joined(const Mesh& input, const Mesh& addition, const Mesh& result, const std::string& added,
                      Report& report);
 

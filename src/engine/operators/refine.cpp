@@ -170,8 +170,8 @@ std::vector<std::string> warnings_of(const Bisected& bisected, const Mesh& mesh)
     return out;
 }
 
-/// All but the seconds. Throws QualityError when elements were inverted. `mesh` is what was refined.
-Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edited) {
+/// All but the seconds. Throws QualityError when elements were inverted. `mesh` is what was refined; `quality` is set.
+Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edited, ChangedQuality& quality) {
     const Rebuilt& rebuilt = edited.rebuilt;
     Report report;
     report.operation = "refine";
@@ -179,7 +179,9 @@ Report report_of(const Bisected& bisected, const Mesh& mesh, const Edited& edite
     report.warnings = warnings_of(bisected, mesh);
     report.nodes_added = report.nodes_split = rebuilt.nodes_split;
     report.elements_added = rebuilt.elements_added;
-    describe_changed(mesh, bisected.workpiece(), rebuilt, report);
+    quality = changed_quality(mesh, bisected.workpiece(), rebuilt);
+    report.quality_before = summarise(quality.before);
+    report.quality_after = summarise(quality.after);
     if (report.quality_before.minimum > 0 && report.quality_after.minimum <= 0)
         throw QualityError("elements would be inverted by refinement; choose a larger size, or another place");
     report.groups = compare_groups(mesh, edited.before, rebuilt.mesh, edited.after);
@@ -333,7 +335,7 @@ std::optional<Result> refine_where_needed(const Mesh& input, const DistanceField
     f.mid_side = [&](int a, int b) { return bisected.bisector().mid_side(a, b); };
     Edited edited = edit.finish(f, no_opening(f.d.band), {}, watch);
     trace.on_shortcuts = new_on_shortcuts(f, edited.rebuilt);
-    Result result{{}, report_of(bisected, mesh, edited)};
+    Result result{{}, report_of(bisected, mesh, edited, trace.quality)};
     result.mesh = std::move(edited.rebuilt.mesh);
     trace.changes = std::move(edited.rebuilt.changes);
     trace.deck = std::move(edited.deck);

@@ -8,6 +8,7 @@
 #include "cutting/bisection.h"
 #include "deck/rules/remarks.h"
 #include "mesh/changes.h"
+#include "operators/changed_quality.h"
 #include "operators/refine_estimate.h"
 #include "operators/report.h"
 
@@ -52,7 +53,8 @@ struct Trace {
     /// operation on it they are members like any other, whose place is kept.)
     std::vector<Index> on_shortcuts;
     Changes changes;
-    Remarks deck;  ///< on how the solver's input followed
+    ChangedQuality quality;  ///< of elements that were divided or converted, and of what became of them
+    Remarks deck;            ///< on how the solver's input followed
 };
 
 /// The same of triangles and tetrahedra alone, but nothing when no edge is longer than wanted; and what is to be told

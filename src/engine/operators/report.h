@@ -83,8 +83,8 @@ struct Report {
     /// the skin or a shell), of these "line" (on a feature line or border line: two surfaces) and "fixed";
     /// "group boundary" (on a border inside the material); "free" (none of these). A node can count twice.
     std::map<std::string, Index> constraints;
-    QualitySummary quality_before;  ///< of the band's elements before
-    QualitySummary quality_after;   ///< of the same elements and their children after
+    /// Of the elements near the tool, and those divided or converted first, before; and of what became of them.
+    QualitySummary quality_before, quality_after;
     std::vector<GroupRecord> groups;
     std::vector<FieldRecord> fields;  ///< of a mesh with fields, one for each support
     HeldNodes held;

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "cutting/locate.h"
 #include "deck/carry_over.h"
@@ -146,6 +148,7 @@ Refined with_parts(const Mesh& mesh, Simplified simplified, const DeckMarks& mar
     if (!marks.surface_sets.empty() && solver_input(mesh))
         renew_surface_sets(simplified.mesh, marks.surface_sets, *solver_input(mesh), simplified.after);
     out.trace.deck = carry_deck(marked, simplified.mesh, simplified.changes);
+    out.trace.quality = changed_quality(marked, simplified.before, simplified.mesh, simplified.after);
     out.report = report_of(marked, known.totals ? *known.totals : family_totals(marked), simplified);
     out.mesh = std::move(simplified.mesh);
     out.trace.changes = std::move(simplified.changes);
@@ -188,7 +191,27 @@ void add_conversion(const Refined& converted, bool strict, Report& report) {
     }
 }
 
+namespace {
+
+/// Of a first change and a second one of its result, as of one.
+ChangedQuality joined(const ChangedQuality& first, ChangedQuality second) {
+    const auto numbers = [](const std::vector<ElementQuality>& list) {
+        std::unordered_set<Index> out;
+        for (const ElementQuality& q : list) out.insert(q.id);
+        return out;
+    };
+    const std::unordered_set<Index> made = numbers(first.after), gone = numbers(second.before);
+    std::erase_if(second.before, [&](const ElementQuality& q) { return made.contains(q.id); });
+    std::ranges::copy(first.before, std::back_inserter(second.before));
+    std::ranges::copy_if(first.after, std::back_inserter(second.after),
+                         [&](const ElementQuality& q) { return !gone.contains(q.id); });
+    return second;
+}
+
+}  // namespace
+
 Refined joined(const Refined& converted, Refined refined, bool strict) {
+    refined.trace.quality = joined(converted.trace.quality, std::move(refined.trace.quality));
     add_conversion(converted, strict, refined.report);
     std::unordered_map<Index, Index> parents;
     Changes changes = converted.trace.changes;

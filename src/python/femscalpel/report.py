@@ -45,7 +45,7 @@ class Refinement(NamedTuple):
 
 
 class Quality(NamedTuple):
-    """Quality of the elements near the tool, before and after (the same elements and their children)."""
+    """Quality of the elements near the tool, or converted or divided first; and of what they became."""
 
     before: QualitySummary
     after: QualitySummary
@@ -220,6 +220,7 @@ class Report:
     def to_text(self) -> str:
         """Summary, warnings, the table of groups and, for decks of parts, that of their instances as aligned text."""
         before, after = self.quality
+        also = ", or converted or divided first" if self.converted or self.refinement else ""
         facts = [
             (
                 "nodes",
@@ -232,7 +233,7 @@ class Report:
             (
                 "mean ratio",
                 f"minimum {before.minimum:.3f} -> {after.minimum:.3f}, mean {before.mean:.3f} -> {after.mean:.3f} "
-                f"({before.count} -> {after.count} elements near the tool)",
+                f"({before.count} -> {after.count} elements near the tool{also})",
             ),
             (
                 "seconds",
