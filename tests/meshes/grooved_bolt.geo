@@ -12,8 +12,9 @@ BooleanDifference(20) = { Volume{1}; Delete; }{ Volume{2:7}; Delete; };
 Physical Volume("BOLT") = {20};
 Physical Surface("HEAD") = Surface In BoundingBox{-4, -4, -0.01, 4, 4, 0.01};
 
-Mesh.CharacteristicLengthMin = 0.24;
-Mesh.CharacteristicLengthMax = 0.8;
+DefineConstant[ size = 0.8 ];
+Mesh.CharacteristicLengthMin = 0.3 * size;
+Mesh.CharacteristicLengthMax = size;
 Mesh.ElementOrder = 2;
 Mesh.HighOrderOptimize = 1;
 Mesh.MinimumCirclePoints = 0;

@@ -28,6 +28,7 @@ SHIFTED = 0.1
 
 VOLUME, PLATE, EDGE = ("tetra", "tetra10"), ("triangle", "triangle6"), ("line", "line3")
 CORNERS = {"tetra": 4, "tetra10": 4, "triangle": 3, "triangle6": 3, "line": 2, "line3": 2, "vertex": 1}
+FIRST_ORDER = {"tetra10": "tetra", "triangle6": "triangle", "line3": "line"}
 #: Ends of the edge of each mid-side node.
 MIDDLES = {
     "tetra10": ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
