@@ -14,6 +14,7 @@
 #include "io/bdf_systems.h"
 #include "io/bdf_types.h"
 
+#include "utf8.h"
 namespace femscalpel {
 namespace {
 
@@ -21,7 +22,8 @@ class BdfReader {
 public:
     explicit BdfReader(const std::filesystem::path& path)
         : source_(path), systems_(source_, [this](Index node, const BdfCard& card) { return place(node, card); }) {
-        mesh_.name = path.stem().string();
+        mesh_.name = shown_path(path.stem());
+        mesh_.remarks = source_.remarks();
     }
 
     Mesh read() {

@@ -196,7 +196,7 @@ private:
 }  // namespace
 
 void write_bdf(const Mesh& mesh, const std::filesystem::path& path) {
-    save_text(path, BdfWriter(mesh, path.string()).text());
+    save_text(path, BdfWriter(mesh, shown_path(path)).text());
 }
 
 std::vector<std::string> bdf_losses(const Mesh& mesh) {

@@ -13,6 +13,7 @@
 #include "io/inp_numbers.h"
 #include "io/inp_places.h"
 #include "io/inp_sets.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -486,7 +487,7 @@ void write_inp(const Mesh& mesh, const fs::path& path) {
     try {
         text = DeckWriter(mesh).write();
     } catch (const WriteError& error) {
-        throw WriteError(path.string() + ": " + error.what());
+        throw WriteError(shown_path(path) + ": " + error.what());
     }
     save_text(path, text);
 }

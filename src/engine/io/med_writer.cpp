@@ -17,10 +17,11 @@
 
 namespace femscalpel {
 namespace {
+#include "utf8.h"
 
 class Writer {
 public:
-    Writer(const Mesh& mesh, const std::filesystem::path& path) : mesh_(mesh), path_(path.string()) {}
+    Writer(const Mesh& mesh, const std::filesystem::path& path) : mesh_(mesh), path_(path) {}
 
     void write() {
         if (mesh_.points.empty()) fail("a MED mesh needs nodes");
@@ -45,7 +46,9 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(const std::string& what) const { throw WriteError(path_ + ": cannot be written: " + what); }
+    [[noreturn]] void fail(const std::string& what) const {
+        throw WriteError(shown_path(path_) + ": cannot be written: " + what);
+    }
 
     template <class Result>
     void check(Result result, const char* what) const {
@@ -250,7 +253,7 @@ private:
     }
 
     const Mesh& mesh_;
-    std::string path_;
+    std::filesystem::path path_;
     med_idt fid_ = -1;
     char name_[MED_NAME_SIZE + 1] = "";
     Mesh facets_;                     // only its blocks are used: the elements that stand for facets

@@ -8,7 +8,8 @@
 #include "cancel.h"
 #include "deck/solver_input.h"
 #include "error.h"
-#include "io/inp_file.h"
+#include "io/plain_text.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -32,7 +33,7 @@ std::string shown_word(std::string_view word) {
 
 }  // namespace
 
-UnvSource::UnvSource(const std::filesystem::path& path) : shown_(path.string()), text_(load_text(path)) {
+UnvSource::UnvSource(const std::filesystem::path& path) : shown_(shown_path(path)), text_(load_text(path, remarks_)) {
     at_ = last_ = text_.data();
     end_ = text_.data() + text_.size();
     find_datasets();

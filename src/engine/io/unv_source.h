@@ -27,6 +27,8 @@ public:
     const std::vector<UnvDataset>& datasets() const { return datasets_; }
 
     /// Goes to the start of a data set, which all that follows stays in.
+    /// What there is to say of the file's text (plain_text.h).
+    const std::vector<std::string>& remarks() const { return remarks_; }
     void open(const UnvDataset& dataset);
     /// Nothing but blanks follows in the data set.
     bool at_end() {
@@ -78,3 +80,4 @@ private:
 };
 
 }  // namespace femscalpel
+    std::vector<std::string> remarks_;
