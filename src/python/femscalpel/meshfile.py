@@ -51,7 +51,9 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     if len(names) > 1:
         listed = ", ".join(repr(name) for name in names)
         warnings.warn(
-            f"{file} holds {len(names)} meshes: {listed}. The first was read; mesh= names another", stacklevel=2
+            f"{_arguments.from_system(file)} holds {len(names)} meshes: {listed}. The first was read; mesh= names "
+            "another",
+            stacklevel=2,
         )
     return out
 
@@ -76,7 +78,8 @@ def write(mesh: Mesh, path: Path) -> None:
     _engine.write(check_mesh(mesh), file)
     lost = _engine.losses(mesh._engine_mesh, file)
     if lost:
-        warnings.warn(f"{file} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
+        name = _arguments.from_system(file)
+        warnings.warn(f"{name} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
 
 
 def convert(source: Path, target: Path, mesh: Optional[str] = None) -> None:
