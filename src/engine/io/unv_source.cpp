@@ -100,11 +100,33 @@ int UnvSource::words_ahead(int ahead) const {
         if (p < end_) ++p;
     }
     int words = 0;
-    for (bool inside = false; p < end_ && *p != '\n'; ++p) {
-        words += !is_blank(*p) && !inside;
-        inside = !is_blank(*p);
+    while (p < end_ && *p != '\n') {
+        if (is_blank(*p)) {
+            ++p;
+            continue;
+        }
+        p = end_of_column(p, std::find_if(p, end_, is_blank));
+        ++words;
     }
     return words;
+}
+
+const char* UnvSource::end_of_column(const char* at, const char* stop) const {
+    if (stop - at <= unv_width || !std::all_of(at, stop, [](char c) { return c >= '0' && c <= '9'; })) return stop;
+    const char* line = at;
+    while (line > text_.data() && line[-1] != '\n') --line;
+    if ((stop - line) % unv_width != 0) return stop;
+    return line + ((at - line) / unv_width + 1) * unv_width;
+}
+
+Index UnvSource::integer_of_columns(const char* what) {
+    const char* word_end = std::find_if(at_, end_, is_blank);
+    const char* stop = end_of_column(at_, word_end);
+    Index value = 0;
+    const auto [q, error] = std::from_chars(at_, stop, value);
+    if (error != std::errc() || q != stop) not_a_number(what, "whole number");
+    at_ = stop;
+    return value;
 }
 
 double UnvSource::real(const char* what) {

@@ -11,6 +11,9 @@
 
 namespace femscalpel {
 
+/// Whole numbers in universal files have ten columns, one behind the other.
+inline constexpr std::ptrdiff_t unv_width = 10;
+
 /// A data set of a universal file: what stands between two lines of -1.
 struct UnvDataset {
     std::string_view number;   ///< "2411"; "58b" if it is binary
@@ -35,11 +38,13 @@ public:
         skip_blanks();
         return at_ == end_;
     }
-    /// The next word as a whole number; `what` it is, for messages.
+    /// The next word as a whole number; `what` it is, for messages. Numbers of ten digits fill their columns: several
+    /// may stand in a word, which ends where a column ends, then.
     Index integer(const char* what) {
         skip_blanks();
         Index value = 0;
         const auto [q, error] = std::from_chars(at_, end_, value);
+        if (q - at_ > unv_width) return integer_of_columns(what);
         if (error != std::errc() || (q < end_ && !is_blank(*q))) not_a_number(what, "whole number");
         at_ = q;
         return value;
@@ -67,6 +72,11 @@ private:
         while (at_ < end_ && is_blank(*at_)) ++at_;
         last_ = at_;
     }
+    /// Where the number ends that starts at `at` and that a column ends which is full, so that the next number follows
+    /// without a blank; `stop`, the end of the word, if that is one number.
+    const char* end_of_column(const char* at, const char* stop) const;
+    /// See integer(): of a word that is longer than a column.
+    Index integer_of_columns(const char* what);
     void find_datasets();
     [[noreturn]] void not_a_number(const char* what, const char* wanted) const;
 
