@@ -85,6 +85,15 @@ TEST_F(Bdf, NumbersAreTheNearestThatAFieldHolds) {
     EXPECT_EQ(back.points[1], mesh.points[1]);
 }
 
+TEST_F(Bdf, TheLargestNumbersAreNotRoundedToInfinity) {
+    const double largest = std::numeric_limits<double>::max();
+    Mesh mesh;
+    mesh.add_node(Vec3(largest, -largest, std::nextafter(-largest, 0)), 1);
+    const Mesh back = read(written(mesh));
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(back.points[0][a] / mesh.points[0][a], 1, 1e-8);
+    EXPECT_THAT(bdf_losses(mesh), ElementsAre(HasSubstr("the last digits of the coordinates of 1 node ")));
+}
+
 TEST_F(Bdf, FieldsAreSmallLargeOrFree) {
     const Mesh mesh = read(
         "$ a comment\n"

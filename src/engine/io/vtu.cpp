@@ -196,6 +196,7 @@ void write_cells(Document& document, const Mesh& mesh) {
 }  // namespace
 
 void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
+    if (mesh.points.empty()) throw WriteError(shown_path(path) + ": the mesh has no nodes");
     AtomicFile target(path);
     Document document;
     document.xml =
