@@ -4,7 +4,8 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <unordered_map>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "cancel.h"
@@ -17,7 +18,33 @@
 
 namespace femscalpel {
 namespace {
-#include "utf8.h"
+
+/// What groups are called in the file: facet groups, whose elements are among all elements there, may not be called as
+/// element groups are. Empty for hidden groups.
+std::vector<std::string> med_names(const Mesh& mesh) {
+    std::unordered_set<std::string> taken;
+    for (const Group& g : mesh.groups)
+        if (!g.hidden && g.kind == GroupKind::element) taken.insert(g.name);
+    std::vector<std::string> out;
+    for (const Group& g : mesh.groups) {
+        out.push_back(g.hidden ? std::string() : g.name);
+        if (!g.hidden && g.kind == GroupKind::facet)
+            while (!taken.insert(out.back()).second) out.back() += "_SURF";
+    }
+    return out;
+}
+
+/// What will be the file, once that is closed.
+struct MedImage {
+    med_memfile memory = MED_MEMFILE_INIT;
+
+    MedImage() = default;
+    ~MedImage() { std::free(memory.app_image_ptr); }
+    MedImage(const MedImage&) = delete;
+    MedImage& operator=(const MedImage&) = delete;
+
+    std::string_view bytes() const { return {static_cast<const char*>(memory.app_image_ptr), memory.app_image_size}; }
+};
 
 class Writer {
 public:
@@ -77,24 +104,16 @@ private:
     }
 
     void name_groups() {
-        std::unordered_map<std::string, int> taken;
-        for (const Group& g : mesh_.groups)
-            if (!g.hidden && g.kind == GroupKind::element) taken.emplace(g.name, 0);
-        for (const Group& g : mesh_.groups) {
-            std::string name = g.name;
-            if (g.hidden) {
-                names_.emplace_back();
-                continue;
-            }
-            if (g.kind == GroupKind::facet)
-                while (!taken.emplace(name, 0).second) name += "_SURF";
-            const std::string who = std::string(to_string(g.kind)) + " group '" + name + "'";
+        names_ = med_names(mesh_);
+        for (std::size_t g = 0; g < names_.size(); ++g) {
+            if (mesh_.groups[g].hidden) continue;
+            const std::string& name = names_[g];
+            const std::string who = std::string(to_string(mesh_.groups[g].kind)) + " group '" + name + "'";
             if (name.empty() || name.back() == ' ' || name.find('\0') != std::string::npos)
                 fail("the name of " + who + " is empty or ends in a blank; rename the group");
             if (name.size() > MED_LNAME_SIZE)
                 fail("the name of " + who + " has " + std::to_string(name.size()) + " bytes, MED allows " +
                      std::to_string(MED_LNAME_SIZE) + "; rename the group");
-            names_.push_back(std::move(name));
         }
     }
 
@@ -270,3 +289,13 @@ void write_med(const Mesh& mesh, const std::filesystem::path& path) {
 }
 
 }  // namespace femscalpel
+std::vector<std::string> med_losses(const Mesh& mesh) {
+    std::vector<std::string> out;
+    const std::vector<std::string> names = med_names(mesh);
+    for (std::size_t g = 0; g < names.size(); ++g)
+        if (const Group& group = mesh.groups[g]; !group.hidden && names[g] != group.name)
+            out.push_back("the name of the facet group '" + group.name + "', called '" + names[g] +
+                          "' there beside an element group of its name");
+    return out;
+}
+

@@ -225,4 +225,17 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
     target.commit();
 }
 
+std::vector<std::string> vtu_losses(const Mesh& mesh) {
+    std::vector<std::string> out;
+    for (const Group& group : mesh.groups) {
+        if (group.hidden || std::ranges::none_of(group.name, is_control)) continue;
+        std::string name = group.name;
+        std::ranges::replace_if(name, is_control, '_');
+        out.push_back("the control characters in the name of the " + std::string(to_string(group.kind)) + " group '" +
+                      name + "'");
+    }
+    if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
+    return out;
+}
+
 }  // namespace femscalpel
