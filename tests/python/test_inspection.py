@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -76,6 +77,49 @@ def test_doubles_pieces_and_loose_nodes_are_told():
     assert found["2 nodes are of no element"].members == (6, 10)
     assert any(text.startswith("the mesh is in 2 pieces") for text in found)
     assert found["empty groups"].members == ("NONE",)
+
+
+def test_quadrangles_that_cross_themselves():
+    square = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0), (2, 1, 0)], float)
+    for order in ((0, 2, 1, 3), (0, 1, 3, 2), (0, 2, 3, 1)):
+        for points in (square, square * (1.3, 1, 1) + square[:, :1] * (0, 0.2, 0.1) * square[:, 1:2]):
+            mesh = fs.Mesh(points, {"quad": [order, (1, 4, 5, 2)]}, cell_ids={"quad": [7, 8]})
+            assert ("error", (7,)) in levels(mesh)
+            assert any(f.text == "1 element is crossing itself: 7" for f in fs.check(mesh))
+            assert fs.mean_ratio(mesh)["quad"][0] < 0 < fs.mean_ratio(mesh)["quad"][1]
+            assert fs.scaled_jacobian(mesh)["quad"][0] < 0 < fs.scaled_jacobian(mesh)["quad"][1]
+    # As many turn their corners the other way round, or are twisted.
+    inwards = fs.Mesh([(0, 0, 0), (1, 0, 0), (0.2, 0.2, 0), (0, 1, 0)], {"quad": [(0, 1, 2, 3)]})
+    assert levels(inwards) == {("warning", (1,))} and fs.mean_ratio(inwards)["quad"][0] > 0
+    twisted = fs.Mesh([(0, 0, 0.3), (1, 0, -0.3), (1, 1, 0.3), (0, 1, -0.3)], {"quad": [(0, 1, 2, 3)]})
+    assert levels(twisted) == set()
+
+
+def test_segments_without_a_length():
+    mesh = fs.Mesh([(0, 0, 0), (1, 0, 0), (1, 0, 0)], {"line": [(0, 1), (1, 2)]})
+    assert ("warning", (2,)) in levels(mesh)
+    alone = fs.Mesh([(0, 0, 0), (0, 0, 0)], {"line": [(0, 1)]})
+    assert ("warning", (1,)) in levels(alone)
+
+
+@pytest.mark.parametrize("scale", [1e51, 1e160, 1e-160])
+def test_sizes_that_nothing_can_be_computed_with(tmp_path, scale, capsys):
+    path = str(tmp_path / "a.vtu")
+    mesh = fs.Mesh(
+        np.eye(4, 3) * scale, {"tetra": [(3, 0, 1, 2)], "triangle": [(0, 1, 2)]}, groups={"G": ("element", [1, 2])}
+    )
+    fs.write(mesh, path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (found,) = fs.check(mesh)
+        assert found.level == "error"
+        assert main(["info", path, "--json"]) == 0
+    json.loads(capsys.readouterr().out, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+    assert main(["info", path]) == 0
+    text = capsys.readouterr().out
+    assert "nan" not in text and "inf" not in text
+    assert main(["check", path]) == 1
+    assert levels(fs.Mesh(np.eye(4, 3) * 1e49, {"tetra": [(3, 0, 1, 2)]})) == set()
 
 
 def test_arguments_of_other_kinds():
