@@ -169,7 +169,7 @@ TEST_F(Bdf, PropertiesSetsAndSupportsAreGroups) {
         "SET 2 = 1 THRU 4 EXCEPT 2,\n"
         "        900\n"
         "SET 3 = 11, 13\n"
-        "SET 4 = 3, 12\n"
+        "SET 4 = 3, 12, 901\n"
         "SET 5 = ALL\n"
         "BEGIN BULK\n"
         "$HMNAME PROP                   3\"the web\" 4\n"
@@ -192,6 +192,8 @@ TEST_F(Bdf, PropertiesSetsAndSupportsAreGroups) {
     EXPECT_THAT(
         remarks(mesh),
         AllOf(HasSubstr(":6: group 'SET_2' names 1 nodes or elements that the file does not define"),
+              HasSubstr(":9: group 'SET_4' names 1 nodes or elements that the file does not define\n"),
+              Not(HasSubstr("'SET_4' names 2")),
               HasSubstr(":9: nothing says whether set 4 is of nodes or of elements; there is a group of each"),
               HasSubstr(":10: set 5 is not read: it lists no numbers"), HasSubstr("there are 3 other statements"),
               HasSubstr("(orientation, offsets, thickness) is not "

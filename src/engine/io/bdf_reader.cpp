@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,8 +14,8 @@
 #include "io/bdf_source.h"
 #include "io/bdf_systems.h"
 #include "io/bdf_types.h"
-
 #include "utf8.h"
+
 namespace femscalpel {
 namespace {
 
@@ -220,6 +221,13 @@ private:
                            " nodes or elements that the file does not define");
     }
 
+    /// Of nodes and of elements, in order.
+    std::vector<Index> all_numbers() const {
+        std::vector<Index> out;
+        std::ranges::set_union(node_numbers_, element_numbers_, std::back_inserter(out));
+        return out;
+    }
+
     void make_sets(const BdfNames& names) {
         std::vector<BdfSet> sets = bdf_sets(source_, other_statements_);
         std::set<Index> named;
@@ -249,14 +257,15 @@ private:
             if (!said && !nodes.empty() && !elements.empty())
                 remark(set.at, "nothing says whether set " + std::to_string(set.number) +
                                    " is of nodes or of elements; there is a group of each");
-            if (said ? set.of_nodes : !nodes.empty() || elements.empty()) {
-                tell_absent(name, set.numbers->absent(node_numbers_), set.at);
-                add_group(name, GroupKind::node, std::move(nodes), set.at);
-            }
-            if (said ? set.of_elements : !elements.empty()) {
-                tell_absent(name, set.numbers->absent(element_numbers_), set.at);
-                add_group(name, GroupKind::element, std::move(elements), set.at);
-            }
+            const bool of_nodes = said ? set.of_nodes : !nodes.empty() || elements.empty();
+            const bool of_elements = said ? set.of_elements : !elements.empty();
+            // Of both kinds, what is a node need be no element.
+            if (of_nodes && of_elements)
+                tell_absent(name, set.numbers->absent(all_numbers()), set.at);
+            else
+                tell_absent(name, set.numbers->absent(of_nodes ? node_numbers_ : element_numbers_), set.at);
+            if (of_nodes) add_group(name, GroupKind::node, std::move(nodes), set.at);
+            if (of_elements) add_group(name, GroupKind::element, std::move(elements), set.at);
         }
     }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -15,6 +17,7 @@
 #include "io/med_fields.h"
 #include "io/med_library.h"
 #include "mesh/facet_element.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -56,7 +59,9 @@ public:
         name_groups();
         collect_families();
         AtomicFile target(path_);
-        MedFile file(MEDfileOpen(target.temporary().c_str(), MED_ACC_CREAT));
+        // In memory: where the disk is full, the libraries print what they were doing and crash at the program's end.
+        MedImage image;
+        MedFile file(MEDmemFileOpen(target.temporary().c_str(), &image.memory, MED_FALSE, MED_ACC_CREAT));
         fid_ = file.id();
         check(fid_, "the file");
         write_mesh();
@@ -68,7 +73,11 @@ public:
             {fid_, name_, [this](CellType type) { return mesh_.block(type).size() + facets_.block(type).size(); },
              [this](const std::string& what) { check(-1, what.c_str()); }});
         check_cancelled();
-        if (!file.close()) fail("closing it failed; the disk may be full");
+        if (!file.close()) fail("closing it failed");
+        std::ofstream out(target.temporary(), std::ios::binary | std::ios::trunc);
+        write_obeying(out, image.bytes());
+        out.close();
+        if (!out) fail("the disk may be full");
         target.commit();
     }
 
@@ -79,7 +88,7 @@ private:
 
     template <class Result>
     void check(Result result, const char* what) const {
-        if (result < 0) fail(std::string("the MED library could not write ") + what + "; the disk may be full");
+        if (result < 0) fail(std::string("the MED library could not write ") + what);
     }
 
     med_int med_number(Index number) const {
@@ -288,7 +297,6 @@ void write_med(const Mesh& mesh, const std::filesystem::path& path) {
     Writer(mesh, path).write();
 }
 
-}  // namespace femscalpel
 std::vector<std::string> med_losses(const Mesh& mesh) {
     std::vector<std::string> out;
     const std::vector<std::string> names = med_names(mesh);
@@ -299,3 +307,4 @@ std::vector<std::string> med_losses(const Mesh& mesh) {
     return out;
 }
 
+}  // namespace femscalpel

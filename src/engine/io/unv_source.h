@@ -27,11 +27,11 @@ public:
     explicit UnvSource(const std::filesystem::path& path);
 
     const std::string& shown() const { return shown_; }
+    /// What there is to say of the file's text (plain_text.h).
+    const std::vector<std::string>& remarks() const { return remarks_; }
     const std::vector<UnvDataset>& datasets() const { return datasets_; }
 
     /// Goes to the start of a data set, which all that follows stays in.
-    /// What there is to say of the file's text (plain_text.h).
-    const std::vector<std::string>& remarks() const { return remarks_; }
     void open(const UnvDataset& dataset);
     /// Nothing but blanks follows in the data set.
     bool at_end() {
@@ -81,6 +81,7 @@ private:
     [[noreturn]] void not_a_number(const char* what, const char* wanted) const;
 
     std::string shown_;
+    std::vector<std::string> remarks_;
     std::string text_;
     std::vector<UnvDataset> datasets_;
     const UnvDataset* dataset_ = nullptr;
@@ -90,4 +91,3 @@ private:
 };
 
 }  // namespace femscalpel
-    std::vector<std::string> remarks_;
