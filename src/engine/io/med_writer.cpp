@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -46,7 +48,15 @@ struct MedImage {
     MedImage(const MedImage&) = delete;
     MedImage& operator=(const MedImage&) = delete;
 
-    std::string_view bytes() const { return {static_cast<const char*>(memory.app_image_ptr), memory.app_image_size}; }
+    /// Without the room behind its end, so that no truncation goes unnoticed: up to the end-of-file address in HDF5's
+    /// superblock (HDF5 file format specification, II.A).
+    std::string_view bytes() const {
+        const std::string_view all(static_cast<const char*>(memory.app_image_ptr), memory.app_image_size);
+        const std::size_t at = all.size() < 64 ? 0 : all[8] == 0 ? 40 : all[8] == 1 ? 44 : 28;
+        std::uint64_t end = 0;
+        if (at > 0) std::memcpy(&end, all.data() + at, sizeof end);
+        return end >= 64 && end <= all.size() ? all.substr(0, end) : all;
+    }
 };
 
 class Writer {
