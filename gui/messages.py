@@ -324,6 +324,17 @@ TEMPLATES = (
         "behind",
     ),
     QT_TRANSLATE_NOOP("FemScalpel", "%1 does not hold %2: files of this kind cannot"),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1: the text is not UTF-8, here for the first time; it is read as Windows-1252 (Latin-1). Look at names with "
+        "letters beyond A to Z",
+    ),
+    QT_TRANSLATE_NOOP(
+        "FemScalpel",
+        "%1: names of groups are not UTF-8; they are read as Windows-1252 (Latin-1). Look at those with letters beyond "
+        "A to Z",
+    ),
+    QT_TRANSLATE_NOOP("FemScalpel", "%1: this is text in UTF-16 or UTF-32, which is not read; save it as UTF-8"),
 )
 
 #: English for the panels, where one of them names parameters of Python's functions.

@@ -379,6 +379,18 @@
       <translation>%1: FreeCAD findet diese Knoten nicht über die Geometrie, sodass eine Last, ein Lager oder ein Material darauf unvollständig ist</translation>
     </message>
     <message>
+      <source>%1: names of groups are not UTF-8; they are read as Windows-1252 (Latin-1). Look at those with letters beyond A to Z</source>
+      <translation>%1: Gruppennamen sind nicht UTF-8; sie werden als Windows-1252 (Latin-1) gelesen. Prüfen Sie die mit anderen Buchstaben als A bis Z</translation>
+    </message>
+    <message>
+      <source>%1: the text is not UTF-8, here for the first time; it is read as Windows-1252 (Latin-1). Look at names with letters beyond A to Z</source>
+      <translation>%1: Der Text ist nicht UTF-8, hier zum ersten Mal; er wird als Windows-1252 (Latin-1) gelesen. Prüfen Sie Namen mit anderen Buchstaben als A bis Z</translation>
+    </message>
+    <message>
+      <source>%1: this is text in UTF-16 or UTF-32, which is not read; save it as UTF-8</source>
+      <translation>%1: Dies ist Text in UTF-16 oder UTF-32, der nicht gelesen wird; speichern Sie ihn als UTF-8</translation>
+    </message>
+    <message>
       <source>'%1' has no mesh; mend what its error says first</source>
       <translation>„%1“ hat kein Netz; beheben Sie zuerst, was sein Fehler sagt</translation>
     </message>

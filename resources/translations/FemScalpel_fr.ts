@@ -379,6 +379,18 @@
       <translation>%1 : FreeCAD ne trouvera pas ces nœuds par la géométrie, si bien qu'une charge, un appui ou un matériau y est incomplet</translation>
     </message>
     <message>
+      <source>%1: names of groups are not UTF-8; they are read as Windows-1252 (Latin-1). Look at those with letters beyond A to Z</source>
+      <translation>%1: des noms de groupes ne sont pas en UTF-8 ; ils sont lus comme du Windows-1252 (Latin-1). Vérifiez ceux qui contiennent d'autres lettres que A à Z</translation>
+    </message>
+    <message>
+      <source>%1: the text is not UTF-8, here for the first time; it is read as Windows-1252 (Latin-1). Look at names with letters beyond A to Z</source>
+      <translation>%1: le texte n'est pas en UTF-8, ici pour la première fois ; il est lu comme du Windows-1252 (Latin-1). Vérifiez les noms contenant d'autres lettres que A à Z</translation>
+    </message>
+    <message>
+      <source>%1: this is text in UTF-16 or UTF-32, which is not read; save it as UTF-8</source>
+      <translation>%1: ce texte est en UTF-16 ou UTF-32, qui n'est pas lu ; enregistrez-le en UTF-8</translation>
+    </message>
+    <message>
       <source>'%1' has no mesh; mend what its error says first</source>
       <translation>« %1 » n'a pas de maillage ; corrigez d'abord ce que dit son erreur</translation>
     </message>

@@ -151,6 +151,7 @@ void bind_properties(MeshClass& mesh) {
         .def_property_readonly("cell_count", &Mesh::cell_count)
         .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; })
         .def("instances", &instances)
+        .def_readonly("remarks", &Mesh::remarks)
         .def("input_warnings", [](const Mesh& mesh) {
             const SolverInput* input = solver_input(mesh);
             std::vector<std::string> out = input ? input->warnings() : std::vector<std::string>{};

@@ -99,6 +99,15 @@ TEST_F(Bdf, NumbersAreTheNearestThatAFieldHolds) {
     EXPECT_EQ(back.points[1], mesh.points[1]);
 }
 
+TEST_F(Bdf, TheLargestNumbersAreNotRoundedToInfinity) {
+    const double largest = std::numeric_limits<double>::max();
+    Mesh mesh;
+    mesh.add_node(Vec3(largest, -largest, std::nextafter(-largest, 0)), 1);
+    const Mesh back = read(written(mesh));
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(back.points[0][a] / mesh.points[0][a], 1, 1e-8);
+    EXPECT_THAT(bdf_losses(mesh), ElementsAre(HasSubstr("the last digits of the coordinates of 1 node ")));
+}
+
 TEST_F(Bdf, FieldsAreSmallLargeOrFree) {
     const Mesh mesh = read(
         "$ a comment\n"
@@ -174,7 +183,7 @@ TEST_F(Bdf, PropertiesSetsAndSupportsAreGroups) {
         "SET 2 = 1 THRU 4 EXCEPT 2,\n"
         "        900\n"
         "SET 3 = 11, 13\n"
-        "SET 4 = 3, 12\n"
+        "SET 4 = 3, 12, 901\n"
         "SET 5 = ALL\n"
         "BEGIN BULK\n"
         "$HMNAME PROP                   3\"the web\" 4\n"
@@ -197,6 +206,8 @@ TEST_F(Bdf, PropertiesSetsAndSupportsAreGroups) {
     EXPECT_THAT(
         remarks(mesh),
         AllOf(HasSubstr(":6: group 'SET_2' names 1 nodes or elements that the file does not define"),
+              HasSubstr(":9: group 'SET_4' names 1 nodes or elements that the file does not define\n"),
+              Not(HasSubstr("'SET_4' names 2")),
               HasSubstr(":9: nothing says whether set 4 is of nodes or of elements; there is a group of each"),
               HasSubstr(":10: set 5 is not read: it lists no numbers"), HasSubstr("there are 3 other statements"),
               HasSubstr("(orientation, offsets, thickness) is not "

@@ -39,6 +39,19 @@ TEST(AppendCoordinate, FitsTwentyCharactersAndIsAsCloseAsThatAllows) {
     EXPECT_EQ(std::stod(coordinate(-1.0 / 3)), -1.0 / 3);
 }
 
+TEST(AppendCoordinate, DoesNotRoundTheLargestToInfinity) {
+    const double largest = std::numeric_limits<double>::max();
+    for (const double x : {largest, -largest, std::nextafter(largest, 0), 1.797693134862315e308}) {
+        const std::string text = coordinate(x);
+        EXPECT_LE(text.size(), 20u);
+        EXPECT_NEAR(std::stod(text) / x, 1, 1e-13) << text;
+        EXPECT_NEAR(std::stod(coordinate(-x)) / -x, 1, 1e-13);
+    }
+    EXPECT_EQ(coordinate_as_written(0.1), 0.1);
+    EXPECT_EQ(coordinate_as_written(-largest), std::stod(coordinate(-largest)));
+    EXPECT_NE(coordinate_as_written(-1.2345678901234567e-5), -1.2345678901234567e-5);
+}
+
 TEST(AppendInteger, WritesDigits) {
     std::string out = "1, ";
     append_integer(out, 0);

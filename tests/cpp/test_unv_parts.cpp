@@ -61,5 +61,26 @@ TEST(UnvParts, SourceFindsDataSets) {
     EXPECT_TRUE(source.at_end());
 }
 
+TEST(UnvParts, NumbersThatFillTheirColumnsFollowEachOther) {
+    const fs::path path = fs::path(testing::TempDir()) / ("femscalpel_columns_" + std::to_string(::getpid()) + ".unv");
+    std::ofstream(path) << "    -1\n  2467\n"
+                        << "         72147483647         0         0         81000000000         0         0\n"
+                        << "214748364710000000002147483646         5\r\n"
+                        << "12345678901 7\n"
+                        << "         72147483x47\n    -1\n";
+    UnvSource source(path);
+    fs::remove(path);
+    source.open(source.datasets()[0]);
+    EXPECT_EQ(source.words_left(), 8);
+    EXPECT_EQ(source.words_ahead(1), 4);
+    for (const Index expected :
+         {7L, 2147483647L, 0L, 0L, 8L, 1000000000L, 0L, 0L, 2147483647L, 1000000000L, 2147483646L, 5L})
+        EXPECT_EQ(source.integer("a number"), expected);
+    EXPECT_EQ(source.integer("a number"), 12345678901) << "ends within a column";
+    EXPECT_EQ(source.integer("a number"), 7);
+    EXPECT_THAT([&] { source.integer("a number"); }, testing::ThrowsMessage<ReadError>(testing::HasSubstr(
+                                                         ":6: a number should be a whole number, not '72147483x47'")));
+}
+
 }  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

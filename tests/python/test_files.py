@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import pathlib
 import re
+import subprocess
+import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -101,3 +104,91 @@ def test_files_of_several_meshes(recwarn):
     with pytest.raises(fs.ReadError, match="hold one mesh, without a name"):
         fs.read("box.inp", mesh="A")
     assert fs.meshes_in("box.inp") == []
+
+
+def written(mesh, path):
+    """What is told when a mesh is written."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        fs.write(mesh, path)
+    return " ".join(str(w.message) for w in caught)
+
+
+@pytest.mark.parametrize("suffix", BOTH_WAYS)
+def test_meshes_without_nodes_are_not_written(tmp_path, suffix):
+    with pytest.raises(fs.WriteError, match="nodes"):
+        fs.write(fs.Mesh([], {}), tmp_path / ("a" + suffix))
+    assert not list(tmp_path.iterdir())
+
+
+def test_losses_of_vtu_are_told(tmp_path):
+    mesh = box_with_groups()
+    assert written(mesh, tmp_path / "a.vtu") == ""
+    mesh.unit = "mm"
+    mesh.add_group("a\tb", "node", mesh.node_ids[:2])
+    told = written(mesh, tmp_path / "a.vtu")
+    assert "the control characters in the name of the node group 'a_b'; the unit 'mm'" in told
+    assert fs.read(tmp_path / "a.vtu").groups["a_b"].ids.tolist() == mesh.node_ids[:2].tolist()
+
+
+def test_losses_of_med_are_told(tmp_path):
+    mesh = box_with_groups()
+    mesh.unit = "mm"
+    name = mesh.groups.all("element")[0].name
+    mesh.add_group("ALONE", "facet", [(int(mesh.cell_ids["tetra"][0]), 1)])
+    assert written(mesh, tmp_path / "a.med") == ""
+    mesh.add_group(name, "facet", [(int(mesh.cell_ids["tetra"][0]), 1)])
+    assert f"does not hold the name of the facet group '{name}', called '{name}_SURF' there" in written(
+        mesh, tmp_path / "a.med"
+    )
+    assert f"{name}_SURF" in [g.name for g in fs.read(tmp_path / "a.med").groups.all()]
+
+
+def test_digits_that_decks_have_no_room_for_are_told(tmp_path):
+    mesh = box_with_groups()
+    assert written(mesh, tmp_path / "a.inp") == ""
+    points = np.array(mesh.points)
+    points[:3, 0] = (1.2345678901234567e-5, -1.2345678901234567e-5, 1 / 3e6)
+    moved = fs.Mesh(points, mesh.cells)
+    assert "the last digits of the coordinates of 3 nodes (they are off by up to " in written(moved, tmp_path / "a.inp")
+    back = fs.read(tmp_path / "a.inp")
+    assert np.abs(back.points - points).max() < 1e-18 and written(back, tmp_path / "b.inp") == ""
+    # What keeps its line of a deck keeps its digits, however many they are.
+    text = (tmp_path / "a.inp").read_text()
+    line = next(line for line in text.splitlines() if line.startswith("2, "))
+    long = "2, -0.000012345678901234567, " + line.split(", ", 2)[2]
+    (tmp_path / "c.inp").write_text(text.replace(line, long))
+    kept = fs.read(tmp_path / "c.inp")
+    assert kept.points[1, 0] == points[1, 0] and written(kept, tmp_path / "d.inp") == ""
+    assert fs.read(tmp_path / "d.inp").points[1, 0] == points[1, 0]
+    cracked = fs.crack(kept, fs.Plane((3.1, 2.5, 2), (1, 0.1, 0.2))).mesh
+    told = re.search("the coordinates of ([0-9]+) nodes?", written(cracked, tmp_path / "e.inp"))
+    again = fs.read(tmp_path / "e.inp")
+    off = (again.points != cracked.points[[list(cracked.node_ids).index(n) for n in again.node_ids]]).any(axis=1).sum()
+    assert off == (int(told[1]) if told else 0)
+
+
+@pytest.mark.parametrize("suffix", [".inp", ".bdf"])
+def test_the_largest_coordinates(tmp_path, suffix):
+    largest = np.finfo(float).max
+    mesh = fs.Mesh([[0, 0, 0], [largest, 0, 0], [0, -largest, 0], [0, 0, 1]], {"tetra": [[0, 1, 2, 3]]})
+    assert "the last digits of the coordinates of" in written(mesh, tmp_path / ("a" + suffix))
+    np.testing.assert_allclose(fs.read(tmp_path / ("a" + suffix)).points, mesh.points, rtol=1e-8)
+
+
+@pytest.mark.parametrize("suffix", BOTH_WAYS)
+def test_disks_without_room(tmp_path, suffix):
+    code = (
+        "import resource, sys, numpy as np, femscalpel as fs\n"
+        "mesh = fs.Mesh(np.random.default_rng(1).random((20000, 3)), {'tetra': [[0, 1, 2, 3]]})\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))\n"
+        "try:\n"
+        "    fs.write(mesh, sys.argv[1])\n"
+        "except fs.WriteError as error:\n"
+        "    print(error)\n"
+    )
+    path = tmp_path / ("a" + suffix)
+    run = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True)
+    assert run.returncode == 0 and run.stderr == "", (run.returncode, run.stderr)
+    assert run.stdout.startswith(str(path)) and "disk" in run.stdout
+    assert not list(tmp_path.iterdir())

@@ -168,3 +168,23 @@ def test_quadrangles_of_nine_nodes(bend, part, tmp_path):
     }
     with pytest.raises(fs.WriteError, match="elements of type quad9: CalculiX has no such element"):
         fs.write(mesh, tmp_path / "joined.inp")
+
+
+def test_quadrangles_are_called_as_the_deck_calls_them(tmp_path):
+    nodes = [(i, j) for i in range(9) for j in range(9)]
+    number = {n: k + 1 for k, n in enumerate(nodes)}
+    rows = {"CAX4": [], "CPS4R": []}
+    for k, (i, j) in enumerate((i, j) for i in range(8) for j in range(8)):
+        corners = [number[n] for n in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+        rows["CAX4" if j < 5 else "CPS4R"].append(", ".join(map(str, [k + 1, *corners])))
+    text = "*NODE\n" + "".join(f"{number[n]}, {n[0] + 5}, {n[1]}, 0\n" for n in nodes)
+    for label, lines in rows.items():
+        text += f"*ELEMENT, TYPE={label}, ELSET={label}\n" + "\n".join(lines) + "\n"
+    (tmp_path / "a.inp").write_text(text)
+    mesh = fs.read(tmp_path / "a.inp")
+    for plane, said in (
+        (fs.Plane((9.1, 2, 0), (1, 0.1, 0)), "(CAX4 to CAX3, CPS4R to CPS3), which"),
+        (fs.Plane((9, 0.4, 0), (0, 1, 0)), "(CAX4 to CAX3), which"),
+    ):
+        (warning,) = [w for w in fs.crack(mesh, plane, transition=1).report.warnings if "stiffer" in w]
+        assert said in warning

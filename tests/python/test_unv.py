@@ -62,3 +62,24 @@ def test_cracked(tmp_path):
     assert [(g.name, g.kind, g.ids.tolist()) for g in back.groups.all()] == [
         (g.name, g.kind, g.ids.tolist()) for g in result.mesh.groups.all()
     ]
+
+
+@pytest.mark.parametrize("largest", [999999999, 1000000000, 2147483647])
+def test_numbers_of_ten_digits(tmp_path, largest):
+    points = np.eye(4, 3)
+    nodes = [largest - k for k in range(4)]
+    mesh = fs.Mesh(
+        points,
+        {"tetra": [[0, 1, 2, 3]], "line": [[0, 1], [2, 3]]},
+        node_ids=nodes,
+        cell_ids={"tetra": [largest], "line": [largest - 1, 7]},
+        groups=[("N", "node", nodes[:3]), ("E", "element", [7, largest - 1, largest])],
+    )
+    fs.write(mesh, tmp_path / "a.unv")
+    back = fs.read(tmp_path / "a.unv")
+    assert not back.input_warnings and back.node_ids.tolist() == nodes
+    for name in ("tetra", "line"):
+        np.testing.assert_array_equal(back.cells[name], mesh.cells[name])
+        np.testing.assert_array_equal(back.cell_ids[name], mesh.cell_ids[name])
+    for group in mesh.groups.all():
+        assert sorted(back.groups[group.name].ids) == sorted(group.ids)

@@ -12,6 +12,7 @@
 
 #include "cancel.h"
 #include "error.h"
+#include "utf8.h"
 
 namespace fs = std::filesystem;
 
@@ -19,7 +20,7 @@ namespace femscalpel {
 namespace {
 
 [[noreturn]] void fail(const fs::path& target, const std::string& reason) {
-    throw WriteError(target.string() + ": cannot be written: " + reason);
+    throw WriteError(shown_path(target) + ": cannot be written: " + reason);
 }
 
 /// Where the data must go: the file a link leads to, also when that file does not exist yet.
@@ -41,7 +42,7 @@ AtomicFile::AtomicFile(const fs::path& target) : shown_(target), target_(follow_
     if (!target_.has_filename()) fail(shown_, "the file name is missing");
     const fs::path directory = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
     std::error_code error;
-    if (!fs::is_directory(directory, error)) fail(shown_, "there is no directory " + directory.string());
+    if (!fs::is_directory(directory, error)) fail(shown_, "there is no directory " + shown_path(directory));
     const fs::file_status status = fs::status(target_, error);
     if (fs::exists(status)) {
         if (!fs::is_regular_file(status)) fail(shown_, "it is not a regular file");

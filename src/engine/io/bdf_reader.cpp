@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include "io/bdf_source.h"
 #include "io/bdf_systems.h"
 #include "io/bdf_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -22,7 +24,8 @@ class BdfReader {
 public:
     explicit BdfReader(const std::filesystem::path& path)
         : source_(path), systems_(source_, [this](Index node, const BdfCard& card) { return place(node, card); }) {
-        mesh_.name = path.stem().string();
+        mesh_.name = shown_path(path.stem());
+        mesh_.remarks = source_.remarks();
     }
 
     Mesh read() {
@@ -220,6 +223,13 @@ private:
                            " nodes or elements that the file does not define");
     }
 
+    /// Of nodes and of elements, in order.
+    std::vector<Index> all_numbers() const {
+        std::vector<Index> out;
+        std::ranges::set_union(node_numbers_, element_numbers_, std::back_inserter(out));
+        return out;
+    }
+
     void make_sets(const BdfNames& names) {
         std::vector<BdfSet> sets = bdf_sets(source_, other_statements_);
         std::set<Index> named;
@@ -249,14 +259,15 @@ private:
             if (!said && !nodes.empty() && !elements.empty())
                 remark(set.at, "nothing says whether set " + std::to_string(set.number) +
                                    " is of nodes or of elements; there is a group of each");
-            if (said ? set.of_nodes : !nodes.empty() || elements.empty()) {
-                tell_absent(name, set.numbers->absent(node_numbers_), set.at);
-                add_group(name, GroupKind::node, std::move(nodes), set.at);
-            }
-            if (said ? set.of_elements : !elements.empty()) {
-                tell_absent(name, set.numbers->absent(element_numbers_), set.at);
-                add_group(name, GroupKind::element, std::move(elements), set.at);
-            }
+            const bool of_nodes = said ? set.of_nodes : !nodes.empty() || elements.empty();
+            const bool of_elements = said ? set.of_elements : !elements.empty();
+            // Of both kinds, what is a node need be no element.
+            if (of_nodes && of_elements)
+                tell_absent(name, set.numbers->absent(all_numbers()), set.at);
+            else
+                tell_absent(name, set.numbers->absent(of_nodes ? node_numbers_ : element_numbers_), set.at);
+            if (of_nodes) add_group(name, GroupKind::node, std::move(nodes), set.at);
+            if (of_elements) add_group(name, GroupKind::element, std::move(elements), set.at);
         }
     }
 

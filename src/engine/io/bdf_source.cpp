@@ -7,7 +7,8 @@
 
 #include "cancel.h"
 #include "error.h"
-#include "io/inp_file.h"
+#include "io/plain_text.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -60,7 +61,7 @@ std::optional<double> bdf_real(std::string_view text) {
     return value;
 }
 
-BdfSource::BdfSource(const std::filesystem::path& path) : shown_(path.string()), text_(load_text(path)) {
+BdfSource::BdfSource(const std::filesystem::path& path) : shown_(shown_path(path)), text_(load_text(path, remarks_)) {
     if (text_.find('\t') != text_.npos) expand_tabs();
     at_ = text_.data();
     end_ = text_.data() + text_.size();

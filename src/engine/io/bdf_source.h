@@ -34,6 +34,8 @@ public:
     explicit BdfSource(const std::filesystem::path& path);
 
     const std::string& shown() const { return shown_; }
+    /// What there is to say of the file's text (plain_text.h).
+    const std::vector<std::string>& remarks() const { return remarks_; }
     /// Lines that begin with $.
     const std::vector<std::string_view>& comments() const { return comments_; }
     /// Executive and case control.
@@ -62,6 +64,7 @@ private:
     void add_columns(std::string_view line, bool first, BdfCard& card) const;
 
     std::string shown_;
+    std::vector<std::string> remarks_;
     std::string text_;
     std::vector<std::string_view> comments_;
     std::vector<BdfStatement> statements_;

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,8 @@
 #include "io/bdf_types.h"
 #include "io/group_numbers.h"
 #include "io/inp_file.h"
+#include "io/lost_digits.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -67,7 +68,11 @@ std::string real_field(double value) {
         if (plain) look(nastran_form(value, std::chars_format::fixed, digits));
         look(nastran_form(value, std::chars_format::scientific, digits));
     }
-    return best;
+    if (!best.empty()) return best;
+    // Rounded up, the largest numbers are infinite.
+    best = nastran_form(value, std::chars_format::scientific, 16);
+    const std::size_t exponent = best.find_last_of("+-"), long_by = best.size() - real_width;
+    return best.erase(exponent - long_by, long_by);
 }
 
 class BdfWriter {
@@ -196,29 +201,15 @@ private:
 }  // namespace
 
 void write_bdf(const Mesh& mesh, const std::filesystem::path& path) {
-    save_text(path, BdfWriter(mesh, path.string()).text());
+    save_text(path, BdfWriter(mesh, shown_path(path)).text());
 }
 
 std::vector<std::string> bdf_losses(const Mesh& mesh) {
     std::vector<std::string> out;
     for (const Group& group : mesh.groups)
         if (!group.hidden && group.kind == GroupKind::facet) out.push_back("the facet group '" + group.name + "'");
-    Index rounded = 0;
-    double farthest = 0;
-    SparseCheck check(1 << 12);
-    for (const Vec3& p : mesh.points) {
-        check();
-        double off = 0;
-        for (int a = 0; a < 3; ++a) off = std::max(off, std::abs(*bdf_real(real_field(p[a])) - p[a]));
-        rounded += off > 0;
-        farthest = std::max(farthest, off);
-    }
-    if (rounded > 0) {
-        std::ostringstream text;
-        text << "the last digits of the coordinates of " << rounded << " nodes (they are off by up to " << farthest
-             << ")";
-        out.push_back(text.str());
-    }
+    const LostDigits lost(mesh, [](double value) { return *bdf_real(real_field(value)); });
+    if (auto told = lost.told()) out.push_back(std::move(*told));
     if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
     return out;
 }

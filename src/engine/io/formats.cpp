@@ -14,7 +14,7 @@ namespace femscalpel {
 namespace {
 
 constexpr Format table[] = {
-    {"MED: Code_Aster, SALOME", {".med", ".mmed", ".rmed"}, read_med, write_med, med_meshes, nullptr, true},
+    {"MED: Code_Aster, SALOME", {".med", ".mmed", ".rmed"}, read_med, write_med, med_meshes, med_losses, true},
     {"CalculiX",
      {".inp", ".inp.gz"},
      [](const std::filesystem::path& path, const std::string&) { return read_inp(path); },
@@ -26,7 +26,9 @@ constexpr Format table[] = {
     {"ParaView",
      {".vtu"},
      [](const std::filesystem::path& path, const std::string&) { return read_vtu(path); },
-     write_vtu},
+     write_vtu,
+     nullptr,
+     vtu_losses},
     {"Gmsh",
      {".msh"},
      [](const std::filesystem::path& path, const std::string&) { return read_msh(path); },

@@ -9,7 +9,8 @@
 #include "error.h"
 #include "io/abaqus_cards.h"
 #include "io/flat_lines.h"
-#include "io/inp_file.h"
+#include "io/plain_text.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 /// See read_cards().
 class CardSplitter {
 public:
-    explicit CardSplitter(const fs::path& deck) : folder_(deck.parent_path()) {
+    CardSplitter(const fs::path& deck, std::vector<std::string>& remarks)
+        : folder_(deck.parent_path()), remarks_(remarks) {
         cards_.emplace_back();
         read(deck);
         if (cards_.front().text.empty()) cards_.erase(cards_.begin());
@@ -31,7 +33,7 @@ private:
     void read(const fs::path& path) {
         std::error_code error;
         open_.push_back(fs::weakly_canonical(path, error));
-        const auto file = std::make_shared<const DeckFile>(DeckFile{path.string(), load_text(path)});
+        const auto file = std::make_shared<const DeckFile>(DeckFile{shown_path(path), load_text(path, remarks_)});
         const char* p = file->text.data();
         const char* const end = p + file->text.size();
         const char* piece = p;
@@ -165,10 +167,13 @@ private:
     fs::path folder_;
     std::vector<fs::path> open_;
     std::vector<Card> cards_;
+    std::vector<std::string>& remarks_;
 };
 
 }  // namespace
 
-std::vector<Card> read_cards(const fs::path& deck) { return CardSplitter(deck).take(); }
+std::vector<Card> read_cards(const fs::path& deck, std::vector<std::string>& remarks) {
+    return CardSplitter(deck, remarks).take();
+}
 
 }  // namespace femscalpel

@@ -11,6 +11,7 @@
 #include "cancel.h"
 #include "error.h"
 #include "io/atomic_file.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -54,23 +55,23 @@ bool is_packed(const fs::path& path) {
            (extension[2] == 'z' || extension[2] == 'Z');
 }
 
-std::string load_text(const fs::path& path) {
-    const std::string shown = path.string();
+std::string load_bytes(const fs::path& path) {
+    const std::string name = shown_path(path);
     std::error_code error;
-    if (!fs::exists(path, error)) throw ReadError(shown + ": no such file");
-    if (!fs::is_regular_file(path, error)) throw ReadError(shown + ": not a regular file");
+    if (!fs::exists(path, error)) throw ReadError(name + ": no such file");
+    if (!fs::is_regular_file(path, error)) throw ReadError(name + ": not a regular file");
     std::ifstream in(path, std::ios::binary);
     const auto size = fs::file_size(path, error);
-    if (!in || error) throw ReadError(shown + ": cannot be opened for reading");
+    if (!in || error) throw ReadError(name + ": cannot be opened for reading");
     std::string text(size, '\0');
     constexpr std::size_t piece = 1 << 23;
     for (std::size_t at = 0; at < size; at += piece) {
         check_cancelled();
         const auto wanted = static_cast<std::streamsize>(std::min<std::size_t>(piece, size - at));
         in.read(text.data() + at, wanted);
-        if (in.gcount() != wanted) throw ReadError(shown + ": reading failed");
+        if (in.gcount() != wanted) throw ReadError(name + ": reading failed");
     }
-    if (text.starts_with("\x1f\x8b")) return unzip(text, shown);
+    if (text.starts_with("\x1f\x8b")) return unzip(text, name);
     return text;
 }
 
@@ -86,12 +87,12 @@ void save_text(const fs::path& path, const std::string& text) {
             at += part;
         }
         if (out) good = gzclose(out.release()) == Z_OK && good;
-        if (!good) throw WriteError(path.string() + ": writing failed (disk full?)");
+        if (!good) throw WriteError(shown_path(path) + ": writing failed (disk full?)");
     } else {
         std::ofstream out(file.temporary(), std::ios::binary);
         write_obeying(out, text);
         out.close();
-        if (!out) throw WriteError(path.string() + ": writing failed (disk full?)");
+        if (!out) throw WriteError(shown_path(path) + ": writing failed (disk full?)");
     }
     file.commit();
 }

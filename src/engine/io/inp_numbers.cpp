@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 
 namespace femscalpel {
@@ -41,12 +42,26 @@ void append_coordinate(std::string& out, double value) {
                          : std::string(),
             sign + digits + "e" + std::to_string(exponent - static_cast<int>(digits.size()) + 1),
         };
-        for (const std::string& form : forms)
+        for (std::string form : forms)
             if (!form.empty() && form.size() <= coordinate_width) {
+                // Rounded up, the largest numbers are infinite; the last digit that is not 0 stands before the
+                // exponent.
+                double back = 0;
+                if (std::abs(value) > 1 &&
+                    std::from_chars(form.data(), form.data() + form.size(), back).ec != std::errc())
+                    --form[form.find('e') - 1];
                 out += form;
                 return;
             }
     }
+}
+
+double coordinate_as_written(double value) {
+    std::string text;
+    append_coordinate(text, value);
+    double out = 0;
+    std::from_chars(text.data(), text.data() + text.size(), out);
+    return out;
 }
 
 void append_integer(std::string& out, Index value) {

@@ -168,4 +168,21 @@ private:
 
 DeckPlaces find_deck_places(const Mesh& mesh, const SolverInput& input) { return PlaceFinder(mesh, input).run(); }
 
+bool DeckPlaces::stands_under(const Mesh& mesh, Index node, std::size_t card) const {
+    const auto family = static_cast<std::size_t>(mesh.node_families[static_cast<std::size_t>(node)]);
+    return std::ranges::count(node_cards_of_family[family], card) > 0;
+}
+
+NodeOfLine node_of_line(CardReader& line, const Mesh& mesh, const NumberIndex& numbers) {
+    Index id = 0;
+    if (!line.integer(id)) return {};
+    NodeOfLine out{numbers.node(id)};
+    if (!out.node) return out;
+    Vec3 x(0, 0, 0);
+    out.is_same = true;
+    for (int k = 0; k < 3 && !line.at_end(); ++k) out.is_same = line.number(x[k]) && out.is_same;
+    out.is_same = out.is_same && x == mesh.points[static_cast<std::size_t>(*out.node)];
+    return out;
+}
+
 }  // namespace femscalpel

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "deck/solver_input.h"
@@ -36,10 +37,19 @@ struct DeckPlaces {
         return fates[static_cast<std::size_t>(element.type)][static_cast<std::size_t>(element.cell)];
     }
     const std::vector<Fate>& fates_of(CellType type) const { return fates[static_cast<std::size_t>(type)]; }
+    /// Whether a node, by index, is written under the *NODE card of that index.
+    bool stands_under(const Mesh& mesh, Index node, std::size_t card) const;
 };
 
 /// Finds them: by the hidden groups of cards (Card::group), or, for what is in none, by what it is, see write_inp().
 /// Throws WriteError for an element under two cards, and for elements under none of a type CalculiX has not.
 DeckPlaces find_deck_places(const Mesh& mesh, const SolverInput& input);
+
+/// The node of a data line of a *NODE card that `line` has come to.
+struct NodeOfLine {
+    std::optional<Index> node;  ///< its index in the mesh; none if it is not there any more
+    bool is_same = false;       ///< the coordinates are those of the mesh, so the line can stay as it is
+};
+NodeOfLine node_of_line(CardReader& line, const Mesh& mesh, const NumberIndex& numbers);
 
 }  // namespace femscalpel

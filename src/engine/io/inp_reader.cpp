@@ -15,6 +15,7 @@
 #include "io/inp_cards.h"
 #include "io/inp_file.h"
 #include "io/inp_numbers.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -23,14 +24,14 @@ namespace fs = std::filesystem;
 
 class DeckReader {
 public:
-    explicit DeckReader(const fs::path& path) : shown_(path.string()), input_(std::make_shared<SolverInput>()) {
-        input_->cards() = read_cards(path);
+    explicit DeckReader(const fs::path& path) : shown_(shown_path(path)), input_(std::make_shared<SolverInput>()) {
+        input_->cards() = read_cards(path, mesh_.remarks);
         refuse_generated_mesh(input_->cards());
         flatten_parts(*input_);
         input_->set_ties_orders(remove_edge_ties(input_->cards()));
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
-        mesh_.name = stem.stem().string();
+        mesh_.name = shown_path(stem.stem());
     }
 
     Mesh read() {

@@ -13,6 +13,7 @@
 #include "io/inp_numbers.h"
 #include "io/inp_places.h"
 #include "io/inp_sets.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -152,16 +153,11 @@ private:
                 tail_.push_back(line.raw());
                 continue;
             }
-            Index id = 0;
-            if (!line.integer(id)) continue;
-            const auto node = numbers_.node(id);
-            if (!node || !stands_under(*node, c)) continue;
+            const auto [node, is_same] = node_of_line(line, mesh_, numbers_);
+            if (!node || !places_.stands_under(mesh_, *node, c)) continue;
             release_tail();
             node_written_under_[static_cast<std::size_t>(*node)] = c;
-            Vec3 x(0, 0, 0);
-            bool same = true;
-            for (int k = 0; k < 3 && !line.at_end(); ++k) same = line.number(x[k]) && same;
-            if (same && x == mesh_.points[static_cast<std::size_t>(*node)])
+            if (is_same)
                 put(line.raw());
             else
                 put_node(*node);
@@ -170,11 +166,6 @@ private:
             const Index node = *numbers_.node(id);
             if (node_written_under_[static_cast<std::size_t>(node)] != c) put_node(node);
         }
-    }
-
-    bool stands_under(Index node, std::size_t c) const {
-        const auto& cards = places_.node_cards_of_family[mesh_.node_families[node]];
-        return std::ranges::find(cards, c) != cards.end();
     }
 
     void put_node(Index node) {
@@ -486,7 +477,7 @@ void write_inp(const Mesh& mesh, const fs::path& path) {
     try {
         text = DeckWriter(mesh).write();
     } catch (const WriteError& error) {
-        throw WriteError(path.string() + ": " + error.what());
+        throw WriteError(shown_path(path) + ": " + error.what());
     }
     save_text(path, text);
 }

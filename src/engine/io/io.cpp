@@ -7,19 +7,20 @@
 #include "error.h"
 #include "fields/field.h"
 #include "io/formats.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
 
 std::string unknown(const std::filesystem::path& path, const std::string& known) {
-    return path.string() + ": the format is told by the extension, one of " + known;
+    return shown_path(path) + ": the format is told by the extension, one of " + known;
 }
 
 /// Throws ReadError when files of that kind cannot be read.
 const Format& format_to_read(const std::filesystem::path& path) {
     const Format* format = format_of(path);
     if (format && !format->read)
-        throw ReadError(path.string() + ": files of this kind can only be written; those that can be read are " +
+        throw ReadError(shown_path(path) + ": files of this kind can only be written; those that can be read are " +
                         extensions_read());
     if (!format) throw ReadError(unknown(path, extensions_read()));
     return *format;
@@ -30,12 +31,12 @@ const Format& format_to_read(const std::filesystem::path& path) {
 Mesh read(const std::filesystem::path& path, const std::string& mesh) {
     const Format& format = format_to_read(path);
     if (!mesh.empty() && !format.meshes)
-        throw ReadError(path.string() + ": files of this kind hold one mesh, without a name; leave `mesh` out");
+        throw ReadError(shown_path(path) + ": files of this kind hold one mesh, without a name; leave `mesh` out");
     Mesh out = format.read(path, mesh);
     try {
         out.check_numbers();
     } catch (const Error& error) {
-        throw ReadError(path.string() + ": " + error.what());
+        throw ReadError(shown_path(path) + ": " + error.what());
     }
     return out;
 }
@@ -48,7 +49,7 @@ std::vector<std::string> meshes_in(const std::filesystem::path& path) {
 void write(const Mesh& mesh, const std::filesystem::path& path) {
     const Format* format = format_of(path);
     if (format && !format->write)
-        throw WriteError(path.string() + ": files of this kind can only be read; those that can be written are " +
+        throw WriteError(shown_path(path) + ": files of this kind can only be read; those that can be written are " +
                          extensions_written());
     if (!format) throw WriteError(unknown(path, extensions_written()));
     format->write(mesh, path);

@@ -57,4 +57,7 @@ std::vector<std::string> med_meshes(const std::filesystem::path& path);
 /// longer than MED's 80 bytes; a number too large for the MED library's integers; disk full.
 void write_med(const Mesh& mesh, const std::filesystem::path& path);
 
+/// What of this mesh write_med() changes, a line each: facet groups that cannot keep their name.
+std::vector<std::string> med_losses(const Mesh& mesh);
+
 }  // namespace femscalpel

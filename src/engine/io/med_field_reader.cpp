@@ -7,6 +7,7 @@
 #include "cancel.h"
 #include "io/med_fields.h"
 #include "io/med_soundness.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -36,23 +37,44 @@ public:
         const med_int count = MEDnField(fid_);
         if (count == 0) return {};
         if (count < 0 || !are_sound_med_fields(source_.path)) {
-            mesh_.remarks.push_back(source_.path + ": the fields are not read: they are damaged");
+            mesh_.remarks.push_back(as_utf8(source_.path) + ": the fields are not read: they are damaged");
             return {};
         }
         for (int i = 1; i <= count; ++i) {
             check_cancelled();
             read_field(i);
         }
+        make_names_utf8();
         return out_->fields.empty() ? nullptr : out_;
     }
 
 private:
+    /// At the end: the file finds things by the names it has.
+    void make_names_utf8() {
+        const auto all = [](std::vector<std::string>& names) {
+            for (std::string& name : names) name = as_utf8(std::move(name));
+        };
+        for (Field& field : out_->fields) {
+            field.name = as_utf8(std::move(field.name));
+            field.time_unit = as_utf8(std::move(field.time_unit));
+            all(field.components);
+            all(field.units);
+            for (FieldStep& step : field.steps)
+                for (FieldPart& part : step.parts) {
+                    part.profile = as_utf8(std::move(part.profile));
+                    part.localization = as_utf8(std::move(part.localization));
+                }
+        }
+        for (FieldLocalization& l : out_->localizations) l.name = as_utf8(std::move(l.name));
+    }
+
     void read_field(int i) {
         Field field;
         try {
             if (read_header(i, field)) out_->fields.push_back(std::move(field));
         } catch (const Unread& unread) {
-            mesh_.remarks.push_back(source_.path + ": field '" + field.name + "' is not read: " + unread.why);
+            mesh_.remarks.push_back(as_utf8(source_.path) + ": field '" + as_utf8(field.name) +
+                                    "' is not read: " + as_utf8(unread.why));
         }
     }
 

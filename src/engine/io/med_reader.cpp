@@ -16,6 +16,7 @@
 #include "io/med_fields.h"
 #include "io/med_library.h"
 #include "io/med_soundness.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -106,7 +107,7 @@ public:
         const med_int count = MEDnMesh(fid_);
         if (count < 0) damaged("the list of meshes");
         for (int i = 1; i <= count; ++i)
-            if (as_number(describe_mesh(i).type) == MED_UNSTRUCTURED_MESH) out.emplace_back(name_);
+            if (as_number(describe_mesh(i).type) == MED_UNSTRUCTURED_MESH) out.push_back(as_utf8(name_));
         return out;
     }
 
@@ -140,7 +141,7 @@ private:
         return file;
     }
 
-    [[noreturn]] void fail(const std::string& what) const { throw ReadError(path_ + ": " + what); }
+    [[noreturn]] void fail(const std::string& what) const { throw ReadError(shown_path(path_) + ": " + what); }
     [[noreturn]] void damaged(const std::string& what) const { fail("truncated or damaged: cannot read " + what); }
 
     /// What a file says of a mesh, but for its name, which is in name_.
@@ -163,7 +164,7 @@ private:
         if (MEDmeshInfo(fid_, i, name_, &out.space_dimension, &mesh_dimension, &out.type, description, dt_unit,
                         &sorting, &out.steps, &out.axis_type, axis_names, axis_units) < 0)
             damaged("the description of mesh " + std::to_string(i));
-        out.unit = trimmed(axis_units, MED_SNAME_SIZE);
+        out.unit = as_utf8(trimmed(axis_units, MED_SNAME_SIZE));
         return out;
     }
 
@@ -175,19 +176,20 @@ private:
         for (int i = 1; i <= meshes; ++i) {
             const Header header = describe_mesh(i);
             if (as_number(header.type) != MED_UNSTRUCTURED_MESH) continue;
-            names += (names.empty() ? "'" : ", '") + std::string(name_) + "'";
-            if (!wanted_.empty() && wanted_ != name_) continue;
+            names += (names.empty() ? "'" : ", '") + as_utf8(name_) + "'";
+            if (!wanted_.empty() && wanted_ != as_utf8(name_)) continue;
             if (as_number(header.axis_type) != MED_CARTESIAN)
-                fail("mesh '" + std::string(name_) +
+                fail("mesh '" + as_utf8(name_) +
                      "' has cylindrical or spherical coordinates; convert it to Cartesian ones");
-            if (header.space_dimension != header.axes) damaged("the dimension of mesh '" + std::string(name_) + "'");
+            if (header.space_dimension != header.axes) damaged("the dimension of mesh '" + as_utf8(name_) + "'");
             med_float time = 0;
             if (header.steps < 1 || MEDmeshComputationStepInfo(fid_, name_, 1, &step_, &iteration_, &time) < 0)
-                fail("mesh '" + std::string(name_) + "' is declared but has no nodes, or the file is damaged");
+                fail("mesh '" + as_utf8(name_) + "' is declared but has no nodes, or the file is damaged");
             dimension_ = static_cast<int>(header.axes);
-            mesh_.name = name_;
+            mesh_.name = as_utf8(name_);
             if (header.steps > 1)
-                mesh_.remarks.push_back(path_ + ": mesh '" + mesh_.name + "' has " + std::to_string(header.steps) +
+                mesh_.remarks.push_back(shown_path(path_) + ": mesh '" + mesh_.name + "' has " +
+                                        std::to_string(header.steps) +
                                         " time steps of its own, of which the first is read");
             mesh_.unit = header.unit;
             return;
@@ -219,11 +221,24 @@ private:
             }
             families_.push_back(std::move(family));
         }
+        make_names_utf8();
         numbers_.build(families_);
         for (std::size_t i = 0; i < families_.size(); ++i)
             if (numbers_.find(families_[i].number) != static_cast<std::int32_t>(i))
                 fail("contradictory or damaged: family number " + std::to_string(families_[i].number) +
                      " is declared twice");
+    }
+
+    /// Where one name is not, none is: different names stay different.
+    void make_names_utf8() {
+        const auto is_odd = [](const std::string& name) { return not_utf8(name) != name.npos; };
+        const auto has_odd = [&](const FileFamily& f) { return std::ranges::any_of(f.names, is_odd); };
+        if (std::ranges::none_of(families_, has_odd)) return;
+        for (FileFamily& family : families_)
+            for (std::string& name : family.names) name = from_windows_1252(name);
+        mesh_.remarks.push_back(shown_path(path_) +
+                                ": names of groups are not UTF-8; they are read as Windows-1252 (Latin-1). Look at "
+                                "those with letters beyond A to Z");
     }
 
     /// A family as files before version 3 have it, with attributes that nothing uses any more.
@@ -326,8 +341,8 @@ private:
     }
 
     [[noreturn]] void unsupported(Index n, const std::string& what) const {
-        throw UnsupportedElementError(path_ + ": mesh '" + mesh_.name + "' has " + std::to_string(n) + " " + what +
-                                      ", which FemScalpel cannot hold; remove or convert them");
+        throw UnsupportedElementError(shown_path(path_) + ": mesh '" + mesh_.name + "' has " + std::to_string(n) + " " +
+                                      what + ", which FemScalpel cannot hold; remove or convert them");
     }
 
     void refuse_unsupported() const {
@@ -468,7 +483,7 @@ auto from_file(const std::filesystem::path& path, auto read) {
     try {
         return read();
     } catch (const std::bad_alloc&) {
-        throw ReadError(path.string() + ": truncated or damaged, or larger than the memory");
+        throw ReadError(shown_path(path) + ": truncated or damaged, or larger than the memory");
     }
 }
 

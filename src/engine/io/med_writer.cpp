@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 #include <string>
-#include <unordered_map>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "cancel.h"
@@ -14,13 +19,49 @@
 #include "io/med_fields.h"
 #include "io/med_library.h"
 #include "mesh/facet_element.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
 
+/// What groups are called in the file: facet groups, whose elements are among all elements there, may not be called as
+/// element groups are. Empty for hidden groups.
+std::vector<std::string> med_names(const Mesh& mesh) {
+    std::unordered_set<std::string> taken;
+    for (const Group& g : mesh.groups)
+        if (!g.hidden && g.kind == GroupKind::element) taken.insert(g.name);
+    std::vector<std::string> out;
+    for (const Group& g : mesh.groups) {
+        out.push_back(g.hidden ? std::string() : g.name);
+        if (!g.hidden && g.kind == GroupKind::facet)
+            while (!taken.insert(out.back()).second) out.back() += "_SURF";
+    }
+    return out;
+}
+
+/// What will be the file, once that is closed.
+struct MedImage {
+    med_memfile memory = MED_MEMFILE_INIT;
+
+    MedImage() = default;
+    ~MedImage() { std::free(memory.app_image_ptr); }
+    MedImage(const MedImage&) = delete;
+    MedImage& operator=(const MedImage&) = delete;
+
+    /// Without the room behind its end, so that no truncation goes unnoticed: up to the end-of-file address in HDF5's
+    /// superblock (HDF5 file format specification, II.A).
+    std::string_view bytes() const {
+        const std::string_view all(static_cast<const char*>(memory.app_image_ptr), memory.app_image_size);
+        const std::size_t at = all.size() < 64 ? 0 : all[8] == 0 ? 40 : all[8] == 1 ? 44 : 28;
+        std::uint64_t end = 0;
+        if (at > 0) std::memcpy(&end, all.data() + at, sizeof end);
+        return end >= 64 && end <= all.size() ? all.substr(0, end) : all;
+    }
+};
+
 class Writer {
 public:
-    Writer(const Mesh& mesh, const std::filesystem::path& path) : mesh_(mesh), path_(path.string()) {}
+    Writer(const Mesh& mesh, const std::filesystem::path& path) : mesh_(mesh), path_(path) {}
 
     void write() {
         if (mesh_.points.empty()) fail("a MED mesh needs nodes");
@@ -28,7 +69,9 @@ public:
         name_groups();
         collect_families();
         AtomicFile target(path_);
-        MedFile file(MEDfileOpen(target.temporary().c_str(), MED_ACC_CREAT));
+        // In memory: where the disk is full, the libraries print what they were doing and crash at the program's end.
+        MedImage image;
+        MedFile file(MEDmemFileOpen(target.temporary().c_str(), &image.memory, MED_FALSE, MED_ACC_CREAT));
         fid_ = file.id();
         check(fid_, "the file");
         write_mesh();
@@ -40,16 +83,22 @@ public:
             {fid_, name_, [this](CellType type) { return mesh_.block(type).size() + facets_.block(type).size(); },
              [this](const std::string& what) { check(-1, what.c_str()); }});
         check_cancelled();
-        if (!file.close()) fail("closing it failed; the disk may be full");
+        if (!file.close()) fail("closing it failed");
+        std::ofstream out(target.temporary(), std::ios::binary | std::ios::trunc);
+        write_obeying(out, image.bytes());
+        out.close();
+        if (!out) fail("the disk may be full");
         target.commit();
     }
 
 private:
-    [[noreturn]] void fail(const std::string& what) const { throw WriteError(path_ + ": cannot be written: " + what); }
+    [[noreturn]] void fail(const std::string& what) const {
+        throw WriteError(shown_path(path_) + ": cannot be written: " + what);
+    }
 
     template <class Result>
     void check(Result result, const char* what) const {
-        if (result < 0) fail(std::string("the MED library could not write ") + what + "; the disk may be full");
+        if (result < 0) fail(std::string("the MED library could not write ") + what);
     }
 
     med_int med_number(Index number) const {
@@ -74,24 +123,16 @@ private:
     }
 
     void name_groups() {
-        std::unordered_map<std::string, int> taken;
-        for (const Group& g : mesh_.groups)
-            if (!g.hidden && g.kind == GroupKind::element) taken.emplace(g.name, 0);
-        for (const Group& g : mesh_.groups) {
-            std::string name = g.name;
-            if (g.hidden) {
-                names_.emplace_back();
-                continue;
-            }
-            if (g.kind == GroupKind::facet)
-                while (!taken.emplace(name, 0).second) name += "_SURF";
-            const std::string who = std::string(to_string(g.kind)) + " group '" + name + "'";
+        names_ = med_names(mesh_);
+        for (std::size_t g = 0; g < names_.size(); ++g) {
+            if (mesh_.groups[g].hidden) continue;
+            const std::string& name = names_[g];
+            const std::string who = std::string(to_string(mesh_.groups[g].kind)) + " group '" + name + "'";
             if (name.empty() || name.back() == ' ' || name.find('\0') != std::string::npos)
                 fail("the name of " + who + " is empty or ends in a blank; rename the group");
             if (name.size() > MED_LNAME_SIZE)
                 fail("the name of " + who + " has " + std::to_string(name.size()) + " bytes, MED allows " +
                      std::to_string(MED_LNAME_SIZE) + "; rename the group");
-            names_.push_back(std::move(name));
         }
     }
 
@@ -250,7 +291,7 @@ private:
     }
 
     const Mesh& mesh_;
-    std::string path_;
+    std::filesystem::path path_;
     med_idt fid_ = -1;
     char name_[MED_NAME_SIZE + 1] = "";
     Mesh facets_;                     // only its blocks are used: the elements that stand for facets
@@ -264,6 +305,16 @@ void write_med(const Mesh& mesh, const std::filesystem::path& path) {
     const auto lock = lock_libraries();
     const QuietHdf5 quiet;
     Writer(mesh, path).write();
+}
+
+std::vector<std::string> med_losses(const Mesh& mesh) {
+    std::vector<std::string> out;
+    const std::vector<std::string> names = med_names(mesh);
+    for (std::size_t g = 0; g < names.size(); ++g)
+        if (const Group& group = mesh.groups[g]; !group.hidden && names[g] != group.name)
+            out.push_back("the name of the facet group '" + group.name + "', called '" + names[g] +
+                          "' there beside an element group of its name");
+    return out;
 }
 
 }  // namespace femscalpel

@@ -10,6 +10,7 @@
 #include "io/msh_sections.h"
 #include "io/msh_source.h"
 #include "io/msh_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -32,6 +33,7 @@ class MshReader {
 public:
     MshReader(MshSource& source, RepeatedNumber sought, std::string name) : source_(source), builder_(source, sought) {
         builder_.mesh().name = std::move(name);
+        builder_.mesh().remarks = source.remarks();
     }
 
     Mesh read() {
@@ -186,7 +188,7 @@ private:
 
 Mesh read_msh(const std::filesystem::path& path) {
     MshSource source(path);
-    const std::string name = path.stem().string();
+    const std::string name = shown_path(path.stem());
     try {
         return MshReader(source, {}, name).read();
     } catch (const RepeatedNumber& repeated) {

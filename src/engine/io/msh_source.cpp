@@ -5,6 +5,8 @@
 
 #include "error.h"
 #include "io/inp_file.h"
+#include "io/plain_text.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -18,9 +20,28 @@ std::string quoted_word(std::string_view word) {
     return out + (word.size() > longest_shown_word ? "...'" : "'");
 }
 
+/// Whether a file says that the numbers in it are no text: then its names alone are.
+bool is_binary_msh(std::string_view text) {
+    constexpr std::string_view head = "$MeshFormat", blanks = " \t\r\n";
+    if (!text.starts_with(head)) return false;
+    const std::size_t version = text.find_first_not_of(blanks, head.size());
+    const std::size_t type = text.find_first_not_of(blanks, text.find_first_of(blanks, version));
+    return type != text.npos && text[type] == '1';
+}
+
 }  // namespace
 
-MshSource::MshSource(const std::filesystem::path& path) : shown_(path.string()), text_(load_text(path)) { rewind(); }
+MshSource::MshSource(const std::filesystem::path& path) : shown_(shown_path(path)), text_(load_bytes(path)) {
+    if (is_binary_msh(text_)) {
+        const std::size_t start = text_.find("\n$PhysicalNames") + 1, end = text_.find("\n$EndPhysicalNames", start);
+        if (start > 0 && end != text_.npos)
+            text_.replace(start, end - start,
+                          plain_text(text_.substr(start, end - start), shown_ + ": $PhysicalNames", remarks_));
+    } else {
+        text_ = plain_text(std::move(text_), shown_, remarks_);
+    }
+    rewind();
+}
 
 void MshSource::rewind() {
     at_ = last_ = section_ = text_.data();

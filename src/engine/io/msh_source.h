@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -23,6 +24,8 @@ public:
 
     /// The file as the caller named it.
     const std::string& shown() const { return shown_; }
+    /// What there is to say of the file's text (plain_text.h).
+    const std::vector<std::string>& remarks() const { return remarks_; }
 
     /// Numbers in sections are binary from now on; `swapped`: of the other byte order.
     void set_binary(bool swapped) {
@@ -123,6 +126,7 @@ private:
     [[noreturn]] void not_a_number(const char* wanted) const;
 
     std::string shown_;
+    std::vector<std::string> remarks_;
     std::string text_;
     const char* at_ = nullptr;
     const char* end_ = nullptr;

@@ -13,6 +13,7 @@
 #include "io/inp_numbers.h"
 #include "io/msh.h"
 #include "io/msh_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -272,7 +273,7 @@ private:
 }  // namespace
 
 void write_msh(const Mesh& mesh, const std::filesystem::path& path) {
-    save_text(path, MshWriter(mesh, path.string()).text());
+    save_text(path, MshWriter(mesh, shown_path(path)).text());
 }
 
 std::vector<std::string> msh_losses(const Mesh& mesh) {

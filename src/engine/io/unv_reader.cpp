@@ -11,6 +11,7 @@
 #include "io/unv.h"
 #include "io/unv_source.h"
 #include "io/unv_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -30,7 +31,10 @@ constexpr std::pair<std::string_view, const char*> not_in_unv_mesh[] = {
 
 class UnvReader {
 public:
-    explicit UnvReader(const std::filesystem::path& path) : source_(path) { mesh_.name = path.stem().string(); }
+    explicit UnvReader(const std::filesystem::path& path) : source_(path) {
+        mesh_.name = shown_path(path.stem());
+        mesh_.remarks = source_.remarks();
+    }
 
     Mesh read() {
         // Units and coordinate systems first, groups last, in whatever order the file has them.

@@ -8,7 +8,8 @@
 #include "cancel.h"
 #include "deck/solver_input.h"
 #include "error.h"
-#include "io/inp_file.h"
+#include "io/plain_text.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -32,7 +33,7 @@ std::string shown_word(std::string_view word) {
 
 }  // namespace
 
-UnvSource::UnvSource(const std::filesystem::path& path) : shown_(path.string()), text_(load_text(path)) {
+UnvSource::UnvSource(const std::filesystem::path& path) : shown_(shown_path(path)), text_(load_text(path, remarks_)) {
     at_ = last_ = text_.data();
     end_ = text_.data() + text_.size();
     find_datasets();
@@ -99,11 +100,33 @@ int UnvSource::words_ahead(int ahead) const {
         if (p < end_) ++p;
     }
     int words = 0;
-    for (bool inside = false; p < end_ && *p != '\n'; ++p) {
-        words += !is_blank(*p) && !inside;
-        inside = !is_blank(*p);
+    while (p < end_ && *p != '\n') {
+        if (is_blank(*p)) {
+            ++p;
+            continue;
+        }
+        p = end_of_column(p, std::find_if(p, end_, is_blank));
+        ++words;
     }
     return words;
+}
+
+const char* UnvSource::end_of_column(const char* at, const char* stop) const {
+    if (stop - at <= unv_width || !std::all_of(at, stop, [](char c) { return c >= '0' && c <= '9'; })) return stop;
+    const char* line = at;
+    while (line > text_.data() && line[-1] != '\n') --line;
+    if ((stop - line) % unv_width != 0) return stop;
+    return line + ((at - line) / unv_width + 1) * unv_width;
+}
+
+Index UnvSource::integer_of_columns(const char* what) {
+    const char* word_end = std::find_if(at_, end_, is_blank);
+    const char* stop = end_of_column(at_, word_end);
+    Index value = 0;
+    const auto [q, error] = std::from_chars(at_, stop, value);
+    if (error != std::errc() || q != stop) not_a_number(what, "whole number");
+    at_ = stop;
+    return value;
 }
 
 double UnvSource::real(const char* what) {

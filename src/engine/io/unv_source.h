@@ -11,6 +11,9 @@
 
 namespace femscalpel {
 
+/// Whole numbers in universal files have ten columns, one behind the other.
+inline constexpr std::ptrdiff_t unv_width = 10;
+
 /// A data set of a universal file: what stands between two lines of -1.
 struct UnvDataset {
     std::string_view number;   ///< "2411"; "58b" if it is binary
@@ -24,6 +27,8 @@ public:
     explicit UnvSource(const std::filesystem::path& path);
 
     const std::string& shown() const { return shown_; }
+    /// What there is to say of the file's text (plain_text.h).
+    const std::vector<std::string>& remarks() const { return remarks_; }
     const std::vector<UnvDataset>& datasets() const { return datasets_; }
 
     /// Goes to the start of a data set, which all that follows stays in.
@@ -33,11 +38,13 @@ public:
         skip_blanks();
         return at_ == end_;
     }
-    /// The next word as a whole number; `what` it is, for messages.
+    /// The next word as a whole number; `what` it is, for messages. Numbers of ten digits fill their columns: several
+    /// may stand in a word, which ends where a column ends, then.
     Index integer(const char* what) {
         skip_blanks();
         Index value = 0;
         const auto [q, error] = std::from_chars(at_, end_, value);
+        if (q - at_ > unv_width) return integer_of_columns(what);
         if (error != std::errc() || (q < end_ && !is_blank(*q))) not_a_number(what, "whole number");
         at_ = q;
         return value;
@@ -65,10 +72,16 @@ private:
         while (at_ < end_ && is_blank(*at_)) ++at_;
         last_ = at_;
     }
+    /// Where the number ends that starts at `at` and that a column ends which is full, so that the next number follows
+    /// without a blank; `stop`, the end of the word, if that is one number.
+    const char* end_of_column(const char* at, const char* stop) const;
+    /// See integer(): of a word that is longer than a column.
+    Index integer_of_columns(const char* what);
     void find_datasets();
     [[noreturn]] void not_a_number(const char* what, const char* wanted) const;
 
     std::string shown_;
+    std::vector<std::string> remarks_;
     std::string text_;
     std::vector<UnvDataset> datasets_;
     const UnvDataset* dataset_ = nullptr;

@@ -10,6 +10,7 @@
 #include "io/inp_file.h"
 #include "io/unv.h"
 #include "io/unv_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -137,7 +138,7 @@ private:
 }  // namespace
 
 void write_unv(const Mesh& mesh, const std::filesystem::path& path) {
-    save_text(path, UnvWriter(mesh, path.string()).text());
+    save_text(path, UnvWriter(mesh, shown_path(path)).text());
 }
 
 std::vector<std::string> unv_losses(const Mesh& mesh) {

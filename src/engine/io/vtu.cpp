@@ -18,41 +18,19 @@
 #include "error.h"
 #include "io/atomic_file.h"
 #include "io/vtu_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
 
-/// Length of the valid UTF-8 character that `text` begins with; 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned lead = byte(0);
-    const std::size_t n = lead < 0x80                   ? 1
-                          : lead >= 0xC2 && lead < 0xE0 ? 2
-                          : lead >= 0xE0 && lead < 0xF0 ? 3
-                          : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                        : 0;
-    if (n == 0 || text.size() < n) return 0;
-    for (std::size_t i = 1; i < n; ++i)
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-    // Overlong forms, surrogates and what lies beyond Unicode.
-    if (lead == 0xE0 && byte(1) < 0xA0) return 0;
-    if (lead == 0xED && byte(1) >= 0xA0) return 0;
-    if (lead == 0xF0 && byte(1) < 0x90) return 0;
-    if (lead == 0xF4 && byte(1) >= 0x90) return 0;
-    return n;
-}
+/// What XML cannot hold.
+bool is_control(char c) { return c >= 0 && c < ' '; }
 
 /// Text as an XML attribute value; control characters, which XML cannot hold, become "_".
 std::string escaped(std::string_view text) {
     std::string out;
-    while (!text.empty()) {
-        std::size_t n = utf8_length(text);
-        const auto c = static_cast<unsigned char>(text[0]);
-        if (n == 0) {  // Latin-1
-            out += static_cast<char>(0xC0 | (c >> 6));
-            out += static_cast<char>(0x80 | (c & 0x3F));
-            n = 1;
-        } else if (c < 0x20)
+    for (const char c : as_utf8(std::string(text))) {
+        if (is_control(c))
             out += '_';
         else if (c == '&')
             out += "&amp;";
@@ -63,8 +41,7 @@ std::string escaped(std::string_view text) {
         else if (c == '"')
             out += "&quot;";
         else
-            out += text.substr(0, n);
-        text.remove_prefix(n);
+            out += c;
     }
     return out;
 }
@@ -219,6 +196,7 @@ void write_cells(Document& document, const Mesh& mesh) {
 }  // namespace
 
 void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
+    if (mesh.points.empty()) throw WriteError(shown_path(path) + ": the mesh has no nodes");
     AtomicFile target(path);
     Document document;
     document.xml =
@@ -243,8 +221,21 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& path) {
     write_obeying(file, document.data);
     file << "\n</AppendedData>\n</VTKFile>\n";
     file.close();
-    if (!file) throw WriteError(path.string() + ": cannot be written: the disk may be full");
+    if (!file) throw WriteError(shown_path(path) + ": cannot be written: the disk may be full");
     target.commit();
+}
+
+std::vector<std::string> vtu_losses(const Mesh& mesh) {
+    std::vector<std::string> out;
+    for (const Group& group : mesh.groups) {
+        if (group.hidden || std::ranges::none_of(group.name, is_control)) continue;
+        std::string name = group.name;
+        std::ranges::replace_if(name, is_control, '_');
+        out.push_back("the control characters in the name of the " + std::string(to_string(group.kind)) + " group '" +
+                      name + "'");
+    }
+    if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
+    return out;
 }
 
 }  // namespace femscalpel

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -33,5 +35,8 @@ Mesh read_vtu(const std::filesystem::path& path);
 /// Written by way of AtomicFile. The mesh must be valid (Mesh::validate). Throws WriteError that names the
 /// path: not writable, disk full.
 void write_vtu(const Mesh& mesh, const std::filesystem::path& path);
+
+/// What of this mesh write_vtu() leaves out, a line each: control characters in groups' names, the unit.
+std::vector<std::string> vtu_losses(const Mesh& mesh);
 
 }  // namespace femscalpel

@@ -13,8 +13,10 @@
 #include "cancel.h"
 #include "error.h"
 #include "io/inp_file.h"
+#include "io/plain_text.h"
 #include "io/vtu_bytes.h"
 #include "io/vtu_xml.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -48,6 +50,19 @@ void convert_vtu(const std::string& bytes, bool swapped, std::vector<T>& out) {
     }
 }
 
+/// Whether XML says that it is Latin-1 or Windows-1252, which programs take for the same.
+bool declares_latin_1(std::string_view xml) {
+    if (!xml.starts_with("<?xml")) return false;
+    std::string declaration(xml.substr(0, xml.find("?>")));
+    for (char& c : declaration)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::size_t encoding = declaration.find("encoding");
+    if (encoding == declaration.npos) return false;
+    const std::string_view said = std::string_view(declaration).substr(encoding);
+    return said.find("iso-8859-1\"") != said.npos || said.find("iso-8859-1'") != said.npos ||
+           said.find("windows-1252") != said.npos;
+}
+
 }  // namespace
 
 const std::string& VtuArray::operator[](const std::string& attribute) const {
@@ -56,7 +71,8 @@ const std::string& VtuArray::operator[](const std::string& attribute) const {
     return found == attributes.end() ? none : found->second;
 }
 
-VtuFile::VtuFile(const std::filesystem::path& path) : shown_(path.string()), text_(load_text(path)) {
+VtuFile::VtuFile(const std::filesystem::path& path) : shown_(shown_path(path)), text_(load_bytes(path)) {
+    make_utf8();
     const std::string_view text(text_);
     const std::size_t appended = text.find("<AppendedData");
     const std::size_t tag = appended == text.npos ? text.npos : text.find('>', appended);
@@ -77,6 +93,19 @@ VtuFile::VtuFile(const std::filesystem::path& path) : shown_(path.string()), tex
     if (static_cast<std::uint64_t>(std::max(points_, cells_)) > largest())
         throw ReadError(shown_ + ": the file says that it has more nodes or elements than it can hold");
     arrays_ = std::move(head.arrays);
+}
+
+void VtuFile::make_utf8() {
+    const std::string_view text(text_);
+    const std::size_t appended = text.find("<AppendedData");
+    const std::size_t end = appended == text.npos ? text.npos : text.find('>', appended);
+    const std::string_view head = text.substr(0, end);
+    const bool is_declared = declares_latin_1(head);
+    const std::size_t odd = not_utf8(head);
+    if (odd == text.npos && !is_declared) return;
+    std::string rest = end == text.npos ? std::string() : text_.substr(end);
+    if (end != text.npos) text_.resize(end);
+    text_ = (is_declared ? from_windows_1252(text_) : plain_text(std::move(text_), shown_, remarks_)) + rest;
 }
 
 const VtuArray* VtuFile::find(std::string_view section, std::string_view name) const {

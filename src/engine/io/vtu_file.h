@@ -33,6 +33,8 @@ public:
     explicit VtuFile(const std::filesystem::path& path);
 
     const std::string& shown() const { return shown_; }
+    /// What there is to say of the file's text (plain_text.h).
+    const std::vector<std::string>& remarks() const { return remarks_; }
     Index points() const { return points_; }
     Index cells() const { return cells_; }
     const std::vector<VtuArray>& arrays() const { return arrays_; }
@@ -52,6 +54,8 @@ public:
     [[noreturn]] void fail(const VtuArray& array, const std::string& what) const;
 
 private:
+    /// Makes what is text in the file UTF-8, as the XML is parsed, whatever it says of itself.
+    void make_utf8();
     template <class T>
     std::vector<T> values(const VtuArray& array, Index least, Index most) const;
     template <class T>
@@ -61,6 +65,7 @@ private:
     std::uint64_t largest() const { return 1100 * (text_.size() + 1024); }
 
     std::string shown_;
+    std::vector<std::string> remarks_;
     std::string text_;
     std::vector<VtuArray> arrays_;
     std::string_view appended_;  // what follows "_"

@@ -11,13 +11,17 @@
 #include "io/vtu.h"
 #include "io/vtu_file.h"
 #include "io/vtu_types.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
 
 class VtuReader {
 public:
-    explicit VtuReader(const std::filesystem::path& path) : file_(path) { mesh_.name = path.stem().string(); }
+    explicit VtuReader(const std::filesystem::path& path) : file_(path) {
+        mesh_.name = shown_path(path.stem());
+        mesh_.remarks = file_.remarks();
+    }
 
     Mesh read() {
         read_points();

@@ -39,7 +39,7 @@ public:
     VtuXmlReader(std::string_view xml, const std::string& shown) : xml_(xml), shown_(shown) {}
 
     VtuHead read() {
-        const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate(nullptr), XML_ParserFree);
+        const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate("UTF-8"), XML_ParserFree);
         if (!parser) throw std::bad_alloc();
         parser_ = parser.get();
         XML_SetUserData(parser_, this);

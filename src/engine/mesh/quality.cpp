@@ -301,6 +301,18 @@ double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
     return sum > 0 ? 2 * std::sqrt(3.0) * twice_area / sum : 0;
 }
 
+namespace {
+
+/// Whether two corners of a quadrangle turn against the other two; where one does, it has a corner that points inwards.
+bool crosses_itself(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 normal = (b - a).cross(d - a);
+    const int turned = (normal.dot((c - b).cross(a - b)) < 0) + (normal.dot((d - c).cross(b - c)) < 0) +
+                       (normal.dot((a - d).cross(c - d)) < 0);
+    return turned == 2;
+}
+
+}  // namespace
+
 double mean_ratio(const Mesh& mesh, CellType type, Index cell) {
     const CellTraits& t = traits(type);
     const auto n = mesh.block(type).nodes(cell);
@@ -314,7 +326,7 @@ double mean_ratio(const Mesh& mesh, CellType type, Index cell) {
         const double regular = mean_ratio(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
         for (int k = 0; k < 4; ++k)
             worst = std::min(worst, mean_ratio(at(k), at((k + 1) % 4), at((k + 3) % 4)) / regular);
-        return worst;
+        return crosses_itself(at(0), at(1), at(2), at(3)) ? -worst : worst;
     }
     if (t.corners == 8) {
         static const int corner[8][4] = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},

@@ -36,8 +36,8 @@ bool mean_ratio_below(double limit, const Vec3& a, const Vec3& b, const Vec3& c,
 double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Mean ratio of an element by its corner nodes. For quadrangles, pyramids, prisms and hexahedra: the
-/// smallest over the corners' tetrahedra (triangles), each scaled so that the regular element has 1.
-/// 1 for points and segments.
+/// smallest over the corners' tetrahedra (triangles), each scaled so that the regular element has 1; negative
+/// for a quadrangle that crosses itself, two of whose corners turn against the others. 1 for points and segments.
 double mean_ratio(const Mesh& mesh, CellType type, Index cell);
 
 /// Mean ratios of all elements of one type, in their order.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 #include "cutting/locate.h"
 #include "deck/carry_over.h"
 #include "deck/fit_cards.h"
+#include "deck/solver_element.h"
 #include "groups/group_report.h"
 
 namespace femscalpel {
@@ -64,6 +66,26 @@ std::string stiffness_warning(Index count) {
            "; meshes of second order have no such weakness, nor has the option second_order with a CalculiX deck";
 }
 
+/// What the deck calls first-order quadrangles among these elements, and what it calls their triangles: "S4 to S3, CAX4
+/// to CAX3".
+std::string labels_of_quads(const Mesh& before, const SolverInput& deck, const std::vector<CellRef>& cells) {
+    std::set<FamilyIndex> families;
+    for (const CellRef& cell : cells)
+        if (cell.type == CellType::quad) families.insert(before.block(cell.type).families[cell.cell]);
+    std::set<std::string> labels;
+    for (const Card& card : deck.cards()) {
+        if (card.keyword != "ELEMENT" || card.group.empty()) continue;
+        const auto group = before.find_group(card.group, GroupKind::element, true);
+        if (group && std::ranges::any_of(families, [&](FamilyIndex f) { return before.families.contains(f, *group); }))
+            labels.insert(deck_key(*card.parameter("TYPE")));
+    }
+    if (labels.empty()) labels.insert(std::string(default_deck_label(CellType::quad)));
+    std::string out;
+    for (const std::string& label : labels)
+        out += (out.empty() ? "" : ", ") + label + " to " + deck_label_for(label, CellType::triangle);
+    return out;
+}
+
 /// What solvers make of it.
 std::vector<std::string> warnings_about(const Mesh& before, const Simplified& simplified) {
     std::vector<std::string> out;
@@ -71,10 +93,11 @@ std::vector<std::string> warnings_about(const Mesh& before, const Simplified& si
     for (const CellType type : {CellType::hexahedron, CellType::wedge, CellType::pyramid})
         stiff += simplified.converted[static_cast<int>(type)];
     if (stiff > 0) out.push_back(stiffness_warning(stiff));
-    if (const Index quads = simplified.converted[static_cast<int>(CellType::quad)]; quads > 0 && solver_input(before))
-        out.push_back(std::to_string(quads) +
-                      " first-order quadrangles near the tool became first-order triangles (S4 to S3, CPS4 to CPS3), "
-                      "which are far stiffer in bending in CalculiX; those of second order (S8R to S6) are not");
+    const SolverInput* deck = solver_input(before);
+    if (const Index quads = simplified.converted[static_cast<int>(CellType::quad)]; quads > 0 && deck)
+        out.push_back(std::to_string(quads) + " first-order quadrangles near the tool became first-order triangles (" +
+                      labels_of_quads(before, *deck, simplified.before) +
+                      "), which are far stiffer in bending in CalculiX; those of second order are not");
     return out;
 }
 

@@ -94,10 +94,27 @@ def text(value, name):
 
 
 def path(value, name):
-    """The path of a file as a string."""
+    """The path of a file as a string, for os and the engine: bytes in it that are no text are as os.fsdecode() has
+    them."""
     if not isinstance(value, (str, os.PathLike)):
         raise about(name, TypeError(f"{name} must be a string or a path object, not {describe(value)}"))
-    return text(os.fsdecode(value), name)
+    out = os.fsdecode(value)
+    try:
+        os.fsencode(out)
+    except UnicodeEncodeError:
+        raise about(name, ValueError(f"{name} {out!r} is no path: it has half a character (a surrogate)")) from None
+    if "\0" in out:
+        raise about(name, ValueError(f"{name} {out!r} has a NUL character, where it would end"))
+    return out
+
+
+def from_system(value):
+    """A path, or an argument of the command line, as text to be shown: as UTF-8 or, where it is none, Latin-1."""
+    raw = os.fsencode(value)
+    try:
+        return raw.decode()
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
 
 
 def flag(value, name):

@@ -15,6 +15,8 @@ from .quality import mean_ratio, measure, scaled_jacobian
 POOR = 0.02
 # Of the mesh's size: nodes this near to each other are at one place.
 _ONE_PLACE = 1e-9
+# Sizes beyond, whose cubes no number holds, are nonsense in any unit.
+_LARGEST = 1e50
 # Scaled Jacobian of what is folded: that of a quarter-point element is 0.
 _FOLDED = -1e-6
 _SIZES = ("", "length", "area", "volume")
@@ -28,7 +30,7 @@ class Info:
 
     def to_dict(self) -> Dict[str, Any]:
         """Name, unit, whether there is a deck, counts, bounding box, elements by type with their measure and least mean
-        ratio, groups, fields, instances of parts, warnings of the file."""
+        ratio, groups, fields, instances of parts, warnings of the file. A size too large for a number is None."""
         return self._data
 
     def to_json(self) -> str:
@@ -46,12 +48,12 @@ class Info:
             f"from {_numbers(low)} to {_numbers(high)}{unit}" if low else "no nodes",
         ]
         for cell_type, e in d["types"].items():
-            size = f", {_SIZES[e['dimension']]} {e['measure']:.6g}" if e["dimension"] else ""
-            quality = f", mean ratio at least {e['least_mean_ratio']:.3g}" if e["dimension"] > 1 else ""
+            size = f", {_SIZES[e['dimension']]} {_number(e['measure'], '.6g')}" if e["dimension"] else ""
+            quality = f", mean ratio at least {_number(e['least_mean_ratio'], '.3g')}" if e["dimension"] > 1 else ""
             lines.append(f"  {e['count']:>9} {cell_type}{size}{quality}")
         lines.append(_counted(len(d["groups"]), "group") + (":" if d["groups"] else ""))
         for g in d["groups"]:
-            size = "".join(f", {_SIZES[int(k)]} {v:.6g}" for k, v in g["measure"].items())
+            size = "".join(f", {_SIZES[int(k)]} {_number(v, '.6g')}" for k, v in g["measure"].items())
             lines.append(f"  {g['name']}  {_counted(g['count'], g['kind'])}{size}")
         if d["fields"]:
             lines.append("fields: " + ", ".join(f"{f['name']} ({_counted(f['steps'], 'step')})" for f in d["fields"]))
@@ -72,8 +74,8 @@ def info(mesh: Mesh) -> Info:
         name: {
             "count": len(ids),
             "dimension": CELL_TYPES[name][0],
-            "measure": float(sizes[name].sum()),
-            "least_mean_ratio": float(quality[name].min(initial=1.0)),
+            "measure": _sum(sizes[name]),
+            "least_mean_ratio": _finite(quality[name].min(initial=1.0)),
         }
         for name, ids in mesh.cell_ids.items()
     }
@@ -103,8 +105,23 @@ def _group(mesh, sizes, group):
             dimension = CELL_TYPES[name][0]
             own = sizes[name][np.isin(numbers, ids)]
             if dimension and len(own):
-                total[str(dimension)] = total.get(str(dimension), 0.0) + float(own.sum())
-    return {"name": group.name, "kind": group.kind, "count": len(ids), "measure": total}
+                total.setdefault(str(dimension), []).append(own)
+    sums = {dimension: _sum(np.concatenate(own)) for dimension, own in total.items()}
+    return {"name": group.name, "kind": group.kind, "count": len(ids), "measure": sums}
+
+
+def _sum(values):
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _finite(values.sum())
+
+
+def _finite(value):
+    """For JSON, which has no infinity."""
+    return float(value) if np.isfinite(value) else None
+
+
+def _number(value, form):
+    return "unknown (too large)" if value is None else format(value, form)
 
 
 class Finding(NamedTuple):
@@ -121,7 +138,8 @@ class Finding(NamedTuple):
 
 def check(mesh: Mesh) -> List[Finding]:
     """What is odd in a mesh, the worst first: flat, inverted, folded and poor elements, elements on the same nodes,
-    nodes at one place or of no element, several pieces, empty groups.
+    segments without a length, nodes at one place or of no element, several pieces, empty groups. Where coordinates are
+    larger than 1e50, or the mesh smaller than 1e-50, only that is told.
 
     Nothing is changed, and an empty list is no proof that a solver will take the mesh. Raises TypeError when `mesh` is
     no :class:`Mesh`.
@@ -132,16 +150,33 @@ def check(mesh: Mesh) -> List[Finding]:
         mesh.validate()
     except Error as error:
         return [Finding("error", str(error), "element", ())]
+    points = mesh.points
+    far = mesh.node_ids[(np.abs(points) > _LARGEST).any(axis=1)].tolist()
+    if far:
+        _add(found, "error", "node", far, f"farther than {_LARGEST:g} from the origin, where nothing can be computed")
+        return found
+    size = np.ptp(points, axis=0).max() if len(points) else 0.0
+    if 0 < size < 1 / _LARGEST:
+        text = f"the mesh measures {size:.3g}, which is too small for anything to be computed"
+        return [Finding("error", text, "element", ())]
     quality, folded = mean_ratio(mesh), scaled_jacobian(mesh)
-    flat, bent, poor = [], [], []
+    flat, crossing, bent, poor, short = [], [], [], [], []
     for name, ids in mesh.cell_ids.items():
+        if CELL_TYPES[name][0] == 1:
+            ends = points[mesh.cells[name][:, :2]]
+            length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+            short += ids[length <= _ONE_PLACE * size].tolist()
         if CELL_TYPES[name][0] < 2:
             continue
         q, j = quality[name], folded[name]
-        flat += ids[q <= 0].tolist()
+        crosses = (q < 0) & name.startswith("quad")
+        crossing += ids[crosses].tolist()
+        flat += ids[(q <= 0) & ~crosses].tolist()
         bent += ids[(q > 0) & (j < _FOLDED)].tolist()
         poor += ids[(q > 0) & (j >= _FOLDED) & (q < POOR)].tolist()
     _add(found, "error", "element", flat, "flat or inverted")
+    _add(found, "error", "element", crossing, "crossing itself" if len(crossing) == 1 else "crossing themselves")
+    _add(found, "warning", "element", short, "of no length, as only springs and such can be")
     _add(found, "warning", "element", bent, "folded at a corner")
     _add(found, "warning", "element", poor, f"poor, with a mean ratio below {POOR}")
     _add(found, "warning", "element", _doubled_elements(mesh), "on the nodes of another one")

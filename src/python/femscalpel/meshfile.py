@@ -35,7 +35,8 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
     them in place. A deck of parts and instances (Abaqus/CAE) becomes a flat one, with a UserWarning that says how its
     instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. What a file of another format holds
-    beside a mesh with groups and, in a .med, fields is told in a UserWarning, too (:attr:`Mesh.input_warnings`). Of a
+    beside a mesh with groups and, in a .med, fields is told in a UserWarning, too (:attr:`Mesh.input_warnings`). So is
+    text that is not UTF-8: it is read as Windows-1252, and names are UTF-8 from then on, also in what is written. Of a
     .med with several meshes `mesh` names the one; without it the first is read, with a UserWarning that lists them, as
     what is written later holds that one alone (:func:`meshes_in`).
 
@@ -43,13 +44,16 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     """
     file = _arguments.path(path, "path")
     out = Mesh._wrap(_engine.read(file, "" if mesh is None else _arguments.text(mesh, "mesh")))
-    if out.input_warnings and (out.instances or not out.has_deck):
-        warnings.warn("\n".join(out.input_warnings), stacklevel=2)
+    told = out.input_warnings if out.instances or not out.has_deck else out._engine_mesh.remarks
+    if told:
+        warnings.warn("\n".join(told), stacklevel=2)
     names = _engine.meshes_in(file) if mesh is None else []
     if len(names) > 1:
         listed = ", ".join(repr(name) for name in names)
         warnings.warn(
-            f"{file} holds {len(names)} meshes: {listed}. The first was read; mesh= names another", stacklevel=2
+            f"{_arguments.from_system(file)} holds {len(names)} meshes: {listed}. The first was read; mesh= names "
+            "another",
+            stacklevel=2,
         )
     return out
 
@@ -74,7 +78,8 @@ def write(mesh: Mesh, path: Path) -> None:
     _engine.write(check_mesh(mesh), file)
     lost = _engine.losses(mesh._engine_mesh, file)
     if lost:
-        warnings.warn(f"{file} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
+        name = _arguments.from_system(file)
+        warnings.warn(f"{name} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
 
 
 def convert(source: Path, target: Path, mesh: Optional[str] = None) -> None:

@@ -13,7 +13,7 @@ def mean_ratio(mesh: Mesh) -> Dict[str, np.ndarray]:
 
     By the corner nodes: 12 (3V)^(2/3) / sum of squared edge lengths for tetrahedra, 4 sqrt(3) A / that sum for
     triangles (Liu and Joe, BIT 34, 1994). Other shapes: the smallest over their corners, scaled so that the regular
-    element has 1. 1 for points and segments.
+    element has 1; negative for quadrangles that cross themselves. 1 for points and segments.
     """
     return check_mesh(mesh).mean_ratios()
 
@@ -116,7 +116,9 @@ def scaled_jacobian(mesh: Mesh) -> Dict[str, np.ndarray]:
         else:
             # Along the element's normal: of a quadrangle by its diagonals, of a triangle by two edges.
             whole = np.cross(corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1])
-            size = np.copysign(np.linalg.norm(normal, axis=1), np.einsum("ij,ij->i", normal, whole))
+            # Where the diagonals are parallel, the element crosses itself.
+            turned = np.einsum("ij,ij->i", normal, whole) <= 0
+            size = np.linalg.norm(normal, axis=1) * np.where(turned, -1, 1)
         return size / np.where(length > 0, length, 1)
 
     return _by_type(mesh, of, _CORNERS, 1.0)
