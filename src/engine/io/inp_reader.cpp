@@ -6,6 +6,7 @@
 
 #include "cancel.h"
 #include "deck/edge_ties.h"
+#include "deck/rules/absent_numbers.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -41,6 +42,7 @@ public:
         read_sets();
         warn_of_idle_constraints(*input_);
         warn_of_newer_cards(*input_);
+        warn_of_absent_numbers(mesh_, *input_);
         mesh_.companion = input_;
         return std::move(mesh_);
     }
