@@ -81,3 +81,12 @@ def test_the_solution_is_that_without_the_card(tmp_path, model, loads):
     u = np.array([a[n] for n in with_card.node_ids.tolist()])
     v = np.array([b[n] for n in without.node_ids.tolist()])
     assert abs(u - v).max() <= 1e-6 * abs(v).max()
+
+
+def test_temperatures_from_a_file_have_no_new_nodes(tmp_path):
+    start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 0.\n"
+    mesh = read(tmp_path, deck(start, "*TEMPERATURE, FILE=heat.frd, BSTEP=1\n"))
+    result = fs.crack(mesh, PLANE[0], within=PLANE[1])
+    assert [w for w in result.report.warnings if "*TEMPERATURE, FILE takes values by number from results" in w]
+    with pytest.raises(fs.Error, match="results of the mesh as it was"):
+        fs.crack(mesh, PLANE[0], within=PLANE[1], strict=True)
