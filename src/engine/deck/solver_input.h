@@ -124,6 +124,10 @@ public:
     bool ties_orders() const { return ties_orders_; }
     void set_ties_orders(bool ties) { ties_orders_ = ties; }
 
+    /// Whether the deck was written with a set that keeps those without members (io/last_set.h).
+    bool has_last_set() const { return has_last_set_; }
+    void set_has_last_set(bool has) { has_last_set_ = has; }
+
     /// Of elements beside the mesh, and of numbers kept free.
     Index largest_other_element() const override;
     Index largest_other_node() const override { return kept_node_; }
@@ -144,7 +148,7 @@ private:
     std::vector<OtherElement> other_elements_;
     std::vector<std::string> warnings_;
     std::vector<DeckInstance> instances_;
-    bool ties_orders_ = false;
+    bool ties_orders_ = false, has_last_set_ = false;
     Index kept_node_ = 0, kept_element_ = 0;
 };
 

@@ -16,6 +16,7 @@
 #include "io/inp_cards.h"
 #include "io/inp_file.h"
 #include "io/inp_numbers.h"
+#include "io/last_set.h"
 
 namespace femscalpel {
 namespace {
@@ -28,6 +29,7 @@ public:
         input_->cards() = read_cards(path);
         refuse_generated_mesh(input_->cards());
         flatten_parts(*input_);
+        input_->set_has_last_set(remove_last_set(input_->cards()));
         input_->set_ties_orders(remove_edge_ties(input_->cards()));
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
