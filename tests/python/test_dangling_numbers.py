@@ -90,3 +90,19 @@ def test_temperatures_from_a_file_have_no_new_nodes(tmp_path):
     assert [w for w in result.report.warnings if "*TEMPERATURE, FILE takes values by number from results" in w]
     with pytest.raises(fs.Error, match="results of the mesh as it was"):
         fs.crack(mesh, PLANE[0], within=PLANE[1], strict=True)
+
+
+def test_sets_that_are_gone_are_told(tmp_path):
+    text = deck()
+    mesh = read(tmp_path, text)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fs.write(mesh, tmp_path / "out.inp")
+    mesh.remove_group("RIGHT")
+    line = 1 + text.splitlines().index("RIGHT, 3, -1.")
+    with pytest.warns(UserWarning, match=rf"out.inp: node set 'RIGHT' is not .*deck.inp:{line} \(\*CLOAD\) names it"):
+        fs.write(mesh, tmp_path / "out.inp")
+    mesh.add_group("RIGHT", "node", [84])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fs.write(mesh, tmp_path / "out.inp")

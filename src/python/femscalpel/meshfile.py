@@ -66,7 +66,8 @@ def write(mesh: Mesh, path: Path) -> None:
     """Writes a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
     The file is complete or, after an error, what it was before. What a format cannot hold - facet groups, the cards of
-    a deck (but in .inp), the unit and fields (but in .med) - is told in a UserWarning.
+    a deck (but in .inp), the unit and fields (but in .med) - is told in a UserWarning, and so are sets whose groups are
+    not in the mesh any more, but which cards of the deck still name.
 
     Raises :class:`femscalpel.WriteError` when the file cannot be written or its format cannot hold the mesh.
     """
@@ -75,6 +76,8 @@ def write(mesh: Mesh, path: Path) -> None:
     lost = _engine.losses(mesh._engine_mesh, file)
     if lost:
         warnings.warn(f"{file} does not hold {'; '.join(lost)}: files of this kind cannot", stacklevel=2)
+    for loose in _engine.loose_ends(mesh._engine_mesh, file):
+        warnings.warn(f"{file}: {loose}", stacklevel=2)
 
 
 def convert(source: Path, target: Path, mesh: Optional[str] = None) -> None:
