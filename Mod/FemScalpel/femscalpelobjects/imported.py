@@ -28,7 +28,7 @@ def read(path, mesh=None, femmesh=None, progress=None):
     femmesh = femmesh_bridge.to_femmesh(out, into=femmesh or Fem.FemMesh(), progress=progress, tell=kept.append)
     sentences = [str(w.message) for w in told]
     if out.has_deck and not out.instances:
-        sentences += out.input_warnings
+        sentences += [text for text in out.input_warnings if not any(text in told for told in sentences)]
     if kept:
         sentences.append(
             "not in FreeCAD's mesh, but kept with it for operations and export: "

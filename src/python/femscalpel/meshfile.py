@@ -29,13 +29,18 @@ def formats() -> List[Format]:
     return [Format(*row) for row in _engine.formats()]
 
 
+#: How the engine ends what it says of cards that name nodes or elements by numbers that nobody has.
+_OF_NOBODY = "that the deck does not define; kept as it is, correct the line"
+
+
 def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     """Reads a mesh; the format follows the extension, case ignored; :func:`formats` lists them.
 
     A mesh read from an .inp (CalculiX, Abaqus) keeps every card of the input file, and writing it back to .inp keeps
     them in place. A deck of parts and instances (Abaqus/CAE) becomes a flat one, with a UserWarning that says how its
-    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell. What a file of another format holds
-    beside a mesh with groups and, in a .med, fields is told in a UserWarning, too (:attr:`Mesh.input_warnings`). Of a
+    instances are numbered (:attr:`Mesh.instances`) and what else there was to tell; of other decks a UserWarning tells
+    of cards with numbers that nobody has, and :attr:`Mesh.input_warnings` of the rest. What a file of another format
+    holds beside a mesh with groups and, in a .med, fields is told in a UserWarning, too. Of a
     .med with several meshes `mesh` names the one; without it the first is read, with a UserWarning that lists them, as
     what is written later holds that one alone (:func:`meshes_in`).
 
@@ -43,8 +48,11 @@ def read(path: Path, mesh: Optional[str] = None) -> Mesh:
     """
     file = _arguments.path(path, "path")
     out = Mesh._wrap(_engine.read(file, "" if mesh is None else _arguments.text(mesh, "mesh")))
-    if out.input_warnings and (out.instances or not out.has_deck):
-        warnings.warn("\n".join(out.input_warnings), stacklevel=2)
+    told = out.input_warnings
+    if out.has_deck and not out.instances:
+        told = [text for text in told if text.endswith(_OF_NOBODY)]
+    if told:
+        warnings.warn("\n".join(told), stacklevel=2)
     names = _engine.meshes_in(file) if mesh is None else []
     if len(names) > 1:
         listed = ", ".join(repr(name) for name in names)
