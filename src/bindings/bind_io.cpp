@@ -28,6 +28,9 @@ void bind_io(py::module_& module) {
     module.def(
         "losses", [](const Mesh& mesh, const std::filesystem::path& path) { return losses(mesh, path); },
         py::arg("mesh"), py::arg("path"));
+    module.def(
+        "loose_ends", [](const Mesh& mesh, const std::filesystem::path& path) { return loose_ends(mesh, path); },
+        py::arg("mesh"), py::arg("path"));
     module.def("formats", [] {  // (title, extensions, read, written)
         py::list rows;
         for (const Format& f : formats()) {

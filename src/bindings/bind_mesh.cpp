@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "deck/card_places.h"
 #include "deck/solver_input.h"
 #include "interruptible.h"
 #include "mesh/quality.h"
@@ -106,6 +107,32 @@ std::vector<InstanceEntry> instances(const Mesh& mesh) {
     return out;
 }
 
+using PlaceEntry = std::tuple<Index, Index, std::string, bool>;
+
+/// First line, number of lines, file and whether carried, of the pieces of each card.
+std::vector<std::vector<PlaceEntry>> deck_places(const Mesh& mesh) {
+    std::vector<std::vector<PlaceEntry>> out;
+    if (const SolverInput* input = solver_input(mesh))
+        for (const auto& lines : card_places(*input)) {
+            auto& entries = out.emplace_back();
+            for (const CardLines& l : lines) entries.emplace_back(l.first, l.count, l.file, l.carried);
+        }
+    return out;
+}
+
+void set_deck_places(Mesh& mesh, const std::vector<std::vector<PlaceEntry>>& places) {
+    const SolverInput* input = solver_input(mesh);
+    if (!input) return;
+    std::vector<std::vector<CardLines>> lines;
+    for (const auto& entries : places) {
+        auto& of_card = lines.emplace_back();
+        for (const auto& [first, count, file, carried] : entries) of_card.push_back({first, count, file, carried});
+    }
+    const auto deck = std::make_shared<SolverInput>(*input);
+    set_card_places(*deck, lines);
+    mesh.companion = deck;
+}
+
 }  // namespace
 
 GroupIndex require_group(const Mesh& mesh, const std::string& name, const std::string& kind) {
@@ -152,6 +179,8 @@ void bind_properties(MeshClass& mesh) {
         .def_property_readonly("has_solver_input", [](const Mesh& mesh) { return solver_input(mesh) != nullptr; })
         .def("instances", &instances)
         .def_readonly("remarks", &Mesh::remarks)
+        .def("deck_places", &deck_places)
+        .def("set_deck_places", &set_deck_places, py::arg("places"))
         .def("input_warnings", [](const Mesh& mesh) {
             const SolverInput* input = solver_input(mesh);
             std::vector<std::string> out = input ? input->warnings() : std::vector<std::string>{};

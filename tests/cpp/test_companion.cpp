@@ -6,6 +6,7 @@
 
 #include "cutting/rebuild.h"
 #include "mesh/changes.h"
+#include "mesh/order.h"
 #include "simple_meshes.h"
 
 namespace femscalpel {
@@ -14,7 +15,8 @@ namespace FILE_NAMESPACE {
 struct Numbered : Companion {
     explicit Numbered(Index number) : largest(number) {}
     Index largest_other_element() const override { return largest; }
-    Index largest;
+    Index largest_other_node() const override { return largest_node; }
+    Index largest, largest_node = 0;
 };
 
 TEST(Companion, KeepsNumbersOfElementsThatTheMeshHasNot) {
@@ -27,6 +29,17 @@ TEST(Companion, KeepsNumbersOfElementsThatTheMeshHasNot) {
     EXPECT_EQ(next_numbers(mesh).cell, 106);
     const Mesh copy = mesh;
     EXPECT_EQ(copy.companion, mesh.companion) << "copies share it";
+}
+
+TEST(Companion, KeepsNumbersOfNodesThatTheFileNames) {
+    Mesh mesh = checks::grid(1, 1, 1);
+    const auto file = std::make_shared<Numbered>(0);
+    file->largest_node = 70;
+    mesh.companion = file;
+    EXPECT_EQ(next_numbers(mesh).node, 71);
+    EXPECT_EQ(next_numbers(mesh).cell, 106);
+    const Mesh quadratic = to_second_order(mesh);
+    EXPECT_EQ(quadratic.node_ids[8], 71) << "the first of those in the middle of edges";
 }
 
 TEST(Changes, AreEmptyWhenNothingIsNew) {

@@ -64,7 +64,17 @@ TEST(WhyMissed, InsideAnElement) {
     for (int k = 0; k < 8; ++k) cube.add_node(Vec3((k ^ (k >> 1)) & 1, k >> 1 & 1, k >> 2), k + 1);
     cube.add_cell(CellType::hexahedron, std::array<Index, 8>{0, 1, 2, 3, 4, 5, 6, 7}, 5);
     EXPECT_THAT(missed(cube, Sphere({0.5, 0.5, 0.5}, 0.1)),
-                AllOf(HasSubstr("element 5 (hexahedron)"), HasSubstr("only triangles and tetrahedra can be cut")));
+                AllOf(HasSubstr("element 5 (hexahedron)"), HasSubstr("Refine the mesh there first")));
+}
+
+TEST(LiesInsideElements, BetweenTheirNodesWithinThePart) {
+    const Mesh mesh = checks::grid(1, 1, 1);
+    Vec3 middle = Vec3::Zero();
+    for (const Index n : mesh.block(CellType::tetra).nodes(0)) middle += mesh.points[n] / 4;
+    const Sphere inside(middle, 0.05), beside({5, 5, 5}, 0.05);
+    EXPECT_TRUE(lies_inside_elements(mesh, {.tool = &inside}));
+    EXPECT_FALSE(lies_inside_elements(mesh, {.tool = &beside}));
+    EXPECT_FALSE(lies_inside_elements(mesh, {.tool = &inside, .bound = [](const Vec3&) { return 1.0; }}));
 }
 
 TEST(WhyMissed, ThroughCurvedSidesOnly) {

@@ -58,7 +58,9 @@ TEST(CardRules, HaveEachCardInOnePlace) {
         {typeid(Mpcs), {"*MPC"}},
         {typeid(ReferenceNodes), {"*RIGID BODY", "*COUPLING", "*PRE-TENSION SECTION"}},
         {typeid(SurfacePairs), {"*TIE", "*CONTACT PAIR"}},
-        {typeid(ForeignResults), {"*RESTART, READ", "*VIEWFACTOR, READ", "*INITIAL MESH"}},
+        {typeid(ForeignResults),
+         {"*RESTART, READ", "*VIEWFACTOR, READ", "*INITIAL MESH", "*TEMPERATURE, FILE=A", "*SENSITIVITY",
+          "*MODAL DYNAMIC", "*FREQUENCY"}},
         {typeid(NamelessCards), {"*STATIC", "*MATERIAL, NAME=M", "*SOLID SECTION, ELSET=A"}},
     };
     EXPECT_EQ(rules.all().size(), table.size());

@@ -231,3 +231,14 @@ def test_a_corner_and_a_border_of_quadrangles():
         assert {"quad", "triangle"} <= set(after.cells) and worst_of(after) > 0.4
         total = sum(v.sum() for k, v in fs.measure(after).items() if k in ("quad", "triangle"))
         assert total == pytest.approx(area, abs=0.02)
+
+
+@pytest.mark.parametrize("refine", [None, 4, 2])
+@pytest.mark.parametrize("at", [(25, 10, 0), (25, 15, 0), (25, 11, 0)])
+def test_hole_between_the_nodes_of_hexahedra(at, refine):
+    """It parts none of their nodes, but some of the tetrahedra that they become when these are refined."""
+    points, cells = grid((4, 2, 2))
+    result = fs.drill(fs.Mesh(10 * points, {"hexahedron": cells}), fs.Cylinder(at, (0, 0, 1), 4), refine=refine)
+    volume = sum(v.sum() for k, v in fs.measure(result.mesh).items() if k[:3] in ("tet", "pyr", "hex"))
+    assert 40 * 20 * 20 - volume == pytest.approx(np.pi * 4**2 * 20, rel=0.12 if refine == 4 else 0.04)
+    assert result.report.converted["hexahedron"] > 0 and worst_of(result.mesh) > 0.1

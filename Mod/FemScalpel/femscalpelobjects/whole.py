@@ -6,6 +6,7 @@ A mesh that was imported has its file in the document, whole. What FemScalpel ma
 is exported with it: the cards of a deck come out again after a crack and a hole.
 """
 
+import json
 import os
 import tempfile
 from collections import Counter
@@ -22,6 +23,7 @@ from .ours import is_ours
 
 #: The property of a mesh object that holds the file.
 PROPERTY = "WholeMesh"
+_PLACES = "WholeMeshPlaces"
 _OUTPUT = 8
 # Of the mesh's size: nodes that differ by less are where they were.
 _SAME = 1e-9
@@ -41,6 +43,12 @@ def keep(obj, mesh):
         path = os.path.join(folder, obj.Name + _ending(mesh))
         femscalpel.write(mesh, path)
         setattr(obj, PROPERTY, path)
+    if mesh.has_deck:
+        if _PLACES not in obj.PropertiesList:
+            text = "Where the cards of the file were in the user's: what messages name"
+            obj.addProperty("App::PropertyString", _PLACES, "FEM Mesh", text, _OUTPUT)
+            obj.setEditorMode(_PLACES, 2)
+        setattr(obj, _PLACES, json.dumps(mesh.deck_places))
 
 
 def _ending(mesh):
@@ -62,6 +70,8 @@ def whole_of(obj):
     if not path:
         return None
     mesh = femscalpel.read(path)
+    if mesh.has_deck and getattr(obj, _PLACES, ""):
+        mesh.deck_places = json.loads(getattr(obj, _PLACES))
     for kind, old, new in names_of(obj):
         mesh.rename_group(old, new, kind)
     return mesh if is_shown(mesh, obj.FemMesh) and _has_groups_of(mesh, obj.FemMesh) else None

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cutting/no_cut.h"
 
+#include "cutting/locate.h"
 #include "words.h"
 
 #include <algorithm>
@@ -20,19 +21,16 @@ constexpr double finest = 0.02;
 class Named {
 public:
     void add(const CellTraits& t, Index id) {
-        simplices_ = simplices_ && t.simplex;
         if (count_++ < 5)
             text_ << (count_ > 1 ? ", " : "") << id << (t.simplex ? "" : " (" + std::string(t.name) + ")");
     }
     bool any() const { return count_ > 0; }
-    bool simplices() const { return simplices_; }
     std::string text() const {
         return (count_ == 1 ? "element " : "elements ") + text_.str() + (count_ > 5 ? ", ..." : "");
     }
 
 private:
     int count_ = 0;
-    bool simplices_ = true;
     std::ostringstream text_;
 };
 
@@ -150,14 +148,10 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
                        bool beyond) {
     const Survey found = survey(mesh, blade, distance, tolerance);
     const std::string tool = "the " + blade.tool->kind();
-    if (found.inside.any()) {
-        const std::string place =
-            tool + " lies inside " + found.inside.text() + ", between their nodes, and parts none of them: ";
-        return place + (found.inside.simplices() ? "it is smaller than the elements there. Refine the mesh there first"
-                                                 : "only triangles and tetrahedra can be cut. Split these elements "
-                                                   "into such first, finer than the " +
-                                                       blade.tool->kind());
-    }
+    if (found.inside.any())
+        return tool + " lies inside " + found.inside.text() +
+               ", between their nodes, and parts none of them: it is smaller than the elements there. Refine the mesh "
+               "there first";
     if (found.curved.any())
         return tool + " only grazes the mesh: it passes through the curved sides of " + found.curved.text() +
                ", but between none of their corners. Move the " + blade.tool->kind() + " into the material";
@@ -178,6 +172,13 @@ std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const dou
         message << "it has no elements";
     message << ". Move the " << blade.tool->kind() << " or turn it";
     return message.str();
+}
+
+bool lies_inside_elements(const Mesh& mesh, const Blade& blade) {
+    std::vector<double> distance;
+    distance.reserve(mesh.points.size());
+    for (const Vec3& x : mesh.points) distance.push_back(blade.tool->distance(x));
+    return survey(mesh, blade, distance, reach_of_rounding(mesh).tolerance).inside.any();
 }
 
 bool is_smaller_than_elements(const Workpiece& f, const Tool& tool) {

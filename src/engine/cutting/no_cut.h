@@ -15,6 +15,10 @@ namespace femscalpel {
 std::string why_missed(const Mesh& mesh, const Blade& blade, std::span<const double> distance, double tolerance,
                        bool beyond);
 
+/// Whether a curved blade passes through the inside of elements, beside all their nodes: it parts some of those that
+/// refining makes of them.
+bool lies_inside_elements(const Mesh& mesh, const Blade& blade);
+
 /// Why nothing comes apart on a blade along which nodes lie, as a message: what lies on it is open already (a contact,
 /// an earlier crack), is the outside of the mesh, or is shells on which nothing stands. `otherwise`, when no face nor
 /// edge of a shell lies on it.

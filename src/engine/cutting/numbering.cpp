@@ -21,7 +21,10 @@ Index one_above(Index largest, const char* what) {
 
 Numbering next_numbers(const Mesh& mesh) {
     Numbering next{one_above(mesh.largest_node_id(), "node"), one_above(mesh.largest_cell_id(), "element")};
-    if (mesh.companion) next.cell = std::max(next.cell, mesh.companion->largest_other_element() + 1);
+    if (mesh.companion) {
+        next.node = std::max(next.node, mesh.companion->largest_other_node() + 1);
+        next.cell = std::max(next.cell, mesh.companion->largest_other_element() + 1);
+    }
     return next;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cancel.h"
 #include "deck/deck_view.h"
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/nameless_cards.h"
 #include "deck/rules/rules.h"
@@ -85,6 +86,34 @@ void tell_emptied(const SolverInput& deck, const Mesh& before, const Mesh& after
         emptied.tell(c, deck.cards()[c], rules.find(deck.cards()[c])->names_per_line(), remarks);
 }
 
+/// A solver that refused a number above the largest in use passes over it once new numbers are above it.
+void tell_absent(const Mesh& before, const Mesh& after, Remarks& remarks) {
+    const SolverInput& deck = *solver_input(before);
+    const auto between = [](Index number, Index low, Index high) { return low < number && number <= high; };
+    const Index node = before.largest_node_id(), new_node = after.largest_node_id();
+    const Index cell = before.largest_cell_id(), new_cell = after.largest_cell_id();
+    if (!between(deck.largest_other_node(), node, new_node) && !between(deck.largest_other_element(), cell, new_cell))
+        return;
+    const AbsentNumbers absent(before, deck);
+    for (const AbsentNumbers::OfCard& named : absent.all())
+        if (std::ranges::any_of(named.numbers, [&](Index number) {
+                return named.node ? between(number, node, new_node) : between(number, cell, new_cell);
+            }))
+            remarks.add_problem(named.where + named_text(named, deck.cards()[named.card]) +
+                                " that the deck does not define: CalculiX refused that, and passes over it now that "
+                                "there are larger numbers; correct the line");
+}
+
+/// New nodes and elements of further operators must not get numbers that cards of the changed deck name.
+void keep_absent(Mesh& after) {
+    const SolverInput& deck = *solver_input(after);
+    const AbsentNumbers absent(after, deck);
+    if (absent.largest_node() == deck.largest_other_node() && absent.largest_element() == deck.kept_element()) return;
+    const auto changed = std::make_shared<SolverInput>(deck);
+    changed->keep_numbers(absent.largest_node(), absent.largest_element());
+    after.companion = changed;
+}
+
 /// What is not there yet.
 void append(std::vector<std::string>& out, std::vector<std::string> texts) {
     for (std::string& text : texts)
@@ -114,6 +143,8 @@ Remarks carry_deck(const Mesh& before, Mesh& after, const Changes& changes) {
     Carrying carrying(before, after, changes);
     carry_cards(carrying);
     after.companion = carrying.result();
+    tell_absent(before, after, carrying.remarks());
+    keep_absent(after);
     return carrying.remarks();
 }
 

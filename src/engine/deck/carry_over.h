@@ -35,6 +35,9 @@ namespace femscalpel {
 /// - Initial stresses, plastic strains and solution: integration points of its parts get what the nearest one had.
 /// - Reference nodes, nodes of elements outside the mesh stay the originals.
 ///
+/// - Results of the mesh as it was, read by number (foreign_results.h), and numbers that nobody has and of which
+/// CalculiX says nothing any more, are told.
+///
 /// What of this changes the meaning, what names something removed or a set that lost all its members, and cards of
 /// unknown keyword, are remarks "file:line: ...", to be told. Throws Error when a node of an element outside the mesh
 /// is removed. Nothing happens without a deck.

@@ -152,7 +152,7 @@ void Card::set_text(std::string new_text) {
 }
 
 Index SolverInput::largest_other_element() const {
-    Index largest = 0;
+    Index largest = kept_element_;
     for (const OtherElement& e : other_elements_) largest = std::max(largest, e.number);
     return largest;
 }

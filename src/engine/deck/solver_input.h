@@ -124,7 +124,19 @@ public:
     bool ties_orders() const { return ties_orders_; }
     void set_ties_orders(bool ties) { ties_orders_ = ties; }
 
+    /// Whether the deck was written with a set that keeps those without members (io/last_set.h).
+    bool has_last_set() const { return has_last_set_; }
+    void set_has_last_set(bool has) { has_last_set_ = has; }
+
+    /// Of elements beside the mesh, and of numbers kept free.
     Index largest_other_element() const override;
+    Index largest_other_node() const override { return kept_node_; }
+    Index kept_element() const { return kept_element_; }
+    /// Keeps new nodes and elements from numbers up to these (rules/absent_numbers.h).
+    void keep_numbers(Index node, Index element) {
+        kept_node_ = node;
+        kept_element_ = element;
+    }
 
     /// The set keeps its name, which the cards name it by, and holds the group.
     std::shared_ptr<const Companion> with_renamed_group(GroupKind kind, const std::string& old_name,
@@ -136,7 +148,8 @@ private:
     std::vector<OtherElement> other_elements_;
     std::vector<std::string> warnings_;
     std::vector<DeckInstance> instances_;
-    bool ties_orders_ = false;
+    bool ties_orders_ = false, has_last_set_ = false;
+    Index kept_node_ = 0, kept_element_ = 0;
 };
 
 /// The deck of a mesh; null if it was not read from one. Lives as long as the mesh has it.

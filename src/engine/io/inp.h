@@ -42,7 +42,8 @@ Mesh read_inp(const std::filesystem::path& path);
 /// *NODE and *ELEMENT change only where a node or element did, further members follow the last one, and
 /// a set is listed anew (at its first card) only when its cards would no longer give its members. A set
 /// that became empty stays defined, by an empty *NODE, NSET= or *ELEMENT, ELSET= card, or a *SURFACE card without
-/// lines, so that CalculiX goes on where cards name it. Sets whose group is gone from the
+/// lines, so that CalculiX goes on where cards name it; where it would forget these, a set of one node comes before all
+/// others (last_set.h), and goes where the deck is read. Sets whose group is gone from the
 /// mesh go. New things come after the deck's last mesh card.
 ///
 /// Elements that stand under no *ELEMENT card (made by an operator; all elements of a mesh from another

@@ -6,6 +6,7 @@
 
 #include "cancel.h"
 #include "deck/edge_ties.h"
+#include "deck/rules/absent_numbers.h"
 #include "deck/solver_element.h"
 #include "deck/solver_input.h"
 #include "deck/solver_sets.h"
@@ -15,6 +16,7 @@
 #include "io/inp_cards.h"
 #include "io/inp_file.h"
 #include "io/inp_numbers.h"
+#include "io/last_set.h"
 #include "utf8.h"
 
 namespace femscalpel {
@@ -28,6 +30,7 @@ public:
         input_->cards() = read_cards(path, mesh_.remarks);
         refuse_generated_mesh(input_->cards());
         flatten_parts(*input_);
+        input_->set_has_last_set(remove_last_set(input_->cards()));
         input_->set_ties_orders(remove_edge_ties(input_->cards()));
         fs::path stem = path.filename();
         if (is_packed(stem)) stem = stem.stem();
@@ -42,6 +45,7 @@ public:
         read_sets();
         warn_of_idle_constraints(*input_);
         warn_of_newer_cards(*input_);
+        warn_of_absent_numbers(mesh_, *input_);
         mesh_.companion = input_;
         return std::move(mesh_);
     }

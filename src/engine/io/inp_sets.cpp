@@ -273,6 +273,38 @@ void put_in_order(const SolverInput& input, const DeckSetIndex& index, const Dec
     });
 }
 
+std::vector<std::string_view> lines_still_true(const SolverInput& input, const DeckSetIndex& index,
+                                               const DeckSetPlan& plan, const NumberIndex& numbers, std::size_t s,
+                                               std::vector<Index>& given, std::vector<std::array<Index, 2>>& unheld) {
+    std::vector<std::string_view> out;
+    if (input.sets()[s].type != DeckSetType::element_surface) return out;
+    for (const Card& card : input.cards()) {
+        if (card.keyword != "SURFACE" || set_index(index, card) != s) continue;
+        CardReader line(card);
+        while (line.next_data_line()) {
+            Index number = 0;
+            if (line.integer(number)) continue;
+            const auto named = index.find(DeckSetType::elset, line.field());
+            const int label = label_from_name(line.field());
+            if (!named || label == 0 || plan.roles[*named].state == SetRole::dropped) continue;
+            std::vector<Index> faces;
+            std::vector<std::array<Index, 2>> loose;
+            for (const Index id : plan.members[*named])
+                if (traits(numbers.cell(id)->type).dimension < 2)
+                    loose.push_back({id, label});
+                else
+                    faces.push_back(8 * id + label);
+            for (const auto& [id, unused] : input.sets()[*named].unheld) loose.push_back({id, label});
+            const auto is_unheld = [&](const auto& face) { return std::ranges::find(unheld, face) != unheld.end(); };
+            if (!std::ranges::includes(plan.members[s], faces) || !std::ranges::all_of(loose, is_unheld)) continue;
+            out.push_back(line.raw());
+            given.insert(given.end(), faces.begin(), faces.end());
+            std::erase_if(unheld, [&](const auto& face) { return std::ranges::find(loose, face) != loose.end(); });
+        }
+    }
+    return out;
+}
+
 namespace {
 
 /// Elements that are not written as such, a line for each type. Of a mesh with a deck only those in no group: the

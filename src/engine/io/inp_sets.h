@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "deck/solver_sets.h"
@@ -43,6 +45,12 @@ DeckSetPlan plan_sets(const Mesh& mesh, const SolverInput& input, const NumberIn
 
 /// The set a card belongs to, if any.
 std::optional<std::size_t> set_index(const DeckSetIndex& index, const Card& card);
+
+/// Lines "set, label" of an element surface all of whose faces are still on it; what they give is added to `given` and
+/// taken out of `unheld`.
+std::vector<std::string_view> lines_still_true(const SolverInput& input, const DeckSetIndex& index,
+                                               const DeckSetPlan& plan, const NumberIndex& numbers, std::size_t s,
+                                               std::vector<Index>& given, std::vector<std::array<Index, 2>>& unheld);
 
 /// Puts nodes of a set in the order in which its cards name them, which tells some of their users which are the first
 /// (*MPC); new ones behind.

@@ -13,6 +13,7 @@
 #include "io/inp_numbers.h"
 #include "io/inp_places.h"
 #include "io/inp_sets.h"
+#include "io/last_set.h"
 #include "utf8.h"
 
 namespace femscalpel {
@@ -43,6 +44,11 @@ public:
             for (const DeckText& t : card.text) bytes += t.text.size();
         out_.reserve(bytes + bytes / 8 + static_cast<std::size_t>(mesh_.node_count()) * 60);
         for (std::size_t c = 0; c < input_->cards().size(); ++c) write_card(c);
+        if ((empties_ || input_->has_last_set()) && sets_.needs_last_set()) {
+            std::string node;
+            append_node(node, 0);
+            out_.insert(first_node_card_, last_set_card(node, eol_));
+        }
         return std::move(out_);
     }
 
@@ -129,6 +135,13 @@ private:
     void write_head(std::size_t c, const Card& card, std::string_view set_parameter) {
         if (!plan_.drops_parameter[c]) {
             put(card.text.front().text.substr(0, card.head));
+            if (const auto s = set_index(card)) {
+                const auto in_card = [c](const OtherElement& e) { return e.card == c; };
+                const bool any =
+                    !plan_.contributed[c].empty() || std::ranges::any_of(input_->other_elements(), in_card);
+                define(*s, any, true);
+                empties_ = empties_ || (!any && CardReader(card).next_data_line());
+            }
             return;
         }
         std::string head = "*" + card.keyword;
@@ -144,6 +157,7 @@ private:
     }
 
     void write_node_card(std::size_t c, const Card& card) {
+        note_first_node_card();
         write_head(c, card, "NSET");
         if (node_written_under_.empty())
             node_written_under_.assign(static_cast<std::size_t>(mesh_.node_count()), DeckPlaces::none);
@@ -171,18 +185,34 @@ private:
     void put_node(Index node) {
         check_();
         start_line();
-        append_integer(out_, mesh_.node_ids[node]);
-        for (int k = 0; k < 3; ++k) {
-            out_ += ", ";
-            append_coordinate(out_, mesh_.points[node][k]);
-        }
+        append_node(out_, node);
         out_ += eol_;
+    }
+
+    void append_node(std::string& line, Index node) const {
+        append_integer(line, mesh_.node_ids[node]);
+        for (int k = 0; k < 3; ++k) {
+            line += ", ";
+            append_coordinate(line, mesh_.points[node][k]);
+        }
+    }
+
+    void note_first_node_card() {
+        if (has_node_card_) return;
+        has_node_card_ = true;
+        start_line();
+        first_node_card_ = out_.size();
+    }
+
+    void define(std::size_t s, bool has_members, bool by_mesh) {
+        sets_.add(input_->sets()[s].type, input_->sets()[s].name, has_members, by_mesh);
     }
 
     void write_nodes_without_card() {
         bool first = true;
         for (Index i = 0; i < mesh_.node_count(); ++i) {
             if (!places_.node_cards_of_family[mesh_.node_families[i]].empty()) continue;
+            note_first_node_card();
             if (first) put_line("*NODE");
             first = false;
             put_node(i);
@@ -326,6 +356,8 @@ private:
         const auto s = set_index(card);
         if (!s || plan_.roles[*s].state == SetRole::by_cards) {
             put(card.text.front().text.substr(0, card.head));
+            if (const bool has_lines = CardReader(card).next_data_line(); s && (has_lines || card.keyword == "SURFACE"))
+                define(*s, has_lines, false);
             return put_data_lines(card);
         }
         if (plan_.roles[*s].state == SetRole::replaced && !is_written_[*s]) write_replaced_set(*s);
@@ -352,7 +384,8 @@ private:
             for (const OtherElement& e : input_->other_elements())
                 if (e.card == c) std::erase(unheld, std::array<Index, 2>{e.number, 0});
         }
-        const std::vector<std::string_view> lines = lines_still_true(s, given, unheld);
+        const std::vector<std::string_view> lines =
+            lines_still_true(*input_, index_, plan_, numbers_, s, given, unheld);
         std::ranges::sort(given);
         std::ranges::set_difference(plan_.members[s], given, std::back_inserter(rest));
         if (defined && rest.empty() && unheld.empty()) return;
@@ -360,45 +393,14 @@ private:
         write_set(set.type, set.name, rest, unheld, "", lines);
     }
 
-    /// Lines "set, label" of an element surface all of whose faces are still on it, and, added, what they give.
-    std::vector<std::string_view> lines_still_true(std::size_t s, std::vector<Index>& given,
-                                                   std::vector<std::array<Index, 2>>& unheld) const {
-        std::vector<std::string_view> out;
-        if (input_->sets()[s].type != DeckSetType::element_surface) return out;
-        for (const Card& card : input_->cards()) {
-            if (card.keyword != "SURFACE" || set_index(card) != s) continue;
-            CardReader line(card);
-            while (line.next_data_line()) {
-                Index number = 0;
-                if (line.integer(number)) continue;
-                const auto named = index_.find(DeckSetType::elset, line.field());
-                const int label = label_from_name(line.field());
-                if (!named || label == 0 || plan_.roles[*named].state == SetRole::dropped) continue;
-                std::vector<Index> faces;
-                std::vector<std::array<Index, 2>> loose;
-                for (const Index id : plan_.members[*named])
-                    if (traits(numbers_.cell(id)->type).dimension < 2)
-                        loose.push_back({id, label});
-                    else
-                        faces.push_back(8 * id + label);
-                for (const auto& [id, unused] : input_->sets()[*named].unheld) loose.push_back({id, label});
-                const auto is_unheld = [&](const auto& face) {
-                    return std::ranges::find(unheld, face) != unheld.end();
-                };
-                if (!std::ranges::includes(plan_.members[s], faces) || !std::ranges::all_of(loose, is_unheld)) continue;
-                out.push_back(line.raw());
-                given.insert(given.end(), faces.begin(), faces.end());
-                std::erase_if(unheld, [&](const auto& face) { return std::ranges::find(loose, face) != loose.end(); });
-            }
-        }
-        return out;
-    }
-
     void write_set(DeckSetType type, const std::string& name, std::span<const Index> members,
                    std::span<const std::array<Index, 2>> unheld, const std::string& remark,
                    std::span<const std::string_view> lines = {}) {
         if (!remark.empty()) put_line(remark);
         const bool empty = members.empty() && unheld.empty();
+        empties_ = empties_ || (empty && lines.empty());
+        sets_.add(type, name, !empty || !lines.empty(),
+                  empty && (type == DeckSetType::nset || type == DeckSetType::elset));
         switch (type) {
             case DeckSetType::nset:
                 // CalculiX forgets an empty *NSET, but not the empty set of an empty *NODE card.
@@ -462,8 +464,11 @@ private:
     DeckPlaces places_;
     DeckSetPlan plan_;
     std::size_t last_node_card_ = 0, last_element_card_ = 0, last_mesh_card_ = 0;
-    std::vector<char> is_written_;                 // per set
-    std::vector<std::size_t> node_written_under_;  // the *NODE card that wrote a node last
+    std::vector<char> is_written_;                  // per set
+    DefinedSets sets_;                              // so far
+    std::size_t first_node_card_ = 0;               // where it starts in out_
+    bool has_node_card_ = false, empties_ = false;  // empties_: sets without members that had some, or are new
+    std::vector<std::size_t> node_written_under_;   // the *NODE card that wrote a node last
     std::array<std::vector<char>, cell_type_count> element_written_;
     std::vector<std::string_view> tail_;
     std::string out_, eol_ = "\n";

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "deck/rules/gone_sets.h"
 #include "deck/solver_input.h"
 #include "error.h"
 #include "fields/field.h"
@@ -63,6 +64,11 @@ std::vector<std::string> losses(const Mesh& mesh, const std::filesystem::path& p
     if (mesh.fields && !format->fields)
         for (const Field& field : mesh.fields->fields) out.push_back("the field '" + field.name + "'");
     return out;
+}
+
+std::vector<std::string> loose_ends(const Mesh& mesh, const std::filesystem::path& path) {
+    const Format* format = format_of(path);
+    return format && format->deck ? named_gone_sets(mesh) : std::vector<std::string>();
 }
 
 }  // namespace femscalpel

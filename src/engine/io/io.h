@@ -26,4 +26,8 @@ void write(const Mesh& mesh, const std::filesystem::path& path);
 /// is lost, for an unknown extension, and for formats that do not say.
 std::vector<std::string> losses(const Mesh& mesh, const std::filesystem::path& path);
 
+/// What a file of that extension names and does not have, so that a solver will stop: sets of a deck whose groups were
+/// taken out of the mesh (named_gone_sets()). Empty for formats without cards.
+std::vector<std::string> loose_ends(const Mesh& mesh, const std::filesystem::path& path);
+
 }  // namespace femscalpel

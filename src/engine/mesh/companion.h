@@ -16,9 +16,12 @@ public:
     Companion() = default;
     virtual ~Companion() = default;
 
-    /// Largest number of an element that the file has and the mesh has not; 0 without any. New elements must not
-    /// get its number.
+    /// Largest number of an element that the file has or names and the mesh has not; 0 without any. New elements must
+    /// not get its number.
     virtual Index largest_other_element() const = 0;
+
+    /// Largest number of a node that the file names and the mesh has not; 0 without any. New nodes must not get it.
+    virtual Index largest_other_node() const { return 0; }
 
     /// What it is once the group `old_name` of this kind is called `new_name`; null where it says nothing of that
     /// group.

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "mesh/band_mesh.h"
+#include "mesh/companion.h"
 #include "mesh/middles.h"
 
 namespace femscalpel {
@@ -81,7 +82,8 @@ bool is_second_order(const Mesh& mesh) {
 Mesh to_second_order(const Mesh& mesh) {
     std::array<std::vector<char>, cell_type_count> all;
     for (const CellBlock& b : mesh.blocks()) all[static_cast<int>(b.type)].assign(b.ids.size(), 1);
-    return to_second_order(mesh, all, mesh.largest_node_id() + 1).mesh;
+    const Index others = mesh.companion ? mesh.companion->largest_other_node() : 0;
+    return to_second_order(mesh, all, std::max(mesh.largest_node_id(), others) + 1).mesh;
 }
 
 RaisedOrder to_second_order(const Mesh& mesh, const std::array<std::vector<char>, cell_type_count>& chosen,

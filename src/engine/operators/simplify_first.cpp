@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cutting/locate.h"
+#include "cutting/no_cut.h"
 #include "deck/carry_over.h"
 #include "deck/fit_cards.h"
 #include "deck/solver_element.h"
@@ -31,10 +32,19 @@ std::vector<std::int8_t> levels_to_work_on(const Mesh& mesh, std::span<const Bla
                                            const Prepared& known) {
     const Adjacency* adjacency = known.adjacency;
     int width = options.transition.value_or(2);
-    Location location = locate(mesh, blades, width, adjacency, known.beam_stops);
     std::vector<std::int8_t> longer(mesh.points.size(), -1);
     if (!zones.empty()) longer = levels_to_refine(mesh, zones, options);
     const bool refines = std::ranges::find(longer, 0) != longer.end();
+    Location location;
+    try {
+        location = locate(mesh, blades, width, adjacency, known.beam_stops);
+    } catch (const ToolError&) {
+        // What lies between the nodes of these elements may part those that refining makes of them.
+        if (!refines || std::ranges::none_of(blades, [&](const Blade& b) { return lies_inside_elements(mesh, b); }))
+            throw;
+        spread_levels(mesh, longer, rings_to_refine, adjacency);
+        return longer;
+    }
     if (!options.transition && options.method == Method::deform)
         width = bandwidth(location, mesh) + spare_rings;
     else if (refines)

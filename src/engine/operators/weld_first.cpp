@@ -26,14 +26,15 @@ constexpr double straight = 1e-6;
 /// The hidden groups of the deck are called so meanwhile: steps on the way remove those that mark_deck() made.
 constexpr std::string_view other_prefix = "*KEPT#";
 
-/// Keeps new elements from numbers that only the deck has.
-class OtherElements : public Companion {
+/// Keeps new nodes and elements from numbers that only the deck has.
+class OtherNumbers : public Companion {
 public:
-    explicit OtherElements(Index largest) : largest_(largest) {}
-    Index largest_other_element() const override { return largest_; }
+    OtherNumbers(Index node, Index element) : node_(node), element_(element) {}
+    Index largest_other_element() const override { return element_; }
+    Index largest_other_node() const override { return node_; }
 
 private:
-    Index largest_;
+    Index node_, element_;
 };
 
 void rename_marks(Mesh& mesh, std::string_view from, std::string_view to) {
@@ -76,7 +77,8 @@ void WeldFirst::find_marks() {
     Mesh& mesh = welded_->mesh;
     Index largest = mesh.companion ? mesh.companion->largest_other_element() : 0;
     for (const CellRef& c : welded_->aside) largest = std::max(largest, input_.block(c.type).ids[c.cell]);
-    if (mesh.companion || !welded_->aside.empty()) mesh.companion = std::make_shared<OtherElements>(largest);
+    const Index node = mesh.companion ? mesh.companion->largest_other_node() : 0;
+    if (mesh.companion || !welded_->aside.empty()) mesh.companion = std::make_shared<OtherNumbers>(node, largest);
     rename_marks(mesh, mark_prefix, other_prefix);
     const std::vector<Index> now = welded_->single_nodes();
     const auto single = [&](const std::vector<Index>& nodes) {

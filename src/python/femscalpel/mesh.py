@@ -2,7 +2,7 @@
 """Meshes and their groups."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Dict, NamedTuple, Optional, Tuple, Union
+from typing import Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -325,6 +325,19 @@ class Mesh:
         """Whether the mesh carries the cards of the CalculiX or Abaqus input file it was read from;
         :func:`femscalpel.write` writes them to .inp."""
         return self._engine_mesh.has_solver_input
+
+    @property
+    def deck_places(self) -> List[List[Tuple[int, int, str, bool]]]:
+        """Where the lines of each card of the deck come from, which messages name: first line, number of lines, file,
+        and whether an operator made them of that place; empty without a deck.
+
+        A deck of parts or with included files has other lines once it is written; set to the mesh read from there,
+        messages about it name the user's files again. Cards that do not have so many lines stay as they are."""
+        return self._engine_mesh.deck_places()
+
+    @deck_places.setter
+    def deck_places(self, value: List[List[Tuple[int, int, str, bool]]]):
+        self._engine_mesh.set_deck_places([[tuple(lines) for lines in card] for card in value])
 
     @property
     def dimension(self) -> int:

@@ -7,6 +7,7 @@
 
 namespace femscalpel {
 
+class AbsentNumbers;
 class Marking;
 class Carrying;
 
@@ -27,6 +28,9 @@ public:
     /// How many entries at the start of a line may name sets or surfaces: that these, or those in the card's
     /// parameters, lost all members is told (emptied_sets.h). With 0 the rule tells of sets itself, or need not.
     virtual int names_per_line() const { return 1; }
+
+    /// Names to `numbers` each node and element that the card has by number.
+    virtual void list_numbers(const Card& /*card*/, AbsentNumbers& /*numbers*/) const {}
 
     /// Marks what card `c` of the deck names and an operator has to keep.
     virtual void mark(std::size_t /*c*/, const Card& /*card*/, Marking& /*marking*/) {}

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 
@@ -26,6 +27,21 @@ std::string ElementLoads::LoadLine::with(Index element, const std::string& new_l
 bool ElementLoads::takes(const Card& card) const {
     constexpr std::string_view keywords[] = {"DLOAD", "DFLUX", "FILM", "RADIATE", "BOUNDARYF", "MASSFLOW"};
     return std::ranges::find(keywords, card.keyword) != std::end(keywords);
+}
+
+void ElementLoads::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    CardReader line(card);
+    Index number = 0;
+    while (line.next_data_line()) {
+        if (line.integer(number))
+            numbers.name_element(line, number);
+        else
+            line.field();
+        const LoadLabel label(line.field());
+        const bool has_node =
+            label.suffix == "FC" || label.suffix == "NP";  // of the fluid, whose temperature or pressure
+        if (has_node && line.integer(number)) numbers.name_node(line, number);
+    }
 }
 
 void ElementLoads::mark(std::size_t c, const Card& card, Marking& marking) {

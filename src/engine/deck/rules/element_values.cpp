@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/rules/element_values.h"
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 
 namespace femscalpel {
 
 bool ElementValues::takes(const Card& card) const { return card.keyword == "DISTRIBUTION"; }
+
+void ElementValues::list_numbers(const Card& card, AbsentNumbers& numbers) const { numbers.name_elements_first(card); }
 
 void ElementValues::carry(std::size_t c, const Card& card, Carrying& carrying) {
     CardEdits& edits = carrying.edits(c);

@@ -9,6 +9,7 @@ namespace femscalpel {
 class ElementValues : public CardRule {
 public:
     bool takes(const Card& card) const override;
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 };
 

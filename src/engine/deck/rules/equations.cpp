@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 
@@ -85,6 +86,24 @@ std::optional<NodeEquation> Equations::of_nodes(const Equation& equation) {
         out.terms.push_back(std::move(term));
     }
     return out;
+}
+
+void Equations::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    if (removes(card)) return numbers.name_nodes_first(card);
+    CardReader line(card);
+    Index terms = 0;
+    while (line.next_data_line() && line.integer(terms) && line.next_data_line())
+        for (Index k = 0; k < 3 * terms;) {
+            if (line.at_end()) {
+                if (!line.next_data_line()) return;
+                continue;
+            }
+            Index node = 0;
+            if (k++ % 3 != 0 || !line.integer(node))
+                line.field();
+            else
+                numbers.name_node(line, node);
+        }
 }
 
 void Equations::mark(std::size_t /*c*/, const Card& card, Marking& marking) {

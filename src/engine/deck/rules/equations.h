@@ -22,6 +22,7 @@ class Equations : public CardRule {
 public:
     bool takes(const Card& card) const override;
     int names_per_line() const override { return 0; }
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void mark(std::size_t c, const Card& card, Marking& marking) override;
     void begin_carrying(Carrying& carrying) override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;

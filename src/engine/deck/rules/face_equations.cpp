@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/rules/face_equations.h"
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 
 namespace femscalpel {
+
+void FaceEquations::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    CardReader line(card);
+    while (line.next_data_line())
+        for (int k = 0; !line.at_end(); ++k) {
+            Index element = 0;
+            if (k % 4 != 0 || !line.integer(element))
+                line.field();
+            else if (k > 0 || !line.at_end())  // not the number of terms
+                numbers.name_element(line, element);
+        }
+}
 
 void FaceEquations::carry(std::size_t c, const Card& card, Carrying& carrying) {
     CardReader line(card);

@@ -10,6 +10,7 @@ namespace femscalpel {
 class FaceEquations : public CardRule {
 public:
     bool takes(const Card& card) const override { return card.keyword == "EQUATIONF"; }
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 };
 

@@ -5,8 +5,10 @@
 
 namespace femscalpel {
 
-/// Results of the mesh as it was that the deck reads: *RESTART, READ, and *VIEWFACTOR, READ, unless an earlier
-/// *VIEWFACTOR of the deck makes them. That they are of another mesh is told.
+/// Results of the mesh as it was that the deck reads, by numbers of nodes and elements, so that what is new has none:
+/// *RESTART and *SENSITIVITY, READ; *TEMPERATURE and other fields with FILE=; *VIEWFACTOR, READ, unless an earlier
+/// *VIEWFACTOR of the deck makes them; steps on eigenmodes, unless an earlier *FREQUENCY does. That they are of another
+/// mesh is told. What is read by place, as *SUBMODEL does, is right for new nodes, too.
 class ForeignResults : public CardRule {
 public:
     bool takes(const Card& card) const override;
@@ -14,7 +16,7 @@ public:
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 
 private:
-    bool view_factors_made_ = false;
+    bool view_factors_made_ = false, modes_made_ = false;
 };
 
 }  // namespace femscalpel

@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/rules/model_changes.h"
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 
 namespace femscalpel {
+
+void ModelChanges::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    if (!can_change(card)) return;
+    CardReader line(card);
+    while (line.next_data_line())
+        for (const NumberOrSet& what : read_entries(line))
+            if (what.is_number()) numbers.name_element(line, what.number);
+}
 
 void ModelChanges::mark(std::size_t c, const Card& card, Marking& marking) {
     if (!can_change(card)) return;

@@ -12,6 +12,7 @@ class ModelChanges : public CardRule {
 public:
     bool takes(const Card& card) const override { return card.keyword == "MODELCHANGE"; }
     bool can_change(const Card& card) const override { return type_of(card) == "ELEMENT"; }
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void mark(std::size_t c, const Card& card, Marking& marking) override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 };

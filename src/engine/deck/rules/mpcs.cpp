@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 
@@ -46,6 +47,13 @@ std::vector<Index> Mpcs::Mpc::nodes() const {
             if (what.is_number() && what.number > 0) out.push_back(what.number);
     std::ranges::sort(out);
     return out;
+}
+
+void Mpcs::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    for (const Mpc& mpc : read(card))
+        for (const Line& line : mpc.lines)
+            for (const NumberOrSet& what : line.entries)
+                if (what.is_number()) numbers.name_node(line.line, what.number);
 }
 
 void Mpcs::mark(std::size_t /*c*/, const Card& card, Marking& marking) {

@@ -15,6 +15,7 @@ namespace femscalpel {
 class Mpcs : public CardRule {
 public:
     bool takes(const Card& card) const override { return card.keyword == "MPC"; }
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void mark(std::size_t c, const Card& card, Marking& marking) override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 

@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "cancel.h"
+#include "deck/rules/absent_numbers.h"
 #include "words.h"
 
 namespace femscalpel {
+
+void NodalRule::list_numbers(const Card& card, AbsentNumbers& numbers) const { numbers.name_nodes_first(card); }
 
 void NodalRule::carry(std::size_t c, const Card& card, Carrying& carrying) {
     pools_[std::to_string(carrying.old().step(c)) + parameters_key(card)].push_back(c);

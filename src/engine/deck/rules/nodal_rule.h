@@ -18,6 +18,7 @@ namespace femscalpel {
 /// equal parameters are as one; the last of them gets new lines.
 class NodalRule : public CardRule {
 public:
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
     void end_carrying(Carrying& carrying) override;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "deck/card_numbers.h"
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 #include "words.h"
@@ -40,6 +41,8 @@ bool is_corner(const Mesh& mesh, Index number) {
 bool NodeLoads::takes(const Card& card) const {
     return is_load(card) || card.keyword == "DISTRIBUTINGCOUPLING" || card.keyword == "RETAINEDNODALDOFS";
 }
+
+void NodeLoads::list_numbers(const Card& card, AbsentNumbers& numbers) const { numbers.name_nodes_first(card); }
 
 void NodeLoads::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
     CardReader line(card);

@@ -12,6 +12,7 @@ class NodeLoads : public CardRule {
 public:
     bool takes(const Card& card) const override;
     int names_per_line() const override { return 0; }
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void mark(std::size_t c, const Card& card, Marking& marking) override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 
@@ -18,6 +19,13 @@ std::vector<Normals::Line> Normals::read(const Card& card) {
     while (line.next_data_line())
         if (line.integer(element) && line.integer(node)) out.push_back({line, element, node});
     return out;
+}
+
+void Normals::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    for (const Line& l : read(card)) {
+        numbers.name_element(l.line, l.element);
+        numbers.name_node(l.line, l.node);
+    }
 }
 
 void Normals::mark(std::size_t /*c*/, const Card& card, Marking& marking) {

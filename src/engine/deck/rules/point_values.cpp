@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "deck/integration_points.h"
+#include "deck/rules/absent_numbers.h"
 #include "deck/solver_element.h"
 
 namespace femscalpel {
@@ -21,9 +22,9 @@ Index state_variables(const std::vector<Card>& cards) {
 }
 
 /// Two entries and six values on the first line of a record, eight on the others.
-Index lines_per_record(const Card& card, const Carrying& carrying) {
+Index lines_per_record(const Card& card, const std::vector<Card>& cards) {
     if (type_of(card) != "SOLUTION") return 1;
-    return 1 + std::max<Index>(0, state_variables(carrying.old().cards()) - 6 + 7) / 8;
+    return 1 + std::max<Index>(0, state_variables(cards) - 6 + 7) / 8;
 }
 
 /// A card's number of integration point and what is behind it.
@@ -39,6 +40,16 @@ bool PointValues::takes(const Card& card) const {
     return type == "STRESS" || type == "PLASTICSTRAIN" || type == "SOLUTION";
 }
 
+void PointValues::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    const Index lines = lines_per_record(card, numbers.cards());
+    CardReader line(card);
+    Index element = 0;
+    while (line.next_data_line()) {
+        if (line.integer(element)) numbers.name_element(line, element);
+        for (Index k = 1; k < lines && line.next_data_line();) ++k;
+    }
+}
+
 void PointValues::begin_carrying(Carrying& carrying) {
     if (std::ranges::any_of(carrying.old().cards(), [&](const Card& card) { return takes(card); }))
         labels_ = labels_of_families(carrying.before(), carrying.old().input());
@@ -51,7 +62,7 @@ bool PointValues::is_concerned(Index element, const Carrying& carrying) const {
 }
 
 std::vector<PointValues::Element> PointValues::read(const Card& card, const Carrying& carrying) const {
-    const Index lines = lines_per_record(card, carrying);
+    const Index lines = lines_per_record(card, carrying.old().cards());
     std::vector<Element> out;
     std::unordered_map<Index, std::size_t> places;
     CardReader line(card);

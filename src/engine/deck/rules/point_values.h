@@ -18,6 +18,7 @@ namespace femscalpel {
 class PointValues : public CardRule {
 public:
     bool takes(const Card& card) const override;
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void begin_carrying(Carrying& carrying) override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 

@@ -2,10 +2,12 @@
 #include "deck/rules/reference_nodes.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "deck/rules/absent_numbers.h"
 #include "deck/rules/carrying.h"
 #include "deck/rules/marking.h"
 
@@ -33,6 +35,13 @@ std::vector<std::pair<std::string, Index>> nodes_of(const Card& card) {
     return out;
 }
 
+/// The beam that a pre-tension is in.
+std::optional<Index> element_of(const Card& card) {
+    const std::string* element = card.keyword == "PRE-TENSIONSECTION" ? card.parameter("ELEMENT") : nullptr;
+    if (!element || !is_number(*element)) return {};
+    return std::stoll(*element);
+}
+
 }  // namespace
 
 bool ReferenceNodes::takes(const Card& card) const {
@@ -40,6 +49,12 @@ bool ReferenceNodes::takes(const Card& card) const {
 }
 
 bool ReferenceNodes::can_change(const Card& card) const { return !nodes_of(card).empty(); }
+
+void ReferenceNodes::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    const CardReader head(card);
+    for (const auto& [parameter, node] : nodes_of(card)) numbers.name_node(head, node);
+    if (const auto element = element_of(card)) numbers.name_element(head, *element);
+}
 
 void ReferenceNodes::mark(std::size_t /*c*/, const Card& card, Marking& marking) {
     for (const auto& [parameter, node] : nodes_of(card)) marking.pin(node);
@@ -55,10 +70,9 @@ void ReferenceNodes::carry(std::size_t c, const Card& card, Carrying& carrying) 
         else if (carrying.origins().is_doubled(node))
             tell("the crack doubled; " + parameter + " stays the original, on the negative side");
     }
-    const std::string* element = card.keyword == "PRE-TENSIONSECTION" ? card.parameter("ELEMENT") : nullptr;
-    if (!element || !is_number(*element)) return;
-    const Index number = std::stoll(*element);
-    if (!carrying.had_element(number)) return;
+    const std::optional<Index> element = element_of(card);
+    if (!element || !carrying.had_element(*element)) return;
+    const Index number = *element;
     const std::vector<Index> parts = carrying.parts_of(number);
     if (parts != std::vector<Index>{number})
         carrying.remarks().add(c, Weight::problem, card.where() + ": ", the_element(number),

@@ -11,6 +11,7 @@ class ReferenceNodes : public CardRule {
 public:
     bool takes(const Card& card) const override;
     bool can_change(const Card& card) const override;
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void mark(std::size_t c, const Card& card, Marking& marking) override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 };

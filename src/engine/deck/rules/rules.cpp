@@ -36,6 +36,7 @@ std::unique_ptr<CardRule> make() {
 /// types stand before those of the rest.
 constexpr Make table[] = {
     make<MeshCards>,       //
+    make<ForeignResults>,  // of fields and supports only those from files
     make<Supports>,        //
     make<InitialMotions>,  // of *INITIAL CONDITIONS, as the next
     make<PointValues>,     //
@@ -51,7 +52,6 @@ constexpr Make table[] = {
     make<Mpcs>,            //
     make<ReferenceNodes>,  //
     make<SurfacePairs>,    //
-    make<ForeignResults>,  //
     make<NamelessCards>,   // compares first letters only: the last
 };
 

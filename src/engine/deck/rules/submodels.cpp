@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deck/rules/submodels.h"
 
+#include "deck/rules/absent_numbers.h"
+
 namespace femscalpel {
+
+void Submodels::list_numbers(const Card& card, AbsentNumbers& numbers) const {
+    if (can_change(card)) NodalRule::list_numbers(card, numbers);
+}
 
 void Submodels::carry(std::size_t c, const Card& card, Carrying& carrying) {
     if (can_change(card)) NodalRule::carry(c, card, carrying);

@@ -10,6 +10,7 @@ class Submodels : public NodalRule {
 public:
     bool takes(const Card& card) const override { return card.keyword == "SUBMODEL"; }
     bool can_change(const Card& card) const override { return type_of(card) != "SURFACE"; }
+    void list_numbers(const Card& card, AbsentNumbers& numbers) const override;
     void carry(std::size_t c, const Card& card, Carrying& carrying) override;
 
 protected:

@@ -124,6 +124,31 @@ class Import(DocumentTest):
         self.assertIn("PRESSED", mesh.groups)
         self.assertAlmostEqual(self.reaction(os.path.join(self.folder.name, "opened.inp")), -2 * (N + 1) ** 2, places=3)
 
+    def test_messages_name_the_lines_of_the_users_files(self):
+        """The document has the deck in one piece, with other lines."""
+        steel = "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n"
+        text = deck().replace(steel, "*INCLUDE, INPUT=steel.inc\n")
+        text = text.replace("*CLOAD", "*TEMPERATURE, FILE=heat.frd\n*CLOAD")
+        for name, content in (("split.inp", text), ("steel.inc", "** a steel\n" * 7 + steel)):
+            with open(os.path.join(self.folder.name, name), "w") as file:
+                file.write(content)
+        mesh = ObjectsFemScalpel.importMesh(self.doc, os.path.join(self.folder.name, "split.inp"), name="Other")
+        place = f"split.inp:{1 + text.splitlines().index('*TEMPERATURE, FILE=heat.frd')}: "
+        crack = ObjectsFemScalpel.makeCrack(self.doc, mesh, origin=(3.3, 1, 1), normal=(1, 0.1, 0.2))
+        self.doc.recompute()
+        self.assertTrue(any(w.startswith(place) for w in crack.Warnings), crack.Warnings)
+        hole = ObjectsFemScalpel.makeDrill(self.doc, crack, origin=(4.5, 1, 1), axis=(0, 0, 1), radius=0.5)
+        self.doc.recompute()
+        self.assertTrue(any(w.startswith(place) for w in hole.Warnings), hole.Warnings)
+        path = os.path.join(self.folder.name, "split.FCStd")
+        self.doc.saveAs(path)
+        FreeCAD.closeDocument(self.doc.Name)
+        self.doc = FreeCAD.openDocument(path)
+        crack = self.doc.Crack
+        crack.touch()
+        self.doc.recompute()
+        self.assertTrue(any(w.startswith(place) for w in crack.Warnings), crack.Warnings)
+
     def test_a_mesh_that_was_moved_is_another_one(self):
         self.mesh.Placement.Base.z = 3
         mesh = fs.read(self.exported(self.mesh, "moved.inp"))
