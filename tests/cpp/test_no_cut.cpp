@@ -72,9 +72,14 @@ TEST(LiesInsideElements, BetweenTheirNodesWithinThePart) {
     Vec3 middle = Vec3::Zero();
     for (const Index n : mesh.block(CellType::tetra).nodes(0)) middle += mesh.points[n] / 4;
     const Sphere inside(middle, 0.05), beside({5, 5, 5}, 0.05);
-    EXPECT_TRUE(lies_inside_elements(mesh, {.tool = &inside}));
-    EXPECT_FALSE(lies_inside_elements(mesh, {.tool = &beside}));
-    EXPECT_FALSE(lies_inside_elements(mesh, {.tool = &inside, .bound = [](const Vec3&) { return 1.0; }}));
+    Blade blade;
+    blade.tool = &inside;
+    EXPECT_TRUE(lies_inside_elements(mesh, blade));
+    blade.bound = [](const Vec3&) { return 1.0; };
+    EXPECT_FALSE(lies_inside_elements(mesh, blade));
+    blade = Blade();
+    blade.tool = &beside;
+    EXPECT_FALSE(lies_inside_elements(mesh, blade));
 }
 
 TEST(WhyMissed, ThroughCurvedSidesOnly) {
