@@ -47,9 +47,6 @@ TEST(AppendCoordinate, DoesNotRoundTheLargestToInfinity) {
         EXPECT_NEAR(std::stod(text) / x, 1, 1e-13) << text;
         EXPECT_NEAR(std::stod(coordinate(-x)) / -x, 1, 1e-13);
     }
-    EXPECT_EQ(coordinate_as_written(0.1), 0.1);
-    EXPECT_EQ(coordinate_as_written(-largest), std::stod(coordinate(-largest)));
-    EXPECT_NE(coordinate_as_written(-1.2345678901234567e-5), -1.2345678901234567e-5);
 }
 
 TEST(AppendInteger, WritesDigits) {

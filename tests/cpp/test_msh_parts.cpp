@@ -67,21 +67,24 @@ TEST_F(MshParts, TypesAndTheirOtherSides) {
 
 TEST_F(MshParts, SourceOfTextAndBinary) {
     checks::Bytes bytes;
+    bytes.text("$MeshFormat\n4.1 1 8\n$EndMeshFormat\n");  // says that what follows are bytes
     bytes.text("$A\nx +5 -1e-400 1.5\n$EndA\n$B\n").put<std::int32_t>({-7}).put<std::int64_t>({8}).put<double>({0.1});
     bytes.text("\n$EndB\n");
     MshSource s = source(bytes.str());
+    EXPECT_EQ(s.next_section(), "MeshFormat");
+    s.skip_section();
     EXPECT_EQ(s.next_section(), "A");
     EXPECT_EQ(s.word(), "x");
     EXPECT_EQ(s.text_integer(), 5);
     EXPECT_EQ(s.real(), 0);
     EXPECT_EQ(s.real(), 1.5);
-    EXPECT_EQ(s.where(), path_.string() + ":2: ");
+    EXPECT_EQ(s.where(), path_.string() + ":5: ");
     s.end_section();
     s.set_binary(false);
     EXPECT_EQ(s.next_section(), "B");
-    EXPECT_EQ(s.section_line(), 4);
+    EXPECT_EQ(s.section_line(), 7);
     EXPECT_EQ(s.integer(), -7);
-    EXPECT_THAT([&] { s.expect(100, 4); }, ThrowsMessage<Error>(HasSubstr("$B, byte 29: the number 100 is more")));
+    EXPECT_THAT([&] { s.expect(100, 4); }, ThrowsMessage<Error>(HasSubstr("$B, byte 64: the number 100 is more")));
     EXPECT_EQ(s.size(), 8);
     EXPECT_EQ(s.real(), 0.1);
     s.end_section();

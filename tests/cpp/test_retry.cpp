@@ -192,42 +192,6 @@ TEST_F(RetrySecondOrder, HoldsNodesThatTheToolPassedWhereElementsAreFolded) {
     }
 }
 
-TEST_F(RetrySecondOrder, DoesNotGoOnRefiningWhereThatGivesNoBetterElements) {
-    for (const auto& [quality, tries] : {std::pair(0.23, 2), std::pair(0.15, 3)}) {
-        Workpiece g = f;
-        calls = 0;
-        const auto cut = [&](Workpiece& w) {
-            ++calls;
-            // Towards the next node, until elements are as poor as that, whatever was refined.
-            const Vec3 home = w.d.band.nodes[middle].at;
-            double near = 0, far = 1;
-            for (int k = 0; k < 40; ++k) {
-                const double part = (near + far) / 2;
-                (quality_around(w.d, middle, home + part * Vec3(1, 0, 0)) > quality ? near : far) = part;
-            }
-            w.d.band.nodes[middle].at = home + near * Vec3(1, 0, 0);
-        };
-        cut_soundly(g, cut, 100 * mesh.cell_count());
-        EXPECT_EQ(calls, tries) << quality;
-        EXPECT_NEAR(quality_around(g.d, middle, g.d.band.nodes[middle].at), quality, 1e-6);
-    }
-}
-
-TEST_F(RetrySecondOrder, StraightensWhatWasNotRefinedWhereThatWasInVain) {
-    int elements = 0;
-    cut_soundly(
-        f,
-        [&](Workpiece& w) {
-            elements = w.d.band.tetras.size();
-            fold(w);
-            if (w.d.mids.any() || w.d.band.size() > f.d.band.original_nodes()) w.d.band.nodes[middle].at.x() = 2.5;
-        },
-        100 * mesh.cell_count(), 4);
-    EXPECT_EQ(elements, mesh.cell_count()) << "the last try";
-    EXPECT_EQ(f.d.band.size(), f.d.band.original_nodes());
-    EXPECT_TRUE(f.d.mids.is_straightened(middle, end));
-}
-
 TEST_F(RetrySecondOrder, GivesUpWhereCornersStayFolded) {
     const auto cut = [&](Workpiece& g) {
         fold(g);

@@ -144,15 +144,14 @@ def test_losses_of_med_are_told(tmp_path):
     assert f"{name}_SURF" in [g.name for g in fs.read(tmp_path / "a.med").groups.all()]
 
 
-def test_digits_that_decks_have_no_room_for_are_told(tmp_path):
+def test_digits_that_decks_have_no_room_for(tmp_path):
+    """They are rounded, which is no loss to tell."""
     mesh = box_with_groups()
-    assert written(mesh, tmp_path / "a.inp") == ""
     points = np.array(mesh.points)
     points[:3, 0] = (1.2345678901234567e-5, -1.2345678901234567e-5, 1 / 3e6)
-    moved = fs.Mesh(points, mesh.cells)
-    assert "the last digits of the coordinates of 3 nodes (they are off by up to " in written(moved, tmp_path / "a.inp")
+    assert written(fs.Mesh(points, mesh.cells), tmp_path / "a.inp") == ""
     back = fs.read(tmp_path / "a.inp")
-    assert np.abs(back.points - points).max() < 1e-18 and written(back, tmp_path / "b.inp") == ""
+    assert 0 < np.abs(back.points - points).max() < 1e-18 and written(back, tmp_path / "b.inp") == ""
     # What keeps its line of a deck keeps its digits, however many they are.
     text = (tmp_path / "a.inp").read_text()
     line = next(line for line in text.splitlines() if line.startswith("2, "))
@@ -161,18 +160,14 @@ def test_digits_that_decks_have_no_room_for_are_told(tmp_path):
     kept = fs.read(tmp_path / "c.inp")
     assert kept.points[1, 0] == points[1, 0] and written(kept, tmp_path / "d.inp") == ""
     assert fs.read(tmp_path / "d.inp").points[1, 0] == points[1, 0]
-    cracked = fs.crack(kept, fs.Plane((3.1, 2.5, 2), (1, 0.1, 0.2))).mesh
-    told = re.search("the coordinates of ([0-9]+) nodes?", written(cracked, tmp_path / "e.inp"))
-    again = fs.read(tmp_path / "e.inp")
-    off = (again.points != cracked.points[[list(cracked.node_ids).index(n) for n in again.node_ids]]).any(axis=1).sum()
-    assert off == (int(told[1]) if told else 0)
 
 
 @pytest.mark.parametrize("suffix", [".inp", ".bdf"])
 def test_the_largest_coordinates(tmp_path, suffix):
     largest = np.finfo(float).max
     mesh = fs.Mesh([[0, 0, 0], [largest, 0, 0], [0, -largest, 0], [0, 0, 1]], {"tetra": [[0, 1, 2, 3]]})
-    assert "the last digits of the coordinates of" in written(mesh, tmp_path / ("a" + suffix))
+    told = written(mesh, tmp_path / ("a" + suffix))
+    assert ("the last digits of the coordinates of" in told) == (suffix == ".bdf")
     np.testing.assert_allclose(fs.read(tmp_path / ("a" + suffix)).points, mesh.points, rtol=1e-8)
 
 

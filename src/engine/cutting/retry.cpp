@@ -30,9 +30,6 @@ constexpr double second_order_quality = 0.27;
 constexpr double hold_quality = 0.02;
 /// After so many tries with sound elements the best is taken; while that is below poor_quality, after so many.
 constexpr int polishings = 5, hard_polishings = 8;
-/// Second-order elements of at least poor_quality are tried again until two tries, from this quality on one, gave none
-/// that are so many times as good.
-constexpr double fair_quality = 0.2, clearly_better = 1.05;
 /// Beside a curved tool, whose walls come out better where it was refined, nodes are held farther only after so many.
 constexpr int tries_before_far = 2;
 /// A band is refined to so many times its elements at most, and by so many times the mesh's: it would grow for ever
@@ -300,7 +297,6 @@ private:
         const double quality = poorest(f_, std::max(1.5 * poor_quality, enough), poor);
         const bool too_far = best_ && held_far_ && cuts_less(f_);
         if (quality >= enough && !too_far) return Verdict::good;
-        if (!before_held_) idle_ = best_ && quality < clearly_better * best_quality_ ? idle_ + 1 : 0;
         is_best_ =
             quality > best_quality_ && !too_far && !(grows_too_far(f_) && best_ && best_quality_ >= hold_quality);
         if (is_best_) {
@@ -312,10 +308,6 @@ private:
         }
         // Among flat surfaces a plane's geometry limits the quality, but for nodes that it passes too closely.
         if (plain_ && quality >= poor_quality) return Verdict::settled;
-        // Finer elements that came out no better will not do so where they are finer still.
-        if (best_ && f_.d.mids.any() && best_quality_ >= poor_quality &&
-            idle_ >= (best_quality_ < fair_quality ? 2 : 1))
-            return Verdict::settled;
         const int enough_tries = best_quality_ < poor_quality ? hard_polishings : polishings;
         if (!before_held_) ++polished_;
         return polished_ >= enough_tries && best_ ? Verdict::settled : Verdict::again;
@@ -357,7 +349,6 @@ private:
                 for (const int v : nodes) off_tool[v] = 1;
             });
         } else {
-            if (!unrefined_ && start_->d.mids.any()) unrefined_ = *start_;
             refine(*start_, bad, most_elements_);
             std::ranges::fill(off_tool, 0);
         }
@@ -404,28 +395,22 @@ private:
     }
 
     /// Where curved elements were folded each time, or poor: straightens them; and cuts as if all were straight, where
-    /// corners find places that are not looked for among curved elements, to straighten only what is folded then. Where
-    /// that fails in what was refined meanwhile, in what was not: longer edges may be farther off their surface.
+    /// corners find places that are not looked for among curved elements, to straighten only what is folded then.
     void try_straight(bool sound) {
         if (!start_->d.mids.any()) return;
         if (!sound) keep_straightened(f_);
         if (!best_ && resort_quality_ >= poor_quality) return;
-        cut_straight(*start_);
-        if (!best_ && !resort_ && unrefined_) cut_straight(*unrefined_);
-    }
-
-    void cut_straight(Workpiece& start) {
-        std::ranges::fill(start.d.off_tool, 0);
+        std::ranges::fill(start_->d.off_tool, 0);
         for (const bool held : {false, true}) {
             check_cancelled();
-            Workpiece made = start;
+            Workpiece made = *start_;
             made.most_visits = made.d.visits + static_cast<long>(fewest_visits / 3);
             made.d.mids.ignore(true);
             cut_(made);
             made.d.mids.ignore(false);
             Slots poor;
             const bool again =
-                !held && poorest(made, 0, poor) < poor_quality && allow_to_hold(start, made, along_beside);
+                !held && poorest(made, 0, poor) < poor_quality && allow_to_hold(*start_, made, along_beside);
             keep_straightened(std::move(made));
             if (!again) break;
         }
@@ -463,8 +448,7 @@ private:
     const bool plain_;           // flat tool, flat surfaces, straight elements
     const double elements_ = element_count(f_.d.band);
     const double most_elements_ = std::min(largest_growth * elements_, elements_ + largest_part * mesh_elements_);
-    std::optional<Workpiece> start_;      // what the next try begins with
-    std::optional<Workpiece> unrefined_;  // the first of those that was refined for the next, of second order
+    std::optional<Workpiece> start_;  // what the next try begins with
     std::optional<Workpiece> best_;
     double best_quality_;
     std::optional<Workpiece> resort_;  // taken if there is no best one
@@ -474,7 +458,7 @@ private:
     std::optional<std::pair<Slots, bool>> before_held_;
     long visits_before_held_ = 0;
     bool held_folded_ = false, held_near_ = false, held_far_ = false;  // was tried
-    int polished_ = 0, idle_ = 0;  // tries with sound elements; those of the last that were hardly better than the best
+    int polished_ = 0;
 };
 
 }  // namespace

@@ -56,14 +56,6 @@ void append_coordinate(std::string& out, double value) {
     }
 }
 
-double coordinate_as_written(double value) {
-    std::string text;
-    append_coordinate(text, value);
-    double out = 0;
-    std::from_chars(text.data(), text.data() + text.size(), out);
-    return out;
-}
-
 void append_integer(std::string& out, Index value) {
     char text[24];
     out.append(text, std::to_chars(text, text + sizeof text, value).ptr);

@@ -14,9 +14,6 @@ inline constexpr Index largest_deck_number = 2147483647;
 /// closest that fits.
 void append_coordinate(std::string& out, double value);
 
-/// What is read of append_coordinate()'s text.
-double coordinate_as_written(double value);
-
 /// Appends `value` in digits.
 void append_integer(std::string& out, Index value);
 

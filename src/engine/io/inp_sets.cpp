@@ -11,9 +11,7 @@
 #include "deck/solver_element.h"
 #include "error.h"
 #include "io/inp.h"
-#include "io/inp_numbers.h"
 #include "io/inp_places.h"
-#include "io/lost_digits.h"
 #include "words.h"
 
 namespace femscalpel {
@@ -337,33 +335,11 @@ void add_left_out(const Mesh& mesh, std::vector<std::string>& out) {
     }
 }
 
-/// Nodes whose coordinates have more digits than CalculiX reads; not those that keep their line of the deck.
-void add_lost_digits(const Mesh& mesh, std::vector<std::string>& out) {
-    LostDigits lost(mesh, coordinate_as_written);
-    const SolverInput* deck = solver_input(mesh);
-    if (!lost.nodes.empty() && deck) {
-        const NumberIndex numbers(mesh);
-        const DeckPlaces places = find_deck_places(mesh, *deck);
-        std::vector<bool> kept(mesh.points.size(), false);
-        for (std::size_t c = 0; c < deck->cards().size(); ++c) {
-            if (deck->cards()[c].keyword != "NODE") continue;
-            CardReader line(deck->cards()[c]);
-            while (line.next_data_line())
-                if (const auto [node, is_same] = node_of_line(line, mesh, numbers);
-                    node && is_same && places.stands_under(mesh, *node, c))
-                    kept[static_cast<std::size_t>(*node)] = true;
-        }
-        lost.leave_out(kept);
-    }
-    if (auto told = lost.told()) out.push_back(std::move(*told));
-}
-
 }  // namespace
 
 std::vector<std::string> inp_losses(const Mesh& mesh) {
     std::vector<std::string> out;
     add_left_out(mesh, out);
-    add_lost_digits(mesh, out);
     if (!mesh.unit.empty()) out.push_back("the unit '" + mesh.unit + "'");
     if (const SolverInput* deck = solver_input(mesh))
         for (const DeckSet& set : deck->sets()) {

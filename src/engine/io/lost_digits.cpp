@@ -22,17 +22,6 @@ LostDigits::LostDigits(const Mesh& mesh, const std::function<double(double)>& as
     }
 }
 
-void LostDigits::leave_out(const std::vector<bool>& kept) {
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        if (kept[static_cast<std::size_t>(nodes[k])]) continue;
-        nodes[left] = nodes[k];
-        off[left++] = off[k];
-    }
-    nodes.resize(left);
-    off.resize(left);
-}
-
 std::optional<std::string> LostDigits::told() const {
     if (nodes.empty()) return {};
     std::ostringstream text;

@@ -18,9 +18,6 @@ struct LostDigits {
 
     LostDigits(const Mesh& mesh, const std::function<double(double)>& as_read);
 
-    /// Forgets the nodes that are marked, by index.
-    void leave_out(const std::vector<bool>& kept);
-
     /// "the last digits of the coordinates of 3 nodes (they are off by up to 1e-17)"; none without any.
     std::optional<std::string> told() const;
 };
