@@ -45,11 +45,13 @@ struct DeckPlaces {
 /// Throws WriteError for an element under two cards, and for elements under none of a type CalculiX has not.
 DeckPlaces find_deck_places(const Mesh& mesh, const SolverInput& input);
 
-/// The node of a data line of a *NODE card that `line` has come to.
+/// What a data line of a *NODE card is about.
 struct NodeOfLine {
     std::optional<Index> node;  ///< its index in the mesh; none if it is not there any more
     bool is_same = false;       ///< the coordinates are those of the mesh, so the line can stay as it is
 };
+
+/// That of the data line that `line` has come to; `numbers` are the mesh's.
 NodeOfLine node_of_line(CardReader& line, const Mesh& mesh, const NumberIndex& numbers);
 
 }  // namespace femscalpel
