@@ -85,6 +85,7 @@ TEST_F(MshParts, SourceOfTextAndBinary) {
     EXPECT_EQ(s.section_line(), 7);
     EXPECT_EQ(s.integer(), -7);
     EXPECT_THAT([&] { s.expect(100, 4); }, ThrowsMessage<Error>(HasSubstr("$B, byte 64: the number 100 is more")));
+    EXPECT_THAT([&] { s.expect(-2, 4); }, ThrowsMessage<Error>(HasSubstr("the number -2 is no count")));
     EXPECT_EQ(s.size(), 8);
     EXPECT_EQ(s.real(), 0.1);
     s.end_section();

@@ -145,6 +145,7 @@ double MshSource::text_real() {
 }
 
 void MshSource::expect(Index count, Index numbers) const {
+    if (count < 0) fail("the number " + std::to_string(count) + " is no count");
     const Index bytes = numbers * (binary_ ? 4 : 2);  // at least
     if (bytes > 0 && count > (end_ - at_) / bytes + 1)
         fail("the number " + std::to_string(count) + " is more than the rest of the file can hold");
