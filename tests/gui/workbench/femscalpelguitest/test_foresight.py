@@ -118,7 +118,9 @@ class Foresight(GuiTest):
 
     def move(self):
         choose("wall", "TOP")
+        wait_until(is_settled, "what is said of the wall")
         choose("motion", "By")
+        wait_until(is_settled, "what is said of the motion")
         type_into("vectorZ", "0.2 mm")
 
     def test_of_an_edited_object(self):
