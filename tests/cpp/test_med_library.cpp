@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "io/med.h"
 #include "io/med_soundness.h"
@@ -83,6 +85,43 @@ TEST_F(MedFiles, WithNamesTooLongForTheLibraryAreNot) {
     H5Gclose(group);
     H5Fclose(file);
     EXPECT_FALSE(is_sound_med(path));
+}
+
+/// As files of MED 2 are: their headers have no checksum that would tell of the damage.
+void write_old_attributes(const fs::path& path, const std::vector<const char*>& names) {
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t meshes = H5Gcreate2(file, "ENS_MAA", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate(H5S_SCALAR);
+    for (const char* name : names) {
+        const hid_t one = H5Acreate2(meshes, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT);
+        const int value = 1;
+        EXPECT_GE(H5Awrite(one, H5T_NATIVE_INT, &value), 0);
+        H5Aclose(one);
+    }
+    const hid_t mesh = H5Gcreate2(meshes, "mesh", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Gclose(mesh);
+    H5Sclose(space);
+    H5Gclose(meshes);
+    H5Fclose(file);
+}
+
+TEST_F(MedFiles, WithDamagedAttributesAreNot) {
+    const QuietHdf5 quiet;
+    const fs::path path = folder / "old.med";
+    const std::vector<const char*> names{"DIM", "NXT", "NXI", "TYP", "SRT", "REP", "ESP"};
+    const auto lock = lock_libraries();
+    for (const std::string name : names) {
+        write_old_attributes(path, names);
+        EXPECT_TRUE(is_sound_med(path));  // HDF5 keeps its table of attributes, and takes that for the next file's
+        std::ifstream file(path, std::ios::binary);
+        std::string text{std::istreambuf_iterator<char>(file), {}};
+        const std::size_t at = text.find(name + '\0');
+        ASSERT_NE(at, std::string::npos) << name;
+        ASSERT_EQ(text[at - 8], 1) << "the version of the attribute's message";
+        text[at - 8] = 99;
+        std::ofstream(path, std::ios::binary) << text;
+        EXPECT_FALSE(is_sound_med(path)) << name;
+    }
 }
 
 }  // namespace FILE_NAMESPACE
