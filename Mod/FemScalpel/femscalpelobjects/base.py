@@ -111,6 +111,7 @@ class MeshOperation:
         self._wanted = None  # the Made that execute() is to show
         self._is_following = False  # whether it takes its numbers from geometry just now
         self._prepared = None  # the Made that begin() has led to, for execute() to take if it is still right
+        self._parting = None  # the pieces.Parting of the mesh shown, once they were described
 
     # --- what a subclass says
 
@@ -411,16 +412,33 @@ class MeshOperation:
             self._set_mesh(obj, made.femmesh)
         self.shown = Shown(made.inputs, made.token)
         self._set_results(obj, made.results)
+        self._parting = made.parting
         if made.parting is not None:  # what holds the pieces may have changed since
-            self._describe_pieces(obj, made.parting, aloud)
+            self._describe_pieces(obj, aloud)
         self.report = made.report
 
-    @staticmethod
-    def _describe_pieces(obj, parting, aloud):
+    def describe_again(self, obj):
+        """Says anew what holds the pieces, where the mesh is in more than its source: analysis and constraints may have
+        changed without a need to compute the mesh again."""
+        if not obj.Pieces or not obj.FemMesh.NodeCount:
+            return
+        if self._parting is None:  # of a document that was opened
+            source = contents.read_mesh(obj.Source)[0]
+            known = {(group.name, group.kind) for group in source.groups.all()}
+            mesh = contents.read_mesh(obj)[0]
+            self._parting = pieces.parting_of(mesh, len(femscalpel.pieces(source)), known=known)
+        if self._parting is not None:
+            self._describe_pieces(obj)
+
+    def _describe_pieces(self, obj, aloud=False):
         """Says what the part falls into and what holds the pieces, `aloud` in the report view."""
+        parting = self._parting
         held = pieces.holders(parting, pieces.find_supports(obj))
+        items = pieces.items_of(parting, held)
+        if items == obj.Pieces:
+            return
         sentence = pieces.sentence_of(parting, held)
-        obj.Pieces = pieces.items_of(parting, held)
+        obj.Pieces = items
         label = f"  {'pieces':<12} "
         lines = [line for line in obj.GroupReport if not line.startswith(label)]
         lines.insert(lines.index("") if "" in lines else len(lines), label + sentence)
@@ -451,7 +469,7 @@ class MeshOperation:
         for dependent in obj.InList:
             if isinstance(getattr(dependent, "Proxy", None), MeshOperation) and obj in made_of(dependent):
                 dependent.Proxy._clear(dependent)
-        self.report = self.crack_shape = None
+        self.report = self.crack_shape = self._parting = None
         self._set_mesh(obj, Fem.FemMesh())
         self.shown = Shown(None, b"none")
         self._set_results(obj, _NO_RESULTS)

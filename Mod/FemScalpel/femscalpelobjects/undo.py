@@ -47,7 +47,15 @@ def mend(document):
             waiting.append(obj)
         else:
             obj.Proxy.give_back(obj, made)
+    _describe_again(document)
     return unknown
+
+
+def _describe_again(document):
+    """Has what holds the pieces of parted meshes said as it is now."""
+    for obj in _in_order(document):
+        if not {"Touched", "Invalid"} & set(obj.State):
+            obj.Proxy.describe_again(obj)
 
 
 def _waits(obj):
@@ -129,6 +137,7 @@ class _Watch:
         for obj in _in_order(document):
             if _waits(obj):
                 _unmark(obj)
+        _describe_again(document)
         if FreeCAD.GuiUp:
             release_shortcuts()
 

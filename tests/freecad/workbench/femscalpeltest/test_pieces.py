@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What objects say of a part that falls into pieces, and of what holds these."""
 
+import pathlib
 from unittest import mock
 
 import FreeCAD
@@ -76,6 +77,36 @@ class HeldPieces(DocumentTest):
         self.assertEqual(warnings, [])
         self.assertIn("held by End", messages[0])
         self.assertEqual(len([line for line in self.crack.GroupReport if line.startswith("  pieces")]), 1)
+
+    def test_follows_the_analysis_without_being_computed(self):
+        told(self.crack)
+        held = list(self.crack.Pieces)
+        with mock.patch.object(type(self.crack.Proxy), "execute", side_effect=AssertionError("computed")):
+            self.doc.UndoMode = 1
+            self.doc.openTransaction("Take the support out")
+            self.analysis.removeObject(self.doc.ConstraintFixed)
+            self.doc.commitTransaction()
+            self.doc.recompute()
+            loose = [text.split("; ")[1] for text in self.crack.Pieces]
+            self.assertEqual(loose, ["nothing holds it)"] * 2)
+            (line,) = (line for line in self.crack.GroupReport if line.startswith("  pieces"))
+            self.assertIn(self.crack.Pieces[0], line)
+            self.doc.undo()
+            self.assertEqual(self.crack.Pieces, held)
+
+    def test_follows_in_a_document_that_was_opened(self):
+        told(self.crack)
+        held = list(self.crack.Pieces)
+        path = str(pathlib.Path(self.folder.name) / "pieces.FCStd")
+        self.doc.saveAs(path)
+        FreeCAD.closeDocument(self.doc.Name)
+        self.doc = FreeCAD.openDocument(path)
+        self.doc.Analysis.removeObject(self.doc.ConstraintFixed)
+        self.doc.recompute()
+        self.assertEqual([text.split("; ")[1] for text in self.doc.Crack.Pieces], ["nothing holds it)"] * 2)
+        self.doc.Analysis.addObject(self.doc.ConstraintFixed)
+        self.doc.recompute()
+        self.assertEqual(self.doc.Crack.Pieces, held)
 
     def test_loads_hold_nothing(self):
         force = ObjectsFem.makeConstraintForce(self.doc, "Load")
