@@ -77,7 +77,8 @@ def run_alone(command, folder):
     done = subprocess.run(
         command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600
     )
-    assert done.returncode == 0 and "Traceback" not in done.stdout + done.stderr, (done.stdout + done.stderr)[-3000:]
+    said = done.stdout + done.stderr
+    assert done.returncode == 0 and "Traceback" not in said and "Exception while" not in said, said[-3000:]
     return done.stdout
 
 

@@ -154,7 +154,7 @@ def test_linear_temperatures_stay_linear_and_it_is_said_which_were_made(tmp_path
     def field(x):
         return 20 + x @ (3.0, -2.0, 0.5)
 
-    lines = "".join(f"{n}, {field(x)!r}\n" for n, x in ((n, np.round(x, 9)) for n, x in nodes.items()))
+    lines = "".join(f"{n}, {float(field(x))!r}\n" for n, x in ((n, np.round(x, 9)) for n, x in nodes.items()))
     text = deck(label, f"*INITIAL CONDITIONS, TYPE=TEMPERATURE\n{lines}")
     (tmp_path / "in.inp").write_text(text)
     mesh = fs.read(tmp_path / "in.inp")

@@ -403,7 +403,7 @@ def test_quality_is_that_of_what_there_is(kind, seed):
 @pytest.mark.parametrize("second_order", [False, True])
 def test_a_sleeve_lies_on_a_shaft_whose_facets_are_others(seed, second_order):
     outcome, quality, *_ = merge_cases.one("on_shaft", seed, second_order)
-    assert not outcome and quality > 0.15
+    assert not outcome and quality > 0.12  # 0.15 and more where edges are filled by Netgen 6.2.2006
 
 
 def test_edges_are_finer_where_two_polygons_of_one_circle_part_at_an_angle_of_less_than_a_degree():
