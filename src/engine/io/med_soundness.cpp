@@ -5,9 +5,11 @@
 #include <cstring>
 #include <fstream>
 
+#include "cancel.h"
 #include "error.h"
 #include "helper_process.h"
 #include "io/med_structure.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
@@ -53,15 +55,21 @@ bool MedSoundness::of_fields() {
 }
 
 void MedSoundness::ask_program() {
-    const std::string program = check_med_program();
-    HelperProcess process(program, {path_}, check_seconds);
-    const auto says = [&](char expected) {
-        char word = 0;
-        return process.receive_all(&word, 1) && word == expected;
-    };
-    if (!says(check_med_protocol::begun)) throw Error("cannot start " + program + ": it ends at once");
-    mesh_ = says(check_med_protocol::sound_mesh);
-    fields_ = *mesh_ && says(check_med_protocol::sound_fields);
+    try {
+        const std::string program = check_med_program();
+        HelperProcess process(program, {path_}, check_seconds);
+        const auto says = [&](char expected) {
+            char word = 0;
+            return process.receive_all(&word, 1) && word == expected;
+        };
+        if (!says(check_med_protocol::begun)) throw Error("cannot start " + program + ": it ends at once");
+        mesh_ = says(check_med_protocol::sound_mesh);
+        fields_ = *mesh_ && says(check_med_protocol::sound_fields);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        throw ReadError(shown_path(path_) + ": " + error.what());
+    }
 }
 
 }  // namespace femscalpel

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace femscalpel {
 
@@ -14,8 +15,8 @@ class MedSoundness {
 public:
     explicit MedSoundness(std::string path) : path_(std::move(path)) {}
 
-    /// Of what a mesh is read from. The caller holds lock_libraries(). Throws Cancelled, and Error if the program for
-    /// old files cannot be run.
+    /// Of what a mesh is read from. The caller holds lock_libraries(). Throws Cancelled, and ReadError if the program
+    /// for old files cannot be run.
     bool of_mesh();
 
     /// The same of what fields are read from.
