@@ -34,7 +34,9 @@ constexpr std::uint64_t largest_med_array(std::uint64_t file_size) { return 1000
 
 /// What the program says by single characters, in this order, until it finds damage, crashes or has looked at all.
 namespace check_med_protocol {
-inline constexpr char begun = 'b', sound_mesh = 'm', sound_fields = 'f';
-}
+inline constexpr char begun = 'b';         ///< it runs
+inline constexpr char sound_mesh = 'm';    ///< MedPart::mesh is sound
+inline constexpr char sound_fields = 'f';  ///< and so is MedPart::fields
+}  // namespace check_med_protocol
 
 }  // namespace femscalpel
