@@ -13,7 +13,7 @@ import FreeCAD
 
 import femscalpel_documents
 from femscalpel.signatures import takes
-from femscalpelobjects import following, imported, operator_options, tool_properties
+from femscalpelobjects import checked, following, imported, operator_options, tool_properties
 from femscalpelobjects.analysis import put_into_analysis, take_out_of_analysis
 from femscalpelobjects.crack import Crack
 from femscalpelobjects.curved_crack import CurvedCrack
@@ -98,8 +98,18 @@ def makeCrack(
         Patch=patch,
         PatchRadius=patch_radius,
         PatchSecondRadius=patch_second_radius,
-        PatchCorners=[FreeCAD.Vector(*tuple(corner)[:2], 0) for corner in patch_corners],
+        PatchCorners=[
+            _corner(corner) for corner in checked.several(patch_corners, "patch_corners must be a sequence of points")
+        ],
     )
+
+
+def _corner(corner):
+    """A corner in the plane, of a vector or of two or three numbers."""
+    if isinstance(corner, FreeCAD.Vector):
+        return FreeCAD.Vector(corner.x, corner.y, 0)
+    numbers = checked.several(corner, "each of patch_corners must be an App.Vector or two or three numbers")
+    return checked.vector([*numbers[:2], 0] if len(numbers) == 3 else [*numbers, 0], "each of patch_corners")
 
 
 @takes(
@@ -143,7 +153,8 @@ def makeCylindricalCrack(
     """
     check_source(doc, source)
     placement = placement_of(source, placement, origin, axis, "axis")
-    low, high = (0, 1) if along is None else along
+    low, high = (0, 1) if along is None else checked.pair(along, "along")
+    start, end = checked.pair(angles, "angles")
     return make(
         doc,
         CylindricalCrack,
@@ -155,8 +166,8 @@ def makeCylindricalCrack(
         Bounded=along is not None,
         Low=low,
         High=high,
-        StartAngle=angles[0],
-        EndAngle=angles[1],
+        StartAngle=start,
+        EndAngle=end,
     )
 
 
@@ -256,9 +267,9 @@ def makeDrill(
         options,
         AxisPlacement=placement_of(source, placement, origin, axis, "axis"),
         Radius=radius,
-        Positions=[FreeCAD.Vector(*p) for p in positions],
+        Positions=checked.vectors(positions, "positions"),
         Through=depth is None,
-        Depth=depth or 0,
+        Depth=0 if depth is None else depth,
     )
 
 
@@ -306,7 +317,7 @@ def makeCut(
         PlanePlacement=placement_of(source, placement, origin, normal, "normal"),
         Width=width,
         Through=bottom is None,
-        BottomPlacement=bottom or FreeCAD.Placement(),
+        BottomPlacement=FreeCAD.Placement() if bottom is None else checked.placement(bottom, "bottom"),
     )
 
 
@@ -379,7 +390,7 @@ def putIntoAnalysis(obj, strict=True):
     when FreeCAD would not find all nodes a load, support or material is meant for; the message says where. With
     strict=False that is a warning in the report view.
     """
-    return put_into_analysis(obj, strict)
+    return put_into_analysis(checked.made_object(obj), strict)
 
 
 def takeOutOfAnalysis(obj):
@@ -388,7 +399,7 @@ def takeOutOfAnalysis(obj):
 
     Raises ValueError when `obj` is in no analysis.
     """
-    return take_out_of_analysis(obj)
+    return take_out_of_analysis(checked.made_object(obj))
 
 
 def renameGroup(obj, old, new, kind=None):
@@ -398,7 +409,10 @@ def renameGroup(obj, old, new, kind=None):
     renamed as a whole. Raises ValueError, and changes nothing, when there is no such group, when the new name is empty
     or taken, or when `obj` is made by FemScalpel: its groups come from its source and from its property GroupName.
     """
-    rename_group(obj, old, new, kind)
+    checked.mesh_object(obj)
+    if kind is not None:
+        checked.one_of(kind, "kind", ["node", "element"])
+    rename_group(obj, checked.text(old, "old"), checked.text(new, "new"), kind)
 
 
 def followGeometry(obj, geometry, offset=None):
@@ -425,8 +439,12 @@ def followGeometry(obj, geometry, offset=None):
     ValueError
         `obj` has no placement that could follow, or the geometry no axes. Nothing is changed then.
     """
+    checked.mesh_object(obj)
     if geometry:
-        following.link(obj, [(part, name) for part, name in geometry], offset)
+        targets = checked.several(geometry, "geometry must be a sequence of (object, name of its element)")
+        targets = [checked.pair(one, "each of geometry", "(object, name of its element)") for one in targets]
+        offset = None if offset is None else checked.placement(offset, "offset")
+        following.link(obj, [(checked.any_object(part, "geometry"), name) for part, name in targets], offset)
     else:
         following.unlink(obj)
 
@@ -458,9 +476,14 @@ def importMesh(doc, path, name=None, mesh=None):
         The file cannot be read; with file and line.
     femscalpel.WriteError
         A FemMesh cannot hold its elements.
+    TypeError, ValueError
+        `doc` is no document that is open, or another argument is not what it has to be. Nothing is added then.
     femscalpel.Cancelled
         In FreeCAD's window, where it is read on another thread, when the user ends that.
     """
+    checked.document(doc)
+    checked.text(name, "name", optional=True)
+    path = checked.path(path)
     if FreeCAD.GuiUp:
         from femscalpelgui import importing
 
@@ -478,6 +501,8 @@ def exportMesh(obj, path):
     femscalpel.WriteError when the file cannot be written or no format has its ending. In FreeCAD's window it is written
     on another thread; femscalpel.Cancelled when the user ends that.
     """
+    checked.mesh_object(obj)
+    path = checked.path(path)
     if FreeCAD.GuiUp:
         from femscalpelgui import exporting
 

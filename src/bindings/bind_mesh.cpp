@@ -94,6 +94,13 @@ py::dict cell_ids(const py::object& self) {
     return out;
 }
 
+void move_nodes(Mesh& mesh, const py::array_t<double, py::array::c_style>& points) {
+    if (points.ndim() != 2 || points.shape(0) != mesh.node_count() || points.shape(1) != 3)
+        throw Error("points must have the shape (" + std::to_string(mesh.node_count()) + ", 3)", "points");
+    for (Index i = 0; i < mesh.node_count(); ++i)
+        mesh.points[static_cast<std::size_t>(i)] = Vec3(points.at(i, 0), points.at(i, 1), points.at(i, 2));
+}
+
 using Range = std::tuple<Index, Index>;
 using InstanceEntry = std::tuple<std::string, std::string, Index, Range, Range>;
 
@@ -164,6 +171,7 @@ void bind_properties(MeshClass& mesh) {
                                    const double* data = mesh.points.empty() ? nullptr : mesh.points.front().data();
                                    return view(data, {mesh.node_count(), 3}, self);
                                })
+        .def("move_nodes", &move_nodes, py::arg("points"))
         .def_property_readonly("node_ids",
                                [](const py::object& self) {
                                    const Mesh& mesh = self.cast<const Mesh&>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "utf8.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -73,6 +74,27 @@ std::string from_windows_1252(std::string_view bytes) {
             out += static_cast<char>(0x80 | ((code >> 6) & 0x3F));
         }
         out += static_cast<char>(0x80 | (code & 0x3F));
+    }
+    return out;
+}
+
+std::optional<std::string> to_windows_1252(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t n = utf8_length(text);
+        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+        if (n == 0 || n > 3) return {};
+        const unsigned code = n == 1   ? byte(0)
+                              : n == 2 ? (byte(0) & 0x1Fu) << 6 | (byte(1) & 0x3Fu)
+                                       : (byte(0) & 0x0Fu) << 12 | (byte(1) & 0x3Fu) << 6 | (byte(2) & 0x3Fu);
+        const auto* const found = std::ranges::find(windows_1252, code);
+        if (found != windows_1252.end())
+            out += static_cast<char>(0x80 + (found - windows_1252.begin()));
+        else if (code < 0x80 || (code >= 0xA0 && code < 0x100))
+            out += static_cast<char>(code);
+        else
+            return {};
+        text.remove_prefix(n);
     }
     return out;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,9 @@ std::size_t not_utf8(std::string_view text);
 /// where Latin-1 has control characters; the five bytes that mean nothing stay the control characters they are there.
 /// Different bytes become different text. Throws Cancelled.
 std::string from_windows_1252(std::string_view bytes);
+
+/// The bytes that from_windows_1252() makes this UTF-8 of; nothing if there are none.
+std::optional<std::string> to_windows_1252(std::string_view text);
 
 /// A name of a file, or of anything else, as text: as it is if it is UTF-8, else taken for Windows-1252.
 std::string as_utf8(std::string name);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cutting/fill_protocol.h"
+#include "helper_process.h"
 
 namespace nglib {
 #include <netgen/nglib.h>
@@ -45,7 +46,7 @@ struct Filling {
 void receive(void* data, std::size_t bytes) {
     auto* at = static_cast<char*>(data);
     while (bytes > 0) {
-        const ssize_t got = read(femscalpel::fill_protocol::socket, at, bytes);
+        const ssize_t got = read(femscalpel::helper_socket, at, bytes);
         if (got <= 0) _exit(2);
         at += got;
         bytes -= static_cast<std::size_t>(got);
@@ -55,7 +56,7 @@ void receive(void* data, std::size_t bytes) {
 void send_back(const void* data, std::size_t bytes) {
     const auto* at = static_cast<const char*>(data);
     while (bytes > 0) {
-        const ssize_t sent = send(femscalpel::fill_protocol::socket, at, bytes, MSG_NOSIGNAL);
+        const ssize_t sent = send(femscalpel::helper_socket, at, bytes, MSG_NOSIGNAL);
         if (sent <= 0) _exit(2);
         at += sent;
         bytes -= static_cast<std::size_t>(sent);

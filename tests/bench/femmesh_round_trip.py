@@ -93,7 +93,27 @@ def measure():
         lap("crack object, plane moved")
     if crack.NodesDoubled == 0:
         raise RuntimeError("the crack object has no crack")
+    measure_comparison(mesh, lap)
     pathlib.Path(os.environ["FEMSCALPEL_BENCH_TIMES"]).write_text("".join(lines) + "done\n")
+
+
+def measure_comparison(mesh, lap):
+    """What it takes to see that a FemMesh is still that of an imported mesh with 50 groups."""
+    import femmesh_bridge
+    from femscalpelobjects import whole
+
+    elements = mesh.cell_ids["tetra"]
+    for k in range(25):
+        mesh.add_group(f"ELEMENTS_{k}", "element", elements[k * len(elements) // 25 : (k + 1) * len(elements) // 25])
+        mesh.add_group(f"NODES_{k}", "node", mesh.node_ids[k::10])
+    femmesh = femmesh_bridge.to_femmesh(mesh)
+    lap("50 groups more")
+    is_same = whole.is_shown(mesh, femmesh)
+    lap("nodes and elements compared")
+    is_same = whole.has_groups_of(mesh, femmesh) and is_same
+    lap("groups compared")
+    if not is_same:
+        raise RuntimeError("the FemMesh is not taken for that of its mesh")
 
 
 if "FEMSCALPEL_BENCH_TIMES" in os.environ:

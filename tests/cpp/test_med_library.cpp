@@ -15,6 +15,8 @@
 
 #include "io/med.h"
 #include "io/med_soundness.h"
+#include "io/med_structure.h"
+#include "io/quiet_libraries.h"
 #include "mesh/cell_type.h"
 #include "simple_meshes.h"
 
@@ -54,15 +56,17 @@ struct MedFiles : testing::Test {
     fs::path folder = fs::temp_directory_path() / ("femscalpel_med_" + std::to_string(::getpid()));
 };
 
+bool is_sound(const fs::path& path) { return MedSoundness(path).of_mesh(); }
+
 TEST_F(MedFiles, AreSoundAsWritten) {
-    const QuietHdf5 quiet;
+    const QuietLibraries quiet;
     const std::string path = folder / "cube.med";
     write_med(checks::grid(2, 2, 2), path);
     const auto lock = lock_libraries();
-    EXPECT_TRUE(is_sound_med(path));
-    EXPECT_FALSE(is_sound_med(folder / "none.med"));
+    EXPECT_TRUE(is_sound(path));
+    EXPECT_FALSE(is_sound(folder / "none.med"));
     std::ofstream(folder / "text.med") << "no HDF5 file";
-    EXPECT_FALSE(is_sound_med(folder / "text.med"));
+    EXPECT_FALSE(is_sound(folder / "text.med"));
     const med_idt id = MEDfileOpen(path.c_str(), MED_ACC_RDONLY);
     ASSERT_GE(id, 0);
     MedFile file(id);
@@ -73,7 +77,7 @@ TEST_F(MedFiles, AreSoundAsWritten) {
 }
 
 TEST_F(MedFiles, WithNamesTooLongForTheLibraryAreNot) {
-    const QuietHdf5 quiet;
+    const QuietLibraries quiet;
     const std::string path = folder / "cube.med";
     write_med(checks::grid(1, 1, 1), path);
     const auto lock = lock_libraries();
@@ -84,7 +88,7 @@ TEST_F(MedFiles, WithNamesTooLongForTheLibraryAreNot) {
     EXPECT_GE(group, 0);
     H5Gclose(group);
     H5Fclose(file);
-    EXPECT_FALSE(is_sound_med(path));
+    EXPECT_FALSE(is_sound(path));
 }
 
 /// As files of MED 2 are: their headers have no checksum that would tell of the damage.
@@ -106,13 +110,13 @@ void write_old_attributes(const fs::path& path, const std::vector<const char*>& 
 }
 
 TEST_F(MedFiles, WithDamagedAttributesAreNot) {
-    const QuietHdf5 quiet;
+    const QuietLibraries quiet;
     const fs::path path = folder / "old.med";
     const std::vector<const char*> names{"DIM", "NXT", "NXI", "TYP", "SRT", "REP", "ESP"};
     const auto lock = lock_libraries();
     for (const std::string name : names) {
         write_old_attributes(path, names);
-        EXPECT_TRUE(is_sound_med(path));  // HDF5 keeps its table of attributes, and takes that for the next file's
+        EXPECT_TRUE(is_sound(path));  // HDF5 keeps its table of attributes, and takes that for the next file's
         std::ifstream file(path, std::ios::binary);
         std::string text{std::istreambuf_iterator<char>(file), {}};
         const std::size_t at = text.find(name + '\0');
@@ -120,8 +124,73 @@ TEST_F(MedFiles, WithDamagedAttributesAreNot) {
         ASSERT_EQ(text[at - 8], 1) << "the version of the attribute's message";
         text[at - 8] = 99;
         std::ofstream(path, std::ios::binary) << text;
-        EXPECT_FALSE(is_sound_med(path)) << name;
+        EXPECT_FALSE(is_sound(path)) << name;
     }
+}
+
+TEST_F(MedFiles, AreOldOrNot) {
+    const std::string path = folder / "a.med";
+    write_med(checks::grid(1, 1, 1), path);
+    EXPECT_FALSE(is_old_hdf5(path));
+    write_old_attributes(path, {"DIM"});
+    EXPECT_TRUE(is_old_hdf5(path));
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const std::size_t block : {512, 1024, 2048}) {
+        std::ofstream(path, std::ios::binary) << std::string(block, ' ') << text;
+        EXPECT_TRUE(is_old_hdf5(path)) << block;
+    }
+    std::ofstream(path, std::ios::binary) << std::string(600, ' ') << text;
+    EXPECT_FALSE(is_old_hdf5(path)) << "no HDF5 file";
+    EXPECT_FALSE(is_old_hdf5(folder / "none.med"));
+    EXPECT_FALSE(is_old_hdf5(folder));
+}
+
+/// The one data set of an old file, in pieces of 100.
+void write_old_pieces(const fs::path& path) {
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    for (const char* name : {"ENS_MAA", "CHA"}) {
+        const hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        const hsize_t count = 1000, piece = 100;
+        const hid_t space = H5Screate_simple(1, &count, nullptr), properties = H5Pcreate(H5P_DATASET_CREATE);
+        H5Pset_chunk(properties, 1, &piece);
+        const hid_t set = H5Dcreate2(group, "COO", H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+        const std::vector<double> values(count, 1.25);
+        EXPECT_GE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+        H5Dclose(set);
+        H5Pclose(properties);
+        H5Sclose(space);
+        H5Gclose(group);
+    }
+    H5Fclose(file);
+}
+
+TEST_F(MedFiles, OfOldAreLookedAtAsAWhole) {
+    const QuietLibraries quiet;
+    const fs::path path = folder / "old.med";
+    const auto lock = lock_libraries();
+    write_old_pieces(path);
+    EXPECT_TRUE(MedSoundness(path).of_mesh());
+    EXPECT_TRUE(MedSoundness(path).of_fields());
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    // The tree that says where the pieces are: its kind is 1, groups' trees are of kind 0.
+    using std::string_literals::operator""s;
+    const auto spoil = [&](std::size_t at) {
+        std::string damaged = text;
+        damaged.replace(at, 4, "EERT");
+        std::ofstream(path, std::ios::binary) << damaged;
+    };
+    const std::size_t first = text.find("TREE\1"s), second = text.find("TREE\1"s, first + 1);
+    ASSERT_NE(second, text.npos);
+    spoil(first);
+    EXPECT_FALSE(MedSoundness(path).of_mesh());
+    EXPECT_FALSE(MedSoundness(path).of_fields());
+    EXPECT_TRUE(is_sound_structure(path, MedPart::mesh, MedLook::structure)) << "which does not look at the data";
+    spoil(second);
+    MedSoundness soundness(path);
+    EXPECT_TRUE(soundness.of_mesh());
+    EXPECT_FALSE(soundness.of_fields());
 }
 
 }  // namespace FILE_NAMESPACE

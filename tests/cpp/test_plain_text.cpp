@@ -43,6 +43,17 @@ TEST(Utf8, IsMadeOfWindows1252) {
     EXPECT_EQ(shown_path(std::filesystem::path("b\xff.med")), "b\u00ff.med");
 }
 
+TEST(Utf8, IsMadeWindows1252Again) {
+    std::string all;
+    for (int c = 1; c < 256; ++c) all += static_cast<char>(c);
+    EXPECT_EQ(to_windows_1252(from_windows_1252(all)), all);
+    EXPECT_EQ(to_windows_1252(""), "");
+    EXPECT_EQ(to_windows_1252("\u0100"), std::nullopt);
+    EXPECT_EQ(to_windows_1252("\u0080"), std::nullopt) << "where it has the euro sign";
+    EXPECT_EQ(to_windows_1252("\U0001F600"), std::nullopt);
+    EXPECT_EQ(to_windows_1252("\xe4"), std::nullopt) << "no UTF-8";
+}
+
 class PlainText : public testing::Test {
 protected:
     std::string plain(const std::string& bytes) {

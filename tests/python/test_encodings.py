@@ -2,6 +2,7 @@
 """Files whose text is not UTF-8, or whose lines end in other ways."""
 
 import json
+import os
 import shutil
 import warnings
 
@@ -184,6 +185,39 @@ def test_messages_about_odd_decks_are_text(tmp_path, old, new):
     report = fs.crack(mesh, fs.Plane((5, 5, 5), (1, 0.1, 0.1))).report
     assert "\ufffd" not in fs.info(mesh).to_text() + report.to_text() + " ".join(report.warnings)
     fs.write(mesh, tmp_path / "b.inp")
+
+
+def deck_in_two_files(folder, name, encoding, more=""):
+    """The deck, its nodes and `more` in a file of that name, which is bytes."""
+    head, rest = DECK.split("*NODE", 1)
+    nodes, rest = rest.split("*ELEMENT", 1)
+    path = folder / "a.inp"
+    path.write_bytes(f"{head}*INCLUDE, INPUT=Stäbe – 1.inc\n*ELEMENT{rest}".encode(encoding))
+    (folder / os.fsdecode(name)).write_text(f"*NODE{nodes}{more}")
+    return path
+
+
+@pytest.mark.parametrize("deck", ["utf-8", "cp1252"])
+@pytest.mark.parametrize("disk", ["utf-8", "cp1252"])
+@pytest.mark.parametrize("blanks", [True, False])
+def test_included_files(tmp_path, deck, disk, blanks):
+    name = "Stäbe – 1.inc" if blanks else "Stäbe–1.inc"
+    path = deck_in_two_files(tmp_path, name.encode(disk), deck)
+    if (deck, disk) == ("utf-8", "cp1252"):  # no such name stands there
+        with pytest.raises(fs.ReadError, match="the included file 'Stäbe – 1.inc' does not exist"):
+            told(fs.read, path)
+        return
+    mesh, _ = told(fs.read, path)
+    assert mesh.node_count == 8
+
+
+@pytest.mark.parametrize("deck", ["utf-8", "cp1252"])
+def test_included_files_of_both_names(tmp_path, deck):
+    for encoding in ("utf-8", "cp1252"):
+        more = "99,9,9,9\n" if encoding == deck else ""
+        path = deck_in_two_files(tmp_path, "Stäbe – 1.inc".encode(encoding), deck, more)
+    mesh, _ = told(fs.read, path)
+    assert 99 in mesh.node_ids, "that of the bytes that stand in the deck"
 
 
 def test_parts_and_instances(tmp_path):

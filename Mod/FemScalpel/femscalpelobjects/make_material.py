@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The functions of ObjectsFemScalpel that add material, round edges and move walls."""
 
-import FreeCAD
-
 from femscalpel.signatures import takes
+from femscalpel.tools import TOOLS
 
-from . import operator_options, tool_properties
+from . import checked, operator_options, tool_properties
 from .fillet import Fillet
 from .making import check_source, make, placement_of
 from .merge import Merge
@@ -87,8 +86,8 @@ def makeFillet(doc, source, along, radius=1.0, name="Fillet", *, options):
     Returns and raises as makeCrack().
     """
     check_source(doc, source)
-    points = () if isinstance(along, str) else [FreeCAD.Vector(*point) for point in along]
-    if not along:
+    points = () if isinstance(along, str) else checked.vectors(along, "along")
+    if not (along if isinstance(along, str) else points):
         raise ValueError("along is empty; give the name of a group, or points near edges")
     return make(
         doc,
@@ -152,11 +151,12 @@ def makeReshape(
     if sum(motion is not None for motion in (onto, by, scale)) != 1:
         raise ValueError("give one of onto, by and scale")
     if onto is not None:
-        motion = {"Motion": "Onto", "ToolShape": onto}
+        motion = {"Motion": "Onto", "ToolShape": checked.one_of(onto, "onto", list(TOOLS))}
     elif by is not None:
-        motion = {"Motion": "By", "MoveBy": FreeCAD.Vector(*by)}
+        motion = {"Motion": "By", "MoveBy": checked.vector(by, "by")}
     else:
-        motion = {"Motion": "Scale", "ScaleFactor": scale[0], "ScaleCentre": FreeCAD.Vector(*scale[1])}
+        factor, centre = checked.pair(scale, "scale", "a factor and a point")
+        motion = {"Motion": "Scale", "ScaleFactor": factor, "ScaleCentre": checked.vector(centre, "scale's point")}
     return make(
         doc,
         Reshape,

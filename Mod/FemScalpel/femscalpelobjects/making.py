@@ -3,18 +3,16 @@
 
 import FreeCAD
 
-from . import operator_options, tool_properties
+from . import checked, operator_options, tool_properties
 
 if FreeCAD.GuiUp:
     from femscalpelgui.viewproviders.mesh_operation import ViewProviderMeshOperation
 
 
 def check_source(doc, source, name="source"):
-    """TypeError or ValueError, unless `source` is a FEM mesh object of `doc`; `name` is what the caller calls it."""
-    if not hasattr(source, "isDerivedFrom") or not source.isDerivedFrom("Fem::FemMeshObject"):
-        raise TypeError(f"{name} must be a FEM mesh object (Fem::FemMeshObject)")
-    if source.Document != doc:
-        raise ValueError(f"{name} '{source.Label}' is in another document")
+    """TypeError or ValueError, unless `source` is a FEM mesh object of the document `doc`; `name` is what the caller
+    calls it."""
+    checked.mesh_object(source, name, checked.document(doc))
 
 
 def make_along_tool(doc, operation, source, name, tool, place, inputs, options, **properties):
@@ -36,11 +34,11 @@ def make_along_tool(doc, operation, source, name, tool, place, inputs, options, 
 def make(doc, operation, source, name, options, **properties):
     """The new object; nothing is left behind when a property does not take its value."""
     properties = {**properties, **operator_options.to_properties(options)}
-    obj = doc.addObject("Fem::FemMeshObjectPython", name)
+    obj = doc.addObject("Fem::FemMeshObjectPython", checked.text(name, "name"))
     try:
         operation(obj)
         for key, value in properties.items():
-            setattr(obj, key, value)
+            checked.set_property(obj, key, value)
         obj.Source = source
     except Exception:
         doc.removeObject(obj.Name)
@@ -56,9 +54,9 @@ def placement_of(source, placement, origin, direction, name):
     if placement is not None:
         if origin is not None or direction is not None:
             raise ValueError(f"give placement, or origin and {name}, not both")
-        return FreeCAD.Placement(placement)
-    base = source.FemMesh.BoundBox.Center if origin is None else FreeCAD.Vector(*origin)
-    direction = FreeCAD.Vector(0, 0, 1) if direction is None else FreeCAD.Vector(*direction)
+        return checked.placement(placement)
+    base = source.FemMesh.BoundBox.Center if origin is None else checked.vector(origin, "origin")
+    direction = FreeCAD.Vector(0, 0, 1) if direction is None else checked.vector(direction, name)
     if not direction.Length > 0:
         raise ValueError(f"{name} is the zero vector; give a direction")
     return FreeCAD.Placement(base, FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), direction))

@@ -6,7 +6,10 @@ when an object is computed. What an option means is said in femscalpel/options.p
 """
 
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Any, Callable, Dict, Tuple
+
+import FreeCAD
 
 import femscalpel
 from femscalpel.signatures import Argument
@@ -34,7 +37,7 @@ def _refine_properties(refine):
         return {"Refine": "Automatic"}
     if refine is False:
         return {"Refine": "Never"}
-    if isinstance(refine, bool) or not refine > 0:
+    if isinstance(refine, bool) or not isinstance(refine, (Real, FreeCAD.Units.Quantity)) or not refine > 0:
         raise ValueError(f"refine must be None, False or a positive length, not {refine!r}")
     return {"Refine": "Size", "RefineSize": refine}
 
@@ -108,7 +111,7 @@ OPTIONS = (
                 ["*"],
             ),
         ),
-        lambda preserve: {"PreservedGroups": ["*"] if preserve is None else list(preserve)},
+        lambda preserve: {"PreservedGroups": ["*"] if preserve is None else preserve},
         "preserve",
         _read_preserve,
     ),

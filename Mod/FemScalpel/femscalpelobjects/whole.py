@@ -74,7 +74,7 @@ def whole_of(obj):
         mesh.deck_places = json.loads(getattr(obj, _PLACES))
     for kind, old, new in names_of(obj):
         mesh.rename_group(old, new, kind)
-    return mesh if is_shown(mesh, obj.FemMesh) and _has_groups_of(mesh, obj.FemMesh) else None
+    return mesh if is_shown(mesh, obj.FemMesh) and has_groups_of(mesh, obj.FemMesh) else None
 
 
 def _made_whole(obj):
@@ -89,8 +89,31 @@ def _made_whole(obj):
     tools = proxy.tools(obj)
     result, on_shape = proxy.result(obj, mesh, tools, proxy.where_nodes_may_move(obj, mesh, tools))
     points = on_shape.put_back(result.mesh, tools, proxy.meant_to_leave(result.report))
-    is_same = np.array_equal(points, result.mesh.points) and is_shown(result.mesh, obj.FemMesh)
-    return result.mesh if is_same else None
+    if not np.array_equal(points, result.mesh.points) or not is_shown(result.mesh, obj.FemMesh):
+        return None
+    _take_places(result.mesh, obj.FemMesh)
+    return result.mesh
+
+
+def _take_places(mesh, femmesh):
+    """Gives the nodes of a mesh that was made anew the places that are shown. FreeCAD saves those with all digits, but
+    of a placement the axis and the angle, of which it makes a rotation that differs in the last one."""
+    numbers, there = _nodes_of(femmesh)
+    there = there[np.argsort(numbers)]
+    if np.array_equal(mesh.points, there):
+        return
+    tolerance = _SAME * np.ptp(mesh.points, axis=0).max(initial=0.0)
+    points = np.empty_like(there)
+    # One by one; else in the order of a direction that no model knows, in which nodes of one place may be exchanged.
+    along = _DIRECTIONS[:, -1]
+    for ours, theirs in (
+        (np.arange(len(there)),) * 2,
+        (np.argsort(mesh.points @ along, kind="stable"), np.argsort(there @ along, kind="stable")),
+    ):
+        points[ours] = there[theirs]
+        if (abs(points - mesh.points) <= tolerance).all():
+            mesh._move_nodes(points)
+            return
 
 
 def is_shown(mesh, femmesh):
@@ -101,36 +124,62 @@ def is_shown(mesh, femmesh):
     highest = [len(ids) for name, ids in mesh.cell_ids.items() if CELL_TYPES[name][0] == mesh.dimension]
     if mesh.node_count != femmesh.NodeCount or mesh.dimension and sum(highest) != elements:
         return False
-    there = np.fromiter(chain.from_iterable(femmesh.Nodes.values()), float, 3 * femmesh.NodeCount).reshape(-1, 3)
+    _, there = _nodes_of(femmesh)
     size = np.ptp(mesh.points, axis=0).max(initial=0.0)
     away = np.sort(mesh.points @ _DIRECTIONS, axis=0) - np.sort(there @ _DIRECTIONS, axis=0)
     return bool((abs(away) <= _SAME * size).all())
 
 
-def _has_groups_of(mesh, femmesh):
+def has_groups_of(mesh, femmesh):
     """Whether a FemMesh has the groups of the femscalpel.Mesh it shows: as many members, and of nodes those in the same
     places."""
-    dimension = {int(n): CELL_TYPES[kind][0] for kind, ids in mesh.cell_ids.items() for n in ids}
-    there = {}
+    there, members = Counter(), {}
     for index in femmesh.Groups:
-        key = femmesh.getGroupName(index), femmesh.getGroupElementType(index)
-        there.setdefault(key, []).extend(femmesh.getGroupElements(index))
-    there = {key: members for key, members in there.items() if members}
+        name, kind = femmesh.getGroupName(index), femmesh.getGroupElementType(index)
+        numbers = femmesh.getGroupElements(index)
+        there[name, kind] += len(numbers)
+        if kind == "Node":
+            members.setdefault(name, []).append(np.array(numbers, int))
     counts, places = Counter(), {}
+    dimension_of, place_of = _table(_dimensions(mesh)), _table([(mesh.node_ids, mesh.points)])
     for group in mesh.groups.all():
         if group.kind == "node" and len(group):
             counts[group.name, "Node"] = len(group)
-            places[group.name] = mesh.points[np.isin(mesh.node_ids, group.ids)]
-        elif group.kind == "element":
-            counts.update((group.name, _TYPES[dimension[int(n)]]) for n in group.ids if dimension[int(n)])
-    if counts != {key: len(members) for key, members in there.items()}:
+            places[group.name] = place_of(group.ids)
+        elif group.kind == "element" and len(group):
+            dimensions = np.bincount(dimension_of(group.ids), minlength=4)
+            counts.update({(group.name, kind): int(dimensions[d]) for d, kind in _TYPES.items()})
+    if +counts != +there:
         return False
-    nodes, size = femmesh.Nodes, np.ptp(mesh.points, axis=0).max(initial=0.0)
+    size = np.ptp(mesh.points, axis=0).max(initial=0.0)
+    shown_at = _table([_nodes_of(femmesh)])
     for name, points in places.items():
-        shown = np.array([tuple(nodes[n]) for n in there[name, "Node"]])
+        shown = shown_at(np.concatenate(members[name]))
         if (abs(shown.mean(axis=0) - points.mean(axis=0)) > _SAME * size).any():
             return False
     return True
+
+
+def _nodes_of(femmesh):
+    """Numbers and places of the nodes of a FemMesh."""
+    nodes = femmesh.Nodes
+    numbers = np.fromiter(nodes, int, len(nodes))
+    return numbers, np.fromiter(chain.from_iterable(nodes.values()), float, 3 * len(nodes)).reshape(-1, 3)
+
+
+def _dimensions(mesh):
+    """Numbers of elements with their dimensions, for each type."""
+    return [(ids, np.full(len(ids), CELL_TYPES[kind][0])) for kind, ids in mesh.cell_ids.items()]
+
+
+def _table(parts):
+    """A function from numbers to values; `parts` are (numbers, values) of all there are."""
+    if not parts:
+        return lambda numbers: np.empty(0, int)
+    numbers, values = (np.concatenate(part) for part in zip(*parts))
+    order = np.argsort(numbers, kind="stable")
+    numbers, values = numbers[order], values[order]
+    return lambda wanted: values[np.searchsorted(numbers, wanted)]
 
 
 def left_behind(obj):

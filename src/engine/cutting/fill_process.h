@@ -17,12 +17,11 @@ struct FillAnswer {
     std::vector<std::array<int, 4>> tetras;
 };
 
-/// Path of the program: beside the file this code was loaded from, else where it was built. Throws Error if it is
-/// nowhere.
+/// Path of the program; see helper_program(). Throws Error if it is nowhere.
 std::string fill_program();
 
 /// Runs the program `program` on a cavity, and ends it after `seconds` or when the calling thread is cancelled. Any
-/// number of threads can do so at once. What the program prints is dropped. An end without an answer is a failure.
+/// number of threads can do so at once. An end without an answer is a failure.
 FillAnswer run_fill_program(const std::string& program, const fill_protocol::Request& request,
                             const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
                             double seconds);

@@ -3,11 +3,9 @@
 
 #include <cstdint>
 
-/// What the engine and the program that fills cavities say to each other, through one socket. Both run on one machine.
+/// What the engine and the program that fills cavities say to each other, through one socket (helper_process.h). Both
+/// run on one machine.
 namespace femscalpel::fill_protocol {
-
-/// Number of the socket in the program.
-constexpr int socket = 3;
 
 /// What the engine sends first; then `points` times three coordinates (double) and `triangles` times three indices of
 /// them (int32), the normals pointing out of the cavity.

@@ -33,7 +33,9 @@ private:
     void read(const fs::path& path) {
         std::error_code error;
         open_.push_back(fs::weakly_canonical(path, error));
+        const std::size_t remarks = remarks_.size();
         const auto file = std::make_shared<const DeckFile>(DeckFile{shown_path(path), load_text(path, remarks_)});
+        const bool was_utf8 = remarks_.size() == remarks;
         const char* p = file->text.data();
         const char* const end = p + file->text.size();
         const char* piece = p;
@@ -76,7 +78,7 @@ private:
             std::vector<CardParameter> parameters;
             parse_keyword(head, keyword, parameters);
             if (keyword == "INCLUDE") {
-                include(file->path + ":" + std::to_string(line) + ": ", keyword, path, parameters);
+                include(file->path + ":" + std::to_string(line) + ": ", keyword, path, was_utf8, parameters);
                 piece = head_end;
                 piece_line = line + head_lines;
             } else {
@@ -88,7 +90,7 @@ private:
                 piece_line = line;
                 if (has_data_in_file(cards_.back().keyword) && cards_.back().parameter("INPUT")) {
                     finish_piece(head_end);
-                    read_data_file(path);
+                    read_data_file(path, was_utf8);
                     piece = head_end;
                     piece_line = line + head_lines;
                 }
@@ -127,17 +129,17 @@ private:
     }
 
     /// The last card's lines of data stand in a file: now they stand here.
-    void read_data_file(const fs::path& from) {
+    void read_data_file(const fs::path& from, bool was_utf8) {
         Card& card = cards_.back();
         const std::string where = card.where() + ": ", keyword = card.keyword;
         const std::vector<CardParameter> all = card.parameters;
         std::vector<CardParameter> rest = all;
         std::erase_if(rest, [](const CardParameter& p) { return p.name == "INPUT"; });
         change_parameters(card, std::move(rest));
-        include(where, keyword, from, all);
+        include(where, keyword, from, was_utf8, all);
     }
 
-    void include(const std::string& where, const std::string& keyword, const fs::path& from,
+    void include(const std::string& where, const std::string& keyword, const fs::path& from, bool was_utf8,
                  const std::vector<CardParameter>& parameters) {
         std::string name;
         for (const CardParameter& p : parameters)
@@ -146,8 +148,12 @@ private:
         if (name.empty()) throw ReadError(where + "*" + keyword + " needs INPUT=file");
         std::string bare = name;
         std::erase(bare, ' ');  // CalculiX reads file names without blanks
+        std::vector<std::string> spellings{name, bare};
+        if (!was_utf8)  // as it stood in the file first
+            for (const std::string& text : {bare, name})
+                if (auto bytes = to_windows_1252(text)) spellings.insert(spellings.begin(), std::move(*bytes));
         std::error_code error;
-        for (const std::string& spelling : {name, bare})
+        for (const std::string& spelling : spellings)
             for (const fs::path& base : {from.parent_path(), folder_}) {
                 const fs::path path = base / spelling;
                 if (!fs::is_regular_file(path, error)) continue;

@@ -6,13 +6,13 @@
 
 #include "cancel.h"
 #include "io/med_fields.h"
-#include "io/med_soundness.h"
+#include "io/med_structure.h"
 #include "utf8.h"
 
 namespace femscalpel {
 namespace {
 
-/// Attributes are no longer than that (is_sound_med()), whatever the library thinks.
+/// Attributes are no longer than that (med_structure.h), whatever the library thinks.
 constexpr std::size_t text_size = longest_med_attribute + 1;
 constexpr med_int most_components = 4000;
 
@@ -34,9 +34,9 @@ public:
     MedFieldReader(const MedFieldSource& source, Mesh& mesh) : source_(source), fid_(source.fid), mesh_(mesh) {}
 
     std::shared_ptr<const Fields> read() {
-        const med_int count = MEDnField(fid_);
+        const med_int count = source_.sound.of_fields() ? MEDnField(fid_) : -1;
         if (count == 0) return {};
-        if (count < 0 || !are_sound_med_fields(source_.path)) {
+        if (count < 0) {
             mesh_.remarks.push_back(as_utf8(source_.path) + ": the fields are not read: they are damaged");
             return {};
         }

@@ -8,6 +8,7 @@
 
 #include "fields/field.h"
 #include "io/med_library.h"
+#include "io/med_soundness.h"
 #include "mesh/mesh.h"
 
 namespace femscalpel {
@@ -19,6 +20,7 @@ struct MedFieldSource {
     std::string mesh;                 ///< the mesh's name in the file
     bool old = false;                 ///< of a version before 3
     std::uint64_t largest_array = 0;  ///< in bytes; what says that it is larger is damaged
+    MedSoundness& sound;              ///< of the file
 };
 
 /// The fields on a mesh whose nodes and elements are in the file's order; null if there are none. What cannot be read,

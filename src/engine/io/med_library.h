@@ -18,13 +18,6 @@ namespace femscalpel {
 /// Cancelled.
 std::unique_lock<std::timed_mutex> lock_libraries();
 
-/// Keeps HDF5 from printing its error stack. MED-fichier does so too, with an older call that leaves HDF5
-/// confused when it closes at the end of the program; hence once more at the end.
-struct QuietHdf5 {
-    QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-    ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-};
-
 /// An enumeration's value as the library has read it: in a damaged file any number, which C++ does not let us load as
 /// what it is declared.
 template <class Enumeration>

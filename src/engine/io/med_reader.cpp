@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <string>
@@ -16,6 +16,8 @@
 #include "io/med_fields.h"
 #include "io/med_library.h"
 #include "io/med_soundness.h"
+#include "io/med_structure.h"
+#include "io/quiet_libraries.h"
 #include "utf8.h"
 
 namespace femscalpel {
@@ -80,7 +82,7 @@ private:
 class Reader {
 public:
     explicit Reader(const std::filesystem::path& path, std::string wanted = {})
-        : path_(path.string()), wanted_(std::move(wanted)) {}
+        : path_(path.string()), sound_(path_), wanted_(std::move(wanted)) {}
 
     Mesh read() {
         const std::unique_ptr<MedFile> file = open();
@@ -97,7 +99,7 @@ public:
         } catch (const Error& e) {
             fail(std::string("contradictory or damaged: ") + e.what());
         }
-        mesh_.fields = read_med_fields({fid_, path_, name_, is_old_, largest_array()}, mesh_);
+        mesh_.fields = read_med_fields({fid_, path_, name_, is_old_, largest_array(), sound_}, mesh_);
         return std::move(mesh_);
     }
 
@@ -120,13 +122,10 @@ private:
         if (!std::filesystem::is_regular_file(status)) fail("not a file");
         file_size_ = std::filesystem::file_size(path_, error);
         if (error) fail("cannot be read: " + error.message());
-        if (std::FILE* probe = std::fopen(path_.c_str(), "rb"))
-            std::fclose(probe);
-        else
-            fail(std::string("cannot be read: ") + std::strerror(errno));
+        if (!std::ifstream(path_)) fail(std::string("cannot be read: ") + std::strerror(errno));
 
         if (H5Fis_hdf5(path_.c_str()) <= 0) fail("not a MED file (nor any HDF5 file)");
-        if (!is_sound_med(path_)) fail("truncated or damaged: its structure cannot be read");
+        if (!sound_.of_mesh()) fail("truncated or damaged: its structure cannot be read");
         med_bool hdf_good = MED_FALSE, med_good = MED_FALSE;
         if (MEDfileCompatibility(path_.c_str(), &hdf_good, &med_good) < 0) damaged("its MED version");
         if (!med_good) fail("not a MED file, or one of a MED version this library (" MED_VERSION_STR ") cannot read");
@@ -252,8 +251,7 @@ private:
                                groups) >= 0;
     }
 
-    /// No array can be larger than this; a larger count is damage. Compressed files shrink at most so much.
-    std::uint64_t largest_array() const { return 1000 * (file_size_ + 1024); }
+    std::uint64_t largest_array() const { return largest_med_array(file_size_); }
 
     Index count(med_entity_type entity, med_geometry_type geometry, med_data_type data,
                 med_connectivity_mode mode = MED_NODAL) const {
@@ -463,6 +461,7 @@ private:
     }
 
     std::string path_;
+    MedSoundness sound_;
     std::uintmax_t file_size_ = 0;
     std::string wanted_;  // the mesh's name; the first if empty
     med_idt fid_ = -1;
@@ -479,7 +478,7 @@ private:
 
 auto from_file(const std::filesystem::path& path, auto read) {
     const auto lock = lock_libraries();
-    const QuietHdf5 quiet;
+    const QuietLibraries quiet;
     try {
         return read();
     } catch (const std::bad_alloc&) {

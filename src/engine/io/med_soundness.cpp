@@ -1,117 +1,75 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "io/med_soundness.h"
 
+#include <array>
 #include <cstring>
-#include <initializer_list>
+#include <fstream>
 
-#include "io/med_library.h"
+#include "cancel.h"
+#include "error.h"
+#include "helper_process.h"
+#include "io/med_structure.h"
+#include "utf8.h"
 
 namespace femscalpel {
 namespace {
 
-/// Longest path below the file's root that MED-fichier's buffers hold.
-constexpr std::size_t longest_path = 200;
-
-herr_t check_attribute(hid_t object, const char* name, const H5A_info_t*, void*) {
-    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
-    if (attribute < 0) return -1;
-    const hid_t space = H5Aget_space(attribute);
-    const bool single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
-    if (space >= 0) H5Sclose(space);
-    H5Aclose(attribute);
-    return single ? 0 : -1;
-}
-
-/// Texts that the library copies into buffers of fixed size; but for components it asks for the memory.
-herr_t check_field_attribute(hid_t object, const char* name, const H5A_info_t* info, void* more) {
-    if (check_attribute(object, name, info, more) < 0) return -1;
-    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
-    if (attribute < 0) return -1;
-    const hid_t type = H5Aget_type(attribute);
-    bool good = type >= 0;
-    if (good && H5Tget_class(type) == H5T_STRING) {
-        const bool of_components = std::strcmp(name, "NOM") == 0 || std::strcmp(name, "UNI") == 0;
-        const std::size_t most = of_components ? longest_med_attribute : MED_COMMENT_SIZE + 1;
-        const bool short_one = std::strcmp(name, "DES") != 0 && !of_components;
-        good = H5Tis_variable_str(type) == 0 && H5Tget_size(type) <= (short_one ? MED_NAME_SIZE + 1 : most);
-    }
-    if (type >= 0) H5Tclose(type);
-    H5Aclose(attribute);
-    return good ? 0 : -1;
-}
-
-bool check_dataset(hid_t object) {
-    const hid_t space = H5Dget_space(object);
-    if (space < 0) return false;
-    const bool good = H5Sget_simple_extent_ndims(space) == 1;
-    H5Sclose(space);
-    return good;
-}
-
-/// Whether every attribute can be decoded: asked for a name that none has, HDF5 looks at all. Iterating over a damaged
-/// one crashes in HDF5 1.10, which frees a table it never filled.
-bool check_attributes_decode(hid_t object) { return H5Aexists(object, "of no MED file") >= 0; }
-
-herr_t visit_link(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
-
-/// MED-fichier finds families by the order they were made in, an index that can be damaged by itself.
-bool check_creation_order(hid_t group) {
-    const hid_t properties = H5Gget_create_plist(group);
-    if (properties < 0) return false;
-    unsigned order = 0;
-    const bool known = H5Pget_link_creation_order(properties, &order) >= 0;
-    H5Pclose(properties);
-    if (!known) return false;
-    hsize_t first = 0;
-    return !(order & H5P_CRT_ORDER_INDEXED) ||
-           H5Literate(group, H5_INDEX_CRT_ORDER, H5_ITER_NATIVE, &first, visit_link, nullptr) >= 0;
-}
-
-herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void* of_fields) {
-    const char* slash = std::strrchr(path, '/');
-    if (std::strlen(slash ? slash + 1 : path) > MED_NAME_SIZE || std::strlen(path) > longest_path) return -1;
-    const bool family_list = slash && (std::strcmp(slash, "/ELEME") == 0 || std::strcmp(slash, "/NOEUD") == 0);
-    if (info->num_attrs == 0 && info->type != H5O_TYPE_DATASET && !family_list) return 0;
-    const hid_t object = H5Oopen(root, path, H5P_DEFAULT);
-    if (object < 0) return -1;
-    hsize_t first = 0;
-    bool good = check_attributes_decode(object) &&
-                H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &first,
-                            of_fields ? check_field_attribute : check_attribute, nullptr) >= 0;
-    if (good && info->type == H5O_TYPE_DATASET) good = check_dataset(object);
-    if (good && family_list) good = check_creation_order(object);
-    H5Oclose(object);
-    return good ? 0 : -1;
-}
-
-#if H5_VERSION_GE(1, 12, 0)  // H5O_info_t is H5O_info2_t from then on
-constexpr auto visit_objects = H5Ovisit3;
-#else
-constexpr auto visit_objects = H5Ovisit2;
-#endif
-
-bool are_sound(const std::string& path, std::initializer_list<const char*> parts, bool of_fields) {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file < 0) return false;
-    MedFile closer(file);
-    for (const char* part : parts) {
-        const htri_t there = H5Lexists(file, part, H5P_DEFAULT);
-        if (there < 0) return false;
-        if (there == 0) continue;
-        const hid_t group = H5Gopen2(file, part, H5P_DEFAULT);
-        if (group < 0) return false;
-        const herr_t walked = visit_objects(group, H5_INDEX_NAME, H5_ITER_NATIVE, check_object,
-                                            of_fields ? &of_fields : nullptr, H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS);
-        H5Gclose(group);
-        if (walked < 0) return false;
-    }
-    return true;
-}
+constexpr double check_seconds = 60;
 
 }  // namespace
 
-bool is_sound_med(const std::string& path) { return are_sound(path, {"INFOS_GENERALES", "ENS_MAA", "FAS"}, false); }
+bool is_old_hdf5(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    // Signature, then the superblock's version: at the beginning, or behind a block of the user's whose size is a power
+    // of two from 512 on (HDF5 File Format Specification, section II.A).
+    for (std::streamoff at = 0; file.seekg(at); at = at == 0 ? 512 : 2 * at) {
+        std::array<char, 9> start{};
+        if (!file.read(start.data(), start.size())) return false;
+        if (std::memcmp(start.data(), "\x89HDF\r\n\x1a\n", 8) == 0) return start[8] == 0 || start[8] == 1;
+    }
+    return false;
+}
 
-bool are_sound_med_fields(const std::string& path) { return are_sound(path, {"CHA", "PROFILS", "GAUSS"}, true); }
+std::string check_med_program() {
+    return helper_program("femscalpel-check-med", "the program that looks at old MED files");
+}
+
+bool MedSoundness::of_mesh() {
+    if (!mesh_) {
+        if (is_old_hdf5(path_))
+            ask_program();
+        else
+            mesh_ = is_sound_structure(path_, MedPart::mesh, MedLook::structure);
+    }
+    return *mesh_;
+}
+
+bool MedSoundness::of_fields() {
+    if (!fields_) {
+        if (is_old_hdf5(path_))
+            ask_program();
+        else
+            fields_ = is_sound_structure(path_, MedPart::fields, MedLook::structure);
+    }
+    return *fields_;
+}
+
+void MedSoundness::ask_program() {
+    try {
+        const std::string program = check_med_program();
+        HelperProcess process(program, {path_}, check_seconds);
+        const auto says = [&](char expected) {
+            char word = 0;
+            return process.receive_all(&word, 1) && word == expected;
+        };
+        if (!says(check_med_protocol::begun)) throw Error("cannot start " + program + ": it ends at once");
+        mesh_ = says(check_med_protocol::sound_mesh);
+        fields_ = *mesh_ && says(check_med_protocol::sound_fields);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        throw ReadError(shown_path(path_) + ": " + error.what());
+    }
+}
 
 }  // namespace femscalpel

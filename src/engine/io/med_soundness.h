@@ -1,19 +1,38 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace femscalpel {
 
-/// Whether the parts of the file MED-fichier reads a mesh from can be walked and fit its buffers. To be asked before
-/// the library reads anything: it copies link names and attributes into buffers of fixed size without looking at their
-/// length, so a damaged file could overwrite memory. The caller holds lock_libraries().
-bool is_sound_med(const std::string& path);
+/// Whether MED-fichier can be let at a file. To be asked before the library reads anything: it copies link names and
+/// attributes into buffers of fixed size without looking at their length, so a damaged file could overwrite memory.
+/// And HDF5 itself crashes on some damaged files of the format it had before 1.8 (superblock 0 or 1), whose metadata
+/// have no checksums: MED 2 wrote such, and meshio does. These are looked at by a program of its own first, which may.
+class MedSoundness {
+public:
+    explicit MedSoundness(std::string path) : path_(std::move(path)) {}
 
-/// The same of the parts that fields are read from, whose text attributes have at most longest_med_attribute bytes.
-bool are_sound_med_fields(const std::string& path);
+    /// Of what a mesh is read from. The caller holds lock_libraries(). Throws Cancelled, and ReadError if the program
+    /// for old files cannot be run.
+    bool of_mesh();
 
-/// In bytes; names of a field's components are the longest.
-inline constexpr std::size_t longest_med_attribute = 65536;
+    /// The same of what fields are read from.
+    bool of_fields();
+
+private:
+    void ask_program();
+
+    std::string path_;
+    std::optional<bool> mesh_, fields_;
+};
+
+/// Whether the file is of HDF5's format before 1.8, without checksums; false also of what is no HDF5 file.
+bool is_old_hdf5(const std::string& path);
+
+/// Path of the program that looks at old files; see helper_program(). Throws Error if it is nowhere.
+std::string check_med_program();
 
 }  // namespace femscalpel

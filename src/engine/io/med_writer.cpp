@@ -18,6 +18,7 @@
 #include "io/med.h"
 #include "io/med_fields.h"
 #include "io/med_library.h"
+#include "io/quiet_libraries.h"
 #include "mesh/facet_element.h"
 #include "utf8.h"
 
@@ -303,7 +304,7 @@ private:
 
 void write_med(const Mesh& mesh, const std::filesystem::path& path) {
     const auto lock = lock_libraries();
-    const QuietHdf5 quiet;
+    const QuietLibraries quiet;
     Writer(mesh, path).write();
 }
 

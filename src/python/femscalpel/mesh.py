@@ -273,6 +273,10 @@ class Mesh:
         """Node coordinates: (n, 3) float64, read-only view."""
         return self._engine_mesh.points
 
+    def _move_nodes(self, points):
+        """Puts all nodes where (n, 3) float64 says. Checks nothing: for differences in the last digits."""
+        self._engine_mesh.move_nodes(points)
+
     @property
     def node_ids(self) -> np.ndarray:
         """Node numbers: (n,) int64, read-only view."""
