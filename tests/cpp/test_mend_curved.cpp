@@ -5,6 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "random_numbers.h"
 #include "simple_meshes.h"
 #include "tools/plane.h"
 #include "whole_workpiece.h"
@@ -66,6 +70,41 @@ TEST_F(MendCurved, LeavesSoundElementsAlone) {
     move();
     mend_curved(f);
     EXPECT_EQ(f.d.mids.bulge(middle, end), Vec3(0.1, 0, 0));
+}
+
+/// Smallest mean ratio by corners, negative when inverted.
+double worst_by_corners(const Workpiece& f) {
+    double worst = 1;
+    for (int t = 0; t < f.d.band.tetras.size(); ++t)
+        if (f.d.band.tetras.alive(t)) worst = std::min(worst, tetra_quality(f.d, t));
+    return worst;
+}
+
+TEST(MendCurvedAtRandom, InvertsNoElementByItsCorners) {
+    const Mesh mesh = checks::second_order(checks::grid(2, 2, 2));
+    checks::Random random(3);
+    int mended = 0, folded = 0;
+    for (int n = 0; n < 25; ++n) {
+        Workpiece f = checks::whole_workpiece(mesh, away);
+        const int middle = node_at(f.d.band, {1, 1, 1});
+        std::vector<int> neighbours;
+        for (int v = 0; v < 27; ++v) {
+            f.d.band.neighbours(v, neighbours);
+            for (const int w : neighbours)
+                if (v < w && random.uniform() < 0.2)
+                    f.d.mids.set_bulge(v, w, random.uniform(0, 0.6) * random.direction());
+        }
+        f.d.band.nodes[middle].at += random.uniform(0, 0.3) * random.direction();
+        ASSERT_GT(worst_by_corners(f), 0);
+        const std::size_t before = folded_elements(f, least_curved).size();
+        mend_curved(f, n % 2 == 0);
+        EXPECT_GT(worst_by_corners(f), 0) << n;
+        const std::size_t after = folded_elements(f, least_curved).size();
+        mended += after < before;
+        folded += after > 0;
+    }
+    EXPECT_GT(mended, 5);
+    EXPECT_GT(folded, 5) << "some cannot be mended";
 }
 
 TEST(MendCurvedLinear, HasNothingToDo) {

@@ -58,6 +58,10 @@ def _describe_again(document):
             obj.Proxy.describe_again(obj)
 
 
+def _is_at_rest(document):
+    return not (document.Transacting or document.Restoring or document.Recomputing)
+
+
 def _waits(obj):
     """Whether what an object is made from has no mesh, as an operation that cannot be computed."""
     return any(is_ours(mesh) and not mesh.FemMesh.NodeCount for mesh in made_of(obj))
@@ -116,6 +120,8 @@ class _Watch:
                 signs.begin(_sign())
 
     def slotChangedObject(self, obj, prop):
+        if prop == "Group" and obj.isDerivedFrom("Fem::FemAnalysis") and _is_at_rest(obj.Document):
+            _describe_again(obj.Document)
         if prop not in contents.OF_CONTENTS:
             return
         contents.forget(obj)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cancel.h"
 #include "deformation/curved_shape.h"
@@ -68,7 +69,8 @@ private:
 
     double merit(CurvedStar& star, int v, const Vec3& x) {
         const double straight = quality_around(d_, v, x);
-        if (!(straight > 0)) return -2;
+        // Worse than any fold: an element that is inverted by its corners is never sound.
+        if (!(straight > 0)) return -std::numeric_limits<double>::infinity();
         return std::min(star.worst(x) / (2 * goal), std::min(1.0, straight / 0.3));
     }
 
