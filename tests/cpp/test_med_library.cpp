@@ -193,5 +193,47 @@ TEST_F(MedFiles, OfOldAreLookedAtAsAWhole) {
     EXPECT_FALSE(soundness.of_fields());
 }
 
+/// An old file whose one data set has `size` entries, and says that they are of `counted` things.
+void write_old_counted(const fs::path& path, const std::string& groups, const char* set, hsize_t size, int counted) {
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t links = H5Pcreate(H5P_LINK_CREATE), scalar = H5Screate(H5S_SCALAR);
+    H5Pset_create_intermediate_group(links, 1);
+    const hid_t group = H5Gcreate2(file, groups.c_str(), links, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t data = H5Dcreate2(group, set, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t attribute = H5Acreate2(data, "NBR", H5T_STD_I32LE, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_INT, &counted), 0);
+    H5Aclose(attribute);
+    H5Dclose(data);
+    H5Sclose(space);
+    H5Gclose(group);
+    H5Sclose(scalar);
+    H5Pclose(links);
+    H5Fclose(file);
+}
+
+TEST_F(MedFiles, OfOldHaveAsManyEntriesAsTheySay) {
+    const QuietLibraries quiet;
+    const std::string path = folder / "old.med";
+    const auto lock = lock_libraries();
+    const auto is_sound_with = [&](const char* groups, const char* set, hsize_t size, int counted) {
+        write_old_counted(path, groups, set, size, counted);
+        EXPECT_TRUE(is_sound_structure(path, MedPart::mesh, MedLook::structure));
+        return is_sound_structure(path, MedPart::mesh, MedLook::everything);
+    };
+    EXPECT_TRUE(is_sound_with("ENS_MAA/M/NOE", "FAM", 4, 4));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/NOE", "FAM", 260, 4));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/NOE", "FAM", 3, 4));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/NOE", "NUM", 4, -4));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/NOE", "NUM", 4, 0));
+    EXPECT_TRUE(is_sound_with("ENS_MAA/M/NOE", "COO", 12, 4));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/NOE", "COO", 16, 4));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/NOE", "COO", 11, 4));
+    EXPECT_TRUE(is_sound_with("ENS_MAA/M/MAI/TE4", "NOD", 8, 2));
+    EXPECT_FALSE(is_sound_with("ENS_MAA/M/MAI/TE4", "NOD", 12, 2));
+    EXPECT_TRUE(is_sound_with("ENS_MAA/M/MAI/H20", "NOD", 40, 2));
+    EXPECT_TRUE(is_sound_with("ENS_MAA/M/MAI/POG", "NOD", 40, 9)) << "of polygons, which are not read";
+}
+
 }  // namespace FILE_NAMESPACE
 }  // namespace femscalpel

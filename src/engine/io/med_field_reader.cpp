@@ -257,16 +257,7 @@ private:
         out_->localizations.push_back(std::move(out));
     }
 
-    /// Entries of a data set; 0 without one.
-    std::size_t size_of(const std::string& path) const {
-        const hid_t dataset = H5Dopen2(fid_, path.c_str(), H5P_DEFAULT);
-        if (dataset < 0) return 0;
-        const hid_t space = H5Dget_space(dataset);
-        const hssize_t size = H5Sget_simple_extent_npoints(space);
-        H5Sclose(space);
-        H5Dclose(dataset);
-        return size < 0 ? 0 : static_cast<std::size_t>(size);
-    }
+    std::size_t size_of(const std::string& path) const { return size_of_dataset(fid_, path); }
 
     /// The numbers of the entities that have values.
     void choose(FieldPart& part, const CellTraits* type, const Chunk& chunk, const std::string& who) {

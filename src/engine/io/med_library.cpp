@@ -49,6 +49,16 @@ std::unique_lock<std::timed_mutex> lock_libraries() {
 
 const MedType& med_type(CellType type) { return med_types[static_cast<int>(type)]; }
 
+std::size_t size_of_dataset(med_idt file, const std::string& path) {
+    const hid_t dataset = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
+    if (dataset < 0) return 0;
+    const hid_t space = H5Dget_space(dataset);
+    const hssize_t size = H5Sget_simple_extent_npoints(space);
+    H5Sclose(space);
+    H5Dclose(dataset);
+    return size < 0 ? 0 : static_cast<std::size_t>(size);
+}
+
 bool MedFile::close() {
     if (id_ < 0) return true;
     const ssize_t open = H5Fget_obj_count(id_, leftovers);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <mutex>
+#include <string>
 
 #include "mesh/cell_type.h"
 
@@ -38,6 +39,9 @@ struct MedType {
 
 /// MED's for one of ours.
 const MedType& med_type(CellType type);
+
+/// Entries of a data set of an open file; 0 without one.
+std::size_t size_of_dataset(med_idt file, const std::string& path);
 
 /// An open MED file. MED-fichier leaves HDF5 objects open when it fails, which would keep the file open
 /// and let a later read of the same path see stale data; so all of them are closed here.

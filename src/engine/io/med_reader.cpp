@@ -252,7 +252,6 @@ private:
     }
 
     std::uint64_t largest_array() const { return largest_med_array(file_size_); }
-
     Index count(med_entity_type entity, med_geometry_type geometry, med_data_type data,
                 med_connectivity_mode mode = MED_NODAL) const {
         med_bool changed = MED_FALSE, transformed = MED_FALSE;
@@ -317,7 +316,9 @@ private:
         if (n < 0) damaged("the number of nodes");
         if (n == 0) fail("mesh '" + mesh_.name + "' has no nodes");
         const auto values = static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(dimension_);
-        if (values * sizeof(med_float) > largest_array()) damaged("the coordinates");
+        const std::string set = "/ENS_MAA/" + std::string(name_) + "/NOE/COO";  // of which old ones read all there is
+        if (values * sizeof(med_float) > largest_array() || (is_old_ && size_of_dataset(fid_, set) != values))
+            damaged("the coordinates");
         const auto raw = std::make_unique_for_overwrite<med_float[]>(values);
         check_cancelled();
         // Coordinate by coordinate, as they lie in the file: HDF5 interleaves many times slower than we do.

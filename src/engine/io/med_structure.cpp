@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <string_view>
 #include <vector>
 
 namespace femscalpel {
@@ -96,6 +97,42 @@ bool check_data(hid_t dataset, std::uint64_t largest) {
     return good;
 }
 
+/// How many entries a data set has for each of the entities that its attribute NBR counts: at least, at most. Of an
+/// element's connectivity that is what its type's name ends with; of coordinates the axes. Nothing where it is no
+/// matter.
+struct PerEntity {
+    hsize_t least = 0, most = 0;
+};
+
+PerEntity per_entity(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == path.npos) return {};
+    const std::string_view set = path.substr(slash + 1), above = path.substr(0, slash);
+    if (set == "FAM" || set == "NUM") return {1, 1};
+    if (set == "COO") return {1, 3};
+    if (set != "NOD") return {};
+    hsize_t nodes = 0;
+    for (const char c : above.substr(std::min(above.size(), above.find_last_not_of("0123456789") + 1)))
+        nodes = 10 * nodes + static_cast<hsize_t>(c - '0');
+    return {nodes, nodes};
+}
+
+/// MED-fichier's functions for MED 2 read a data set as long as it is into arrays as long as NBR says.
+bool has_counted_size(hid_t dataset, const char* path) {
+    const PerEntity entries = per_entity(path);
+    if (entries.least == 0 || H5Aexists(dataset, "NBR") <= 0) return true;
+    const hid_t attribute = H5Aopen(dataset, "NBR", H5P_DEFAULT), space = H5Dget_space(dataset);
+    std::int64_t counted = -1;
+    const bool read = attribute >= 0 && H5Aread(attribute, H5T_NATIVE_INT64, &counted) >= 0;
+    const hssize_t size = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+    if (attribute >= 0) H5Aclose(attribute);
+    if (space >= 0) H5Sclose(space);
+    if (!read || counted < 0 || size < 0) return false;
+    if (counted == 0) return size <= static_cast<hssize_t>(entries.most);
+    const auto count = static_cast<hsize_t>(counted), whole = static_cast<hsize_t>(size);
+    return whole % count == 0 && whole / count >= entries.least && whole / count <= entries.most;
+}
+
 struct Looking {
     bool at_fields, at_data;
     std::uint64_t largest;  // of a data set, in bytes
@@ -114,7 +151,8 @@ herr_t check_object(hid_t root, const char* path, const H5O_info_t* info, void* 
                 H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &first,
                             looking.at_fields ? check_field_attribute : check_attribute, nullptr) >= 0;
     if (good && info->type == H5O_TYPE_DATASET)
-        good = check_dataset(object) && (!looking.at_data || check_data(object, looking.largest));
+        good = check_dataset(object) &&
+               (!looking.at_data || (has_counted_size(object, path) && check_data(object, looking.largest)));
     if (good && family_list) good = check_creation_order(object);
     H5Oclose(object);
     return good ? 0 : -1;
