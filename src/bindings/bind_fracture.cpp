@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <pybind11/stl.h>
 
-#include <cstring>
+#include <algorithm>
 #include <memory>
 
 #include "arrays.h"
@@ -16,9 +16,9 @@ namespace {
 
 template <class Row>
 py::array_t<double> rows_of(const std::vector<Row>& rows) {
-    static_assert(sizeof(Row) == 3 * sizeof(double));
     py::array_t<double> out({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}});
-    if (!rows.empty()) std::memcpy(out.mutable_data(), rows.data(), rows.size() * sizeof(Row));
+    double* to = out.mutable_data();
+    for (const Row& row : rows) to = std::copy_n(&row[0], 3, to);
     return out;
 }
 
@@ -26,11 +26,12 @@ py::array_t<double> rows_of(const std::vector<Row>& rows) {
 py::dict stress_intensity_of(const std::shared_ptr<Mesh>& mesh, const RealArray& displacements,
                              const std::string& front, double young, double poisson, bool plane_stress, double radius) {
     std::vector<Vec3> rows(static_cast<std::size_t>(displacements.size()) / 3);
-    if (!rows.empty()) std::memcpy(rows.data(), displacements.data(), rows.size() * sizeof(Vec3));
+    for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = Vec3(displacements.data() + 3 * v);
     const StressIntensity k = interruptible([&] {
         return stress_intensity(*mesh, rows, front, Elasticity{young, poisson, plane_stress}, radius);
     });
     std::vector<std::int64_t> nodes;
+    nodes.reserve(k.nodes.size());
     for (const Index v : k.nodes) nodes.push_back(mesh->node_ids[v]);
     py::dict out;
     out["nodes"] = copied<std::int64_t>(nodes);

@@ -99,7 +99,7 @@ def stress_intensity(
 
     By the interaction integral over the elements around the front (Yau, Wang and Corten 1980), with the terms of curved
     fronts (Gosz and Moran 2002); beside it, by the displacements of the lips. K1 is positive where the crack opens.
-    K2 is where the positive lip moves ahead, against the negative one, K3 where it moves along the front, so that ahead,
+    K2 is where the positive lip moves ahead, against the negative one, K3 where it moves along the front: ahead,
     the normal to the positive side and along make a right-handed frame.
 
     Parameters
