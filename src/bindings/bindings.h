@@ -22,6 +22,7 @@ void bind_tools(pybind11::module_& module);
 void bind_fields(pybind11::class_<Mesh, std::shared_ptr<Mesh>>& mesh);
 void bind_io(pybind11::module_& module);
 void bind_operators(pybind11::module_& module);
+void bind_fracture(pybind11::module_& module);
 
 /// The visible group of this name and kind; throws Error when there is none.
 GroupIndex require_group(const Mesh& mesh, const std::string& name, const std::string& kind);

@@ -11,4 +11,5 @@ PYBIND11_MODULE(_engine, module) {
     femscalpel::bindings::bind_tools(module);
     femscalpel::bindings::bind_io(module);
     femscalpel::bindings::bind_operators(module);
+    femscalpel::bindings::bind_fracture(module);
 }

@@ -22,6 +22,7 @@ MAY_USE = {
     "deformation": {"mesh", "groups", "tools"},
     "cutting": {"mesh", "groups", "deck", "tools", "deformation"},
     "operators": {"mesh", "groups", "fields", "deck", "tools", "deformation", "cutting"},
+    "fracture": {"mesh", "groups", "fields", "deck"},
     "io": {"mesh", "groups", "fields", "deck"},
 }
 

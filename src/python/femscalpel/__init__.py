@@ -22,6 +22,7 @@ from ._engine import Cancelled, Error, QualityError, ReadError, ToolError, Unsup
 from .cancel import CancelToken
 from .connected import Piece, pieces
 from .fields import Field, FieldPart, FieldStep, Localization
+from .fracture import StressIntensity, stress_intensity
 from .groups import BoundaryPart, VirtualBoundary, virtual_boundaries, virtual_boundary
 from .inspection import Finding, Info, check, info
 from .interop import from_meshio, to_meshio
@@ -43,6 +44,7 @@ from .report import (
     Report,
     StraightenedEdges,
 )
+from .results import Displacements, read_displacements
 from .skin import Shape
 from .tools import *  # Tool, and a class for each tool
 from .tools import Faces
@@ -56,6 +58,7 @@ __all__ = [
     "Cancelled",
     "CylinderPart",
     "Disk",
+    "Displacements",
     "Ellipse",
     "ElementaryGroup",
     "ElementQuality",
@@ -91,6 +94,7 @@ __all__ = [
     "Scalpel",
     "Shape",
     "StraightenedEdges",
+    "StressIntensity",
     "ToolError",
     "UnsupportedElementError",
     "VirtualBoundary",
@@ -111,10 +115,12 @@ __all__ = [
     "meshes_in",
     "pieces",
     "read",
+    "read_displacements",
     "refine",
     "reshape",
     "scaled_jacobian",
     "smallest_angle",
+    "stress_intensity",
     "to_meshio",
     "virtual_boundaries",
     "virtual_boundary",

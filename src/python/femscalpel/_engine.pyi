@@ -419,6 +419,16 @@ def reshape(
     strict: bool,
 ) -> tuple[Mesh, dict[str, Any]]: ...
 
+def stress_intensity(
+    mesh: Mesh,
+    displacements: ArrayLike,
+    front: str,
+    young: float,
+    poisson: float,
+    plane_stress: bool,
+    radius: float,
+) -> dict: ...
+
 def virtual_boundaries(
     mesh: Mesh,
     groups: Sequence[tuple[str, str]],
