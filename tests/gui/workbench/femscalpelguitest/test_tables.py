@@ -5,12 +5,14 @@ import csv
 import json
 import os
 import tempfile
+import types
 from unittest import mock
 
 import numpy as np
 
 import femmesh_bridge
 import ObjectsFemScalpel
+from femscalpelgui.panels import group_table
 from femscalpelgui.panels import legend as legends
 from femscalpelgui.panels.table_tools import TableTools
 from .gui_testing import *  # noqa: F403
@@ -310,7 +312,85 @@ class MistakenTable(QtGui.QTableWidget):
         return QtGui.QSpacerItem(1, 1)
 
 
-class Headers(GuiTest):
+class Tables(GuiTest):
+    def test_fits_are_bounded_at_every_width(self):
+        """Each width of a table is fitted once, whatever bars come and go; and then the window is at rest."""
+        box = QtGui.QWidget()
+        self.addCleanup(box.deleteLater)
+        layout = QtGui.QVBoxLayout(box)
+        table = QtGui.QTableWidget()
+        table.setFixedHeight(170)
+        layout.addWidget(table)
+        tools = group_table.set_up(table)
+        box.resize(560, 240)
+        box.show()
+        laid_out = []
+        table.horizontalHeader().sectionResized.connect(lambda *_: laid_out.append(1))
+        names = ("CORE", "LEFT", "RIGHT", "TOP", "FIX", "CRACK_P", "CRACK_N", "CRACK_FRONT", "HOLE_WALL")
+        for rows in range(13):
+            group_table.fill(table, [self.record(f"{names[k % 9]}{k // 9 or ''}", k) for k in range(rows)], tools)
+            spin(0)
+            for width in (*range(560, 260, -13), *range(260, 560, 29)):
+                with mock.patch.object(TableTools, "fit", autospec=True, side_effect=TableTools.fit) as fit:
+                    laid_out.clear()
+                    box.resize(width, 240)
+                    for _ in range(2):
+                        spin(0)
+                    self.assertLessEqual(fit.call_count, 1, f"{rows} rows, {width} pixels")
+                    self.assertLessEqual(len(laid_out), 40, f"{rows} rows, {width} pixels")
+                    self.assertEqual(table.horizontalScrollBar().value(), 0)
+                as_resized = self.layout_of(table)
+                tools.fit()
+                spin(0)
+                self.assertEqual(self.layout_of(table), as_resized, f"{rows} rows, {width} pixels")
+
+    @staticmethod
+    def layout_of(table):
+        columns = range(table.columnCount())
+        return [(table.isColumnHidden(k), table.columnWidth(k)) for k in columns], table.viewport().width()
+
+    @staticmethod
+    def record(name, number):
+        measure = 100.0 + number
+        return types.SimpleNamespace(
+            name=name,
+            kind="element",
+            dimension=3,
+            status="changed",
+            nodes_moved=3,
+            boundary_drift=0.1,
+            count_before=1000 * number,
+            count_after=1000 * number + 7,
+            measure_before=measure,
+            measure_after=measure * 1.001,
+        )
+
+    def test_a_name_is_seen_before_an_empty_column(self):
+        box = QtGui.QWidget()
+        self.addCleanup(box.deleteLater)
+        layout = QtGui.QVBoxLayout(box)
+        table = QtGui.QTableWidget(2, 4)
+        table.setHorizontalHeaderLabels(["Group", "Size", "Measure", "What uses it, and what for"])
+        layout.addWidget(table)
+        for row, name in enumerate(("CRACK_OF_THE_FLANGE_N", "CRACK_OF_THE_FLANGE_P")):
+            for column, text in enumerate((name, "44", "600 mm²", "")):
+                table.setItem(row, column, QtGui.QTableWidgetItem(text))
+            table.item(row, 0).setCheckState(QtCore.Qt.Unchecked)
+        tools = TableTools(table, "Groups")
+        box.resize(360, 240)
+        box.show()
+        tools.arrange()
+        spin(0)
+        self.assertTrue(table.isColumnHidden(3))
+        self.assertGreaterEqual(table.columnWidth(0), table.sizeHintForColumn(0))
+        table.item(0, 3).setText("Load")
+        tools.arrange()
+        self.assertFalse(table.isColumnHidden(3))
+        table.item(0, 3).setText("")
+        box.resize(800, 240)
+        spin(0)
+        self.assertFalse(table.isColumnHidden(3))
+
     def test_mistaken_items(self):
         box = QtGui.QWidget()
         layout = QtGui.QVBoxLayout(box)
