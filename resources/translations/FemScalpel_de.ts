@@ -567,10 +567,6 @@
       <translation>Neues Netz wird berechnet…</translation>
     </message>
     <message>
-      <source>Computing…</source>
-      <translation>Wird berechnet…</translation>
-    </message>
-    <message>
       <source>Cone</source>
       <translation>Kegel</translation>
     </message>

@@ -567,10 +567,6 @@
       <translation>Calcul du nouveau maillage…</translation>
     </message>
     <message>
-      <source>Computing…</source>
-      <translation>Calcul en cours…</translation>
-    </message>
-    <message>
       <source>Cone</source>
       <translation>Cône</translation>
     </message>
