@@ -248,9 +248,12 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         problem = self.geometry.error()
         self.geometry.show_error(problem)
         self._updates += 1
-        if problem:
+        idle = "" if problem else self.idle()
+        if problem or idle:
             self._ask_nothing()
-            self._no_result(translate("FemScalpel", "No preview."))
+            if idle:
+                self._clear_errors()
+            self._no_result(idle or translate("FemScalpel", "No preview."))
             return
         self._given_up, self._cost = False, None
         try:
@@ -374,6 +377,10 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.result.report.setEnabled(False)
         self.result.groups.setRowCount(0)
         self._status(status)
+
+    def idle(self):
+        """What is said where nothing is asked for yet, "" where something is."""
+        return ""
 
     def beside(self):
         """A Surface that is shown as a ghost while there is no result, None for none."""

@@ -407,6 +407,10 @@
       <translation>1 gewählte Stelle</translation>
     </message>
     <message>
+      <source>3 nodes</source>
+      <translation>3 Knoten</translation>
+    </message>
+    <message>
       <source>A disk</source>
       <translation>Eine Kreisscheibe</translation>
     </message>
@@ -777,6 +781,14 @@
     <message>
       <source>No preview: see the message in red.</source>
       <translation>Keine Vorschau: siehe die Meldung in Rot.</translation>
+    </message>
+    <message>
+      <source>Normal</source>
+      <translation>Normale</translation>
+    </message>
+    <message>
+      <source>Nothing is moved yet. Enter where the wall is to be.</source>
+      <translation>Noch wird nichts verschoben. Geben Sie ein, wo die Wand liegen soll.</translation>
     </message>
     <message>
       <source>Nothing to refine: the elements that the tool reaches have no edge longer than the size. Move the tool, give it a larger reach, or choose a smaller size.</source>

@@ -407,6 +407,10 @@
       <translation>1 endroit choisi</translation>
     </message>
     <message>
+      <source>3 nodes</source>
+      <translation>3 nœuds</translation>
+    </message>
+    <message>
       <source>A disk</source>
       <translation>Un disque</translation>
     </message>
@@ -777,6 +781,14 @@
     <message>
       <source>No preview: see the message in red.</source>
       <translation>Pas d'aperçu : voir le message en rouge.</translation>
+    </message>
+    <message>
+      <source>Normal</source>
+      <translation>Normale</translation>
+    </message>
+    <message>
+      <source>Nothing is moved yet. Enter where the wall is to be.</source>
+      <translation>Rien n'est encore déplacé. Indiquez où la paroi doit se trouver.</translation>
     </message>
     <message>
       <source>Nothing to refine: the elements that the tool reaches have no edge longer than the size. Move the tool, give it a larger reach, or choose a smaller size.</source>
