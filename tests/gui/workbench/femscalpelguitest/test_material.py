@@ -364,7 +364,6 @@ class Reshape(MaterialTest):
         press_cancel()
         self.assertEqual(traces(self.doc), before)
 
-
     def fields_shown(self):
         names = ("originX", "normalX", "radius", "pickNodes", "pickGeometry", "pickView")
         return {name for name in names if is_shown(name)}
