@@ -52,6 +52,7 @@ class TableTools(EventFilter):
         bar = QtGui.QWidget()
         line = QtGui.QHBoxLayout(bar)
         line.setContentsMargins(0, 0, 0, 0)
+        line.setSpacing(3)
         line.addWidget(self.filter, 1)
         for name, text, tip, run in (
             (

@@ -44,8 +44,8 @@ class WallInput(AxisInput):
         self._vectors = {"By": (0.0, 0.0, 0.0), "Scale": tuple(self.centre)}
         self._box = QtGui.QWidget()
         rows = QtGui.QVBoxLayout(self._box)
-        self.form.layout().setContentsMargins(0, 0, 0, 0)
         for part in (self.wall, self.form, self.moving):
+            part.layout().setContentsMargins(0, 0, 0, 0)
             rows.addWidget(part)
         self._shown = None
         self._offered = None  # what was entered by itself: nothing is asked for by that
