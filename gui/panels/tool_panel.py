@@ -14,6 +14,7 @@ from ..refinement_guard import Guard, TooMuch
 from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
+from ..viewproviders.made_crack import drawn_in
 from . import fields, group_table
 from .expressions import Expressions, NewExpressions
 from .foresight import WithForesight
@@ -440,7 +441,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self._show_legend()
 
     def _show_legend(self):
-        entries = entries_of(self.scene, self.shown) if self.shown is not None else []
+        entries = entries_of(self.scene, self.shown, drawn_in(self.document)) if self.shown is not None else []
         self.legend.show_entries(entries)
         self.legend_in_view.show_entries(entries)
 

@@ -1227,6 +1227,10 @@
       <translation>leer</translation>
     </message>
     <message>
+      <source>existing crack: %1</source>
+      <translation>vorhandener Riss: %1</translation>
+    </message>
+    <message>
       <source>face</source>
       <translation>Fläche</translation>
     </message>

@@ -1227,6 +1227,10 @@
       <translation>vide</translation>
     </message>
     <message>
+      <source>existing crack: %1</source>
+      <translation>fissure existante : %1</translation>
+    </message>
+    <message>
       <source>face</source>
       <translation>face</translation>
     </message>

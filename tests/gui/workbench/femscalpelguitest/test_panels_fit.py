@@ -4,6 +4,7 @@
 import os
 
 import femscalpel as fs
+import ObjectsFem
 import ObjectsFemScalpel
 from femscalpelgui import preferences
 from femscalpelgui.commands import COMMANDS
@@ -55,7 +56,8 @@ class EveryPanel(GuiTest):
     def setUp(self):
         super().setUp()
         self.addCleanup(FreeCADGui.setLocale, "en")
-        self.add_mesh(long_box())
+        mesh = self.add_mesh(long_box())
+        ObjectsFem.makeAnalysis(self.doc, "Analysis").addObject(mesh)  # there is more to be said then
 
     def test_nothing_is_cut_off(self):
         """In the dock as wide as FreeCAD makes it at first, in every language, with all sections open; also in a theme
@@ -78,6 +80,7 @@ class EveryPanel(GuiTest):
                     spin(0.2)
                     try:
                         self.assertTrue(widget("status").isVisible())
+                        self.assertEqual(is_shown("intoAnalysis"), hasattr(command.PANEL, "OFFERED"))
                         for header in ("sectionAdvanced", "sectionRefinement"):
                             if is_shown(header):
                                 widget(header).setChecked(True)

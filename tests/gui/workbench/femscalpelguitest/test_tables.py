@@ -15,6 +15,7 @@ import ObjectsFemScalpel
 from femscalpelgui.panels import group_table
 from femscalpelgui.panels import legend as legends
 from femscalpelgui.panels.table_tools import TableTools
+from femscalpelgui.viewproviders import made_crack
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest, QTest
 from .test_crack_panel import CrackTest, long_box
@@ -245,6 +246,25 @@ class GroupTable(Folder, CrackTest):
         self.assertFalse(is_shown("legend"))
         press_cancel()
         self.assertIsNone(in_scene("FemScalpelLegend"))
+
+    def test_legend_names_cracks_that_are_there(self):
+        crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0))
+        self.doc.recompute()
+        self.mesh.ViewObject.Visibility = False
+        wait_until(lambda: crack.ViewObject.Proxy.crack.is_drawn, "the crack's outline")
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Crack")
+        self.run_command("FemScalpel_Drill")
+        self.wait_for_preview()
+        entries = {text: rgb for rgb, text in widget("legend").entries}
+        self.assertEqual(entries["existing crack: Crack"], made_crack.colour_of(crack))
+        self.assertLegendSeen(widget("legend").entries)
+        screenshot("legend_of_a_crack_that_is_there")
+        press_cancel()
+        crack.ViewObject.Visibility = False
+        self.run_command("FemScalpel_Drill")
+        self.wait_for_preview()
+        self.assertFalse(any(text.startswith("existing") for _, text in widget("legend").entries))
 
     def test_legend_of_many_groups(self):
         data = mock.Mock(families=[(f"G{k}",) for k in range(20)] + [()])
