@@ -5,6 +5,7 @@ from PySide import QtCore, QtGui
 
 from ..event_filter import EventFilter
 
+
 class Captions(EventFilter):
     """Wraps the captions of the boxes to tick in some forms, and labels of several words, at the width they get."""
 
