@@ -24,7 +24,7 @@ def bookkeeping_groups(mesh):
     return [name for name in mesh.groups if name.startswith(_GROUP)]
 
 
-# One in a list, as "'FemScalpel:Face6' (47 of 254)". Names of faces have no apostrophe, but one may be added at the end.
+# One in a list: "'FemScalpel:Face6' (47 of 254)". No name of a face has an apostrophe, but one may be added at its end.
 _LISTED = re.compile(rf"'{_GROUP}[^']*'+ \([^)]*\)")
 
 
