@@ -10,8 +10,8 @@ from PySide import QtCore
 
 import femscalpel
 
-#: Work that has run so many seconds makes room for newer work; what is quicker is finished, so that something is seen
-#: while one drags.
+#: Work that has run so many seconds makes room for newer work, whenever that came; what is quicker is finished, so that
+#: something is seen while one drags.
 PATIENCE = 1.0
 
 
@@ -45,10 +45,21 @@ class LatestWins(QtCore.QObject):
         with self._wake:
             self._last += 1
             self._waiting = (self._last, function, gives_way)
-            if self._running and time.monotonic() - self._running[1] > PATIENCE:
-                self._running[0].cancel()
+            if self._running:
+                token, begin = self._running
+                left = begin + PATIENCE - time.monotonic()
+                if left < 0:
+                    token.cancel()
+                else:  # it may only just have begun
+                    QtCore.QTimer.singleShot(math.ceil(1000 * left), lambda: self._make_room(token))
             self._wake.notify()
             return self._last
+
+    def _make_room(self, token):
+        """Ends what was started with that token if it still runs while newer work waits."""
+        with self._wake:
+            if self._running and self._running[0] is token and self._waiting is not None:
+                token.cancel()
 
     def cancel(self):
         """Drops what waits and cancels what runs; newer work may follow."""

@@ -56,6 +56,9 @@ if femscalpel_parts.missing():
     FreeCAD.Console.PrintWarning(femscalpel_parts.missing().text() + "\n")
     missing_part.watch_documents()
 else:
+    from femscalpelgui.viewproviders import attaching
+
+    attaching.watch()
     FreeCADGui.addPreferencePage(PREFERENCES, "FemScalpel")
     FreeCAD.__unit_test__ += ["TestFemScalpelGui"]
 FreeCADGui.addWorkbench(FemScalpelWorkbench())

@@ -19,5 +19,5 @@ class Crack(Operation):
         "become "
         "groups; all other groups keep their meaning.",
     )
-    ACCEL = "S, C"
+    ACCEL = "X, C"
     PANEL = CrackPanel

@@ -23,7 +23,7 @@ class CurvedCrack(Operation):
         "material is the crack front. Faces that are selected before are taken. The preview shows the mesh as it will "
         "be; the faces of both lips become groups; all other groups keep their meaning.",
     )
-    ACCEL = "S, U"
+    ACCEL = "X, U"
 
     def run(self, mesh):
         FreeCADGui.Control.showDialog(CurvedCrackPanel(mesh, faces=_selected_faces()))

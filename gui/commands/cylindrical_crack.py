@@ -20,5 +20,5 @@ class CylindricalCrack(Operation):
         "It may crack between two heights and two angles only. Elements that are large for the cylinder are divided "
         "first.",
     )
-    ACCEL = "S, Y"
+    ACCEL = "X, Y"
     PANEL = CylindricalCrackPanel

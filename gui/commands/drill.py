@@ -17,5 +17,5 @@ class Drill(Operation):
         "and "
         "nothing else, and the report says which.",
     )
-    ACCEL = "S, D"
+    ACCEL = "X, D"
     PANEL = DrillPanel

@@ -24,7 +24,7 @@ class Export(Command):
         "FemScalpel_Export",
         "Writes the mesh with its groups to a file whose ending says the format. The file dialog lists the formats.",
     )
-    ACCEL = "S, E"
+    ACCEL = "X, E"
 
     def run(self, mesh):
         endings = self.endings()

@@ -16,5 +16,5 @@ class FaceCrack(Operation):
         "of their nodes; elements may be of any type, and none moves or is divided. OK makes an object that follows "
         "its source mesh. The faces of both lips become groups; all other groups keep their meaning.",
     )
-    ACCEL = "S, A"
+    ACCEL = "X, A"
     PANEL = FaceCrackPanel

@@ -16,5 +16,5 @@ class Fillet(Operation):
         "edge in the 3-D view, or choose a group on it; it is rounded as far as it goes on without a corner. The "
         "faces of the rounding become a group, and the groups beside it keep to their sides.",
     )
-    ACCEL = "S, F"
+    ACCEL = "X, F"
     PANEL = FilletPanel

@@ -21,5 +21,5 @@ class GroupInspector(Command):
         "operation must "
         "keep in shape.",
     )
-    ACCEL = "S, G"
+    ACCEL = "X, G"
     PANEL = GroupInspectorPanel

@@ -25,7 +25,7 @@ class ImportMesh(Command):
         "Reads a mesh with its groups from a file. Cards of a CalculiX deck, fields and groups of element faces are "
         "kept in the document, and Export writes them, after cracks and holes too.",
     )
-    ACCEL = "S, I"
+    ACCEL = "X, L"
 
     def IsActive(self):
         return has_free_window()

@@ -18,5 +18,5 @@ class Incision(Operation):
         "ghosts. The faces of the two walls become groups; groups lose what is cut "
         "away and nothing else, and the report says which.",
     )
-    ACCEL = "S, I"
+    ACCEL = "X, I"
     PANEL = IncisionPanel

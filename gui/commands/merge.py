@@ -22,7 +22,7 @@ class Merge(Operation):
         "of them. Select the mesh first, then the one to add, or choose that in the panel. The groups of both "
         "stay, and what was added and where it is joined become groups.",
     )
-    ACCEL = "S, M"
+    ACCEL = "X, M"
 
     def _start(self):
         document = FreeCAD.ActiveDocument

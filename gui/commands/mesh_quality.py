@@ -17,5 +17,5 @@ class MeshQuality(Command):
         "Colours the elements by mean ratio (1: equilateral, 0: flat), smallest dihedral angle or scaled "
         "Jacobian. Click one of the worst elements to go to it. The mesh is not changed.",
     )
-    ACCEL = "S, Q"
+    ACCEL = "X, Q"
     PANEL = MeshQualityPanel

@@ -18,5 +18,5 @@ class Refine(Operation):
         "as you ask, growing towards the rest of the mesh by the gradation. Use it where a crack or hole needs a "
         "finer mesh around it. All groups keep their meaning.",
     )
-    ACCEL = "S, R"
+    ACCEL = "X, R"
     PANEL = RefinePanel

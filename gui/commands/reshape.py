@@ -17,5 +17,5 @@ class Reshape(Operation):
         "elements around follow as far as needed and are divided or merged where they would get poor. All groups "
         "keep their meaning.",
     )
-    ACCEL = "S, W"
+    ACCEL = "X, W"
     PANEL = ReshapePanel

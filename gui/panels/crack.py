@@ -68,22 +68,27 @@ class CrackPanel(PlanePanel):
     def _choose(self):
         """Shows the fields that matter to the part chosen."""
         shown, p = self._patch(), self.part
-        if shown not in TURNED and self._turn.value == self._first_turn:
+        if not self._is_turned() and self._turn.value == self._first_turn:
             self._turn.set(0)  # nobody has asked for that
         for widgets, parts in (
             ((p.radiusLabel, p.patchRadius), ("Disk", "Ellipse")),
             ((p.secondLabel, p.patchSecondRadius), ("Ellipse",)),
-            ((p.turnLabel, p.patchTurn), TURNED),
+            ((p.turnLabel, p.patchTurn), (shown,) if self._is_turned() else ()),
         ):
             for widget in widgets:
                 widget.setVisible(shown in parts)
         self._changed()
 
+    def _is_turned(self):
+        """Whether the x axis matters to what is entered: not to a polygon that was not picked yet."""
+        shown = self._patch()
+        return shown in TURNED and (shown != "Polygon" or bool(self._corners))
+
     def _changed(self):
         """The part has other numbers: its handles follow, and the preview."""
         shown = self._patch()
         radius = self._radius if shown in ("Disk", "Ellipse") else None
-        turn = self._turn if shown in TURNED else None
+        turn = self._turn if self._is_turned() else None
         self.geometry.show_part(shown != "Whole", radius, turn, self._outline)
         self.update()
 

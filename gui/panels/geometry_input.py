@@ -11,6 +11,7 @@ from ..translate import translate
 from ..view import picking
 from . import fields
 from .followed import Followed, vertex_at
+from .narrow import share_by_captions
 from .panel_input import PanelInput
 
 
@@ -36,6 +37,7 @@ class GeometryInput(PanelInput):
         for field in self.form.findChildren(QtGui.QAbstractSpinBox):
             # Two in a row, with the icon of expressions: arrows beside them would hide the first digits.
             field.setButtonSymbols(QtGui.QAbstractSpinBox.NoButtons)
+        share_by_captions((self.form.pickNodes, self.form.pickGeometry, self.form.pickView))
         self._connect_buttons()
         self.form.pickView.clicked.connect(self._take_view)
         self.form.centre.clicked.connect(lambda: self.set_pose(self.centre, self.direction()))

@@ -16,6 +16,7 @@ from ..view import colours
 from ..view.group_shape import GroupShape, elements_shape, facets_shape, nodes_shape
 from . import fields
 from .inspection_panel import InspectionPanel
+from .narrow import share_by_captions
 from .table_tools import TableTools, cell
 
 WHAT = ("groups", "elementary")
@@ -62,6 +63,7 @@ class GroupInspectorPanel(InspectionPanel):
             translate("FemScalpel", "Measure"),
             translate("FemScalpel", "Used by"),
         ]
+        share_by_captions((self.panel.all, self.panel.none, self.panel.only))
         table = self.panel.groups
         table.setColumnCount(len(headers))
         table.setHorizontalHeaderLabels(headers)

@@ -38,8 +38,9 @@ def _patch(rgb):
     return "".join(f"<span style='background-color:rgb({r},{g},{b})'>{spaces}</span>" for r, g, b in levels)
 
 
-def entries_of(scene, data):
-    """What the colours of a PreviewScene mean that shows a PreviewData."""
+def entries_of(scene, data, cracks=()):
+    """What the colours of a PreviewScene mean that shows a PreviewData, beside `cracks`, (colour, label), that are
+    drawn with the objects that have made them."""
     entries = []
     if scene.colouring == "quality":
         rgb = colours.quality_rgb(np.array((0.0, 0.15, 0.3, 0.5, 0.75, 1.0)))
@@ -62,7 +63,8 @@ def entries_of(scene, data):
     ):
         if len(drawn):
             entries.append((rgb, text))
-    return entries
+    crack = translate("FemScalpel", "existing crack: %1")
+    return entries + [(rgb, crack.replace("%1", label)) for rgb, label in cracks]
 
 
 def _families(data):

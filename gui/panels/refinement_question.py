@@ -8,6 +8,7 @@ from PySide import QtCore, QtGui
 
 from ..refinement_guard import as_text
 from ..translate import translate
+from .narrow import Captions, wrap
 
 
 def length_text(length):
@@ -43,6 +44,9 @@ class RefinementQuestion:
         for widget in (self._text, self._fitting, self._anyway):
             layout.addWidget(widget)
         form.layout().insertWidget(0, self._box)
+        self._captions = Captions([self._box])
+        for button in (self._fitting, self._anyway):
+            self._captions.add(button)
         self._cost, self._size = None, math.inf
         self._fitting.clicked.connect(lambda: take(self._size))
         self._anyway.clicked.connect(lambda: agree(self._accepted()))
@@ -67,6 +71,8 @@ class RefinementQuestion:
             )
         self._box.setEnabled(True)
         self._box.show()
+        for button in (self._fitting, self._anyway):
+            wrap(button)
         return self._box
 
     def wait(self):

@@ -5,7 +5,7 @@ import FreeCAD
 
 from femscalpel.tools import DIRECTION, LENGTH, POINT, TOOLS
 
-from ..translate import QT_TRANSLATE_NOOP
+from ..translate import QT_TRANSLATE_NOOP, translate
 from ..view.preview_data import MadeNodes
 from .group_panel import GroupPanel
 from .wall_input import WallInput
@@ -23,6 +23,10 @@ class ReshapePanel(GroupPanel):
 
     def make_geometry(self):
         return WallInput(self.source_object)
+
+    def idle(self):
+        nothing = translate("FemScalpel", "Nothing is moved yet. Enter where the wall is to be.")
+        return nothing if self.geometry.asks_nothing() else ""
 
     def own_errors(self):
         return {"group": self.geometry.wall.groupError}

@@ -40,6 +40,8 @@ class TableTools(EventFilter):
         self._table, self._title, self._spare, self._order = table, title, spare, None
         headers = (_header(table, column) for column in range(table.columnCount()))
         self._unnamed = [column for column, text in enumerate(headers) if not text]
+        self._headers = {}  # widths of headers when they were seen last
+        self._fitted = None  # the table's width that the columns were fitted to
         self.filter = QtGui.QLineEdit()
         self.filter.setObjectName("filter")
         self.filter.setPlaceholderText(translate("FemScalpel", "Filter by name"))
@@ -50,6 +52,7 @@ class TableTools(EventFilter):
         bar = QtGui.QWidget()
         line = QtGui.QHBoxLayout(bar)
         line.setContentsMargins(0, 0, 0, 0)
+        line.setSpacing(3)
         line.addWidget(self.filter, 1)
         for name, text, tip, run in (
             (
@@ -83,7 +86,6 @@ class TableTools(EventFilter):
         table.setTextElideMode(QtCore.Qt.ElideMiddle)  # what names of groups differ in is often their end
         table.setHorizontalScrollMode(QtGui.QAbstractItemView.ScrollPerPixel)
         table.installEventFilter(self)
-        table.viewport().installEventFilter(self)
 
     def arrange(self):
         """To be called when the table has other rows: sorts and filters them as before, and fits the columns."""
@@ -92,24 +94,68 @@ class TableTools(EventFilter):
         self.fit()
 
     def fit(self):
-        """Columns as wide as what is in them; where that is too much the names have less, and the columns that can be
-        spared go."""
+        """Columns as wide as what is in them. Where that is too much, columns without anything in them go, then the
+        names have less, then the columns that can be spared go; only then can one scroll sideways.
+
+        What comes out is a function of the contents and of the table's own width: the room of the other scroll bar is
+        kept free whether that is there or not. If it were not, the columns would bring the bar, the bar other columns,
+        and these would take it away again, without an end.
+        """
         table = self._table
+        self._fitted = table.width()
+        room = table.contentsRect().width() - table.verticalScrollBar().sizeHint().width()
+        wanted = [self._wanted(column) for column in range(table.columnCount())]
+        narrowest = min(wanted[0], self._narrowest())
+        shown = set(range(len(wanted)))
+        for column in self._empty():
+            if sum(wanted[k] for k in shown) > room:
+                shown.discard(column)
+        rest = lambda: sum(wanted[k] for k in shown if k)  # noqa: E731
         for column in self._spare:
-            table.setColumnHidden(column, False)
-        table.resizeColumnsToContents()
-        for column in self._unnamed:
-            table.setColumnWidth(column, _PATCH)
-        width, room = table.columnWidth(0), table.viewport().width()
-        narrowest = min(width, _NARROWEST)
-        last = table.columnCount() - 1  # it has what is left, so that its width says nothing
-        total = sum(table.columnWidth(column) for column in range(1, last))
-        total += max(table.sizeHintForColumn(last), table.horizontalHeader().sectionSizeHint(last))
-        for column in self._spare:
-            if total + narrowest > room:
-                total -= table.columnWidth(column)
-                table.setColumnHidden(column, True)
-        table.setColumnWidth(0, max(narrowest, min(width, room - total)))
+            if rest() + narrowest > room:
+                shown.discard(column)
+        wanted[0] = max(narrowest, min(wanted[0], room - rest()))
+        self._lay_out(wanted, shown)
+        fits = wanted[0] + rest() <= room
+        policy = QtCore.Qt.ScrollBarAlwaysOff if fits else QtCore.Qt.ScrollBarAlwaysOn
+        if table.horizontalScrollBarPolicy() != policy:
+            table.setHorizontalScrollBarPolicy(policy)
+        if fits:
+            table.horizontalScrollBar().setValue(0)
+
+    def _wanted(self, column):
+        """Pixels for all that is in a column and for its header."""
+        if column in self._unnamed:
+            return _PATCH
+        table, header = self._table, self._table.horizontalHeader()
+        if not table.isColumnHidden(column):  # those of hidden ones are told as 0
+            self._headers[column] = header.sectionSizeHint(column)
+        return max(table.sizeHintForColumn(column), self._headers.get(column, 0), header.minimumSectionSize())
+
+    def _narrowest(self):
+        """Pixels that are left for names, with the box to tick beside them."""
+        table = self._table
+        first = table.item(0, 0) if table.rowCount() else None
+        ticks = first is not None and first.data(QtCore.Qt.CheckStateRole) is not None
+        return _NARROWEST + (table.style().pixelMetric(QtGui.QStyle.PM_IndicatorWidth) + 8 if ticks else 0)
+
+    def _empty(self):
+        """Columns with a header and rows, but nothing in them."""
+        table = self._table
+        rows = range(table.rowCount())
+        named = [k for k in range(1, table.columnCount()) if k not in self._unnamed]
+        texts = lambda column: (table.item(row, column) for row in rows)  # noqa: E731
+        return [k for k in named if rows and not any(item is not None and item.text() for item in texts(k))]
+
+    def _lay_out(self, widths, shown):
+        """Gives the table these widths and columns, and touches only what differs."""
+        table = self._table
+        for column, width in enumerate(widths):
+            if table.isColumnHidden(column) == (column in shown):
+                table.setColumnHidden(column, column not in shown)
+        for column in sorted(shown)[:-1]:  # the last one has what is left
+            if table.columnWidth(column) != widths[column]:
+                table.setColumnWidth(column, widths[column])
 
     def rows(self):
         """The header and the rows that are shown, as lists of texts and numbers."""
@@ -162,8 +208,9 @@ class TableTools(EventFilter):
             self._table.setRowHidden(row, wanted not in self._table.item(row, 0).text().lower())
 
     def filtered(self, receiver, event):
-        if event.type() == QtCore.QEvent.Resize and receiver is not self._table:
-            self.fit()
+        if event.type() == QtCore.QEvent.Resize:
+            if self._table.width() != self._fitted:
+                self.fit()
         elif event.type() == QtCore.QEvent.ShortcutOverride and event.matches(QtGui.QKeySequence.Copy):
             event.accept()  # FreeCAD would copy objects of the document
             return True

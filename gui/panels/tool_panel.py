@@ -14,6 +14,7 @@ from ..refinement_guard import Guard, TooMuch
 from ..translate import form, icon, translate
 from ..view import preview_scene
 from ..view.preview_data import group_in_preview, preview_of
+from ..viewproviders.made_crack import drawn_in
 from . import fields, group_table
 from .expressions import Expressions, NewExpressions
 from .foresight import WithForesight
@@ -46,7 +47,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
     #: Whether operation() gives the whole mesh always.
     WHOLE = False
 
-    _refining = QtCore.Signal(object)  # a Cost, from the other thread
+    _refining = QtCore.Signal(object, int)  # a Cost and of which update() it is, from the other thread
 
     def __init__(self, source_object, edited=None):
         super().__init__(source_object, edited)
@@ -55,7 +56,9 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self._ticket, self._settled = 0, 0
         self._ok = True  # whether the button is enabled
         self._first = edited is None  # whether nothing was entered yet
-        self._agreed, self._cost = 0, None  # elements that the user has agreed to; Cost of what is being refined
+        self._agreed = 0, None  # elements that the user has agreed to, and the inputs that was for
+        self._inputs, self._updates = None, 0  # of the newest update(), and how many there were
+        self._cost = None  # of what is being refined
         self._summary = ""
         self._refining.connect(self._say_refining, QtCore.Qt.QueuedConnection)
 
@@ -245,24 +248,30 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self.geometry.followed.say_size(bool(targets) and self.size_is_of(axes_of(targets)))
         problem = self.geometry.error()
         self.geometry.show_error(problem)
-        if problem:
-            self._ticket = self._settled = 0
-            self._say_settled()
-            self._no_result(translate("FemScalpel", "No preview."))
+        self._updates += 1
+        idle = "" if problem else self.idle()
+        if problem or idle:
+            self._ask_nothing()
+            if idle:
+                self._clear_errors()
+            self._no_result(idle or translate("FemScalpel", "No preview."))
             return
         self._given_up, self._cost = False, None
         try:
             tool = self.tool()
             operate, source = self.operation(tool, self.entered()), self.source
+            self._inputs = self.arguments()
         except (femscalpel.Error, ValueError, TypeError) as error:
-            self._ticket = self._settled = 0
-            self._say_settled()
+            self._ask_nothing()
             self._place_error(error)
             return
         surface, region, whole = self.surface(tool), self.removed_region(tool), self.WHOLE
         self._question.wait()
-        guard = Guard(source.order, self._refining.emit, self._agreed)
-        self._ticket = self.worker.request(lambda: preview_of(source, operate, surface, region, whole, guard))
+        guard = self._guard()
+        # What was agreed to takes long: any change ends it at once.
+        self._ticket = self.worker.request(
+            lambda: preview_of(source, operate, surface, region, whole, guard), gives_way=self._agreed[0] > 0
+        )
         self._set_ok(True)
         ticket = self._ticket
         self._say_settled()
@@ -271,6 +280,20 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self._say_computing(ticket)
         else:
             QtCore.QTimer.singleShot(400, lambda: self._say_computing(ticket))
+
+    def _ask_nothing(self):
+        """There is nothing to be computed of what is entered now; what was asked for before ends."""
+        self._ticket = self._settled = 0
+        if self._making is None:
+            self.worker.cancel()
+        self._say_settled()
+
+    def _guard(self):
+        """The Guard of what is entered now. What was agreed to holds for that alone: anything else is asked anew."""
+        if self._agreed[1] != self._inputs:
+            self._agreed = 0, None
+        number = self._updates
+        return Guard(self.source.order, lambda cost: self._refining.emit(cost, number), self._agreed[0])
 
     def _say_settled(self):
         """Notes at what is said whether it is about what is entered now, for what drives the window from outside."""
@@ -281,17 +304,23 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
 
     def _say_computing(self, ticket):
         if self._is_waiting() and ticket == self._ticket:
-            self._status(refining_text(self._cost) if self._cost else translate("FemScalpel", "Computing…"))
+            self._status(self._awaited())
 
-    def _say_refining(self, cost):
-        """Says what a refinement comes to that is about to be made."""
+    def _awaited(self):
+        """What is waited for."""
+        return refining_text(self._cost) if self._cost else translate("FemScalpel", "Computing the new mesh…")
+
+    def _say_refining(self, cost, number):
+        """Says what a refinement comes to that is about to be made; not of one that was given up."""
+        if number != self._updates:
+            return
         self._cost = cost
         if self._is_waiting():
             self._status(refining_text(cost))
 
     def _agree(self, elements):
-        """Has a preview made although it takes so many elements."""
-        self._agreed = elements
+        """Has a preview made of what is entered although it takes so many elements."""
+        self._agreed = elements, self._inputs
         self.update()
 
     def finished(self, ticket, value):
@@ -349,6 +378,10 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
         self.result.report.setEnabled(False)
         self.result.groups.setRowCount(0)
         self._status(status)
+
+    def idle(self):
+        """What is said where nothing is asked for yet, "" where something is."""
+        return ""
 
     def beside(self):
         """A Surface that is shown as a ghost while there is no result, None for none."""
@@ -408,7 +441,7 @@ class ToolPanel(WithOptions, WithOk, WithForesight, ViewPanel):
             self._show_legend()
 
     def _show_legend(self):
-        entries = entries_of(self.scene, self.shown) if self.shown is not None else []
+        entries = entries_of(self.scene, self.shown, drawn_in(self.document)) if self.shown is not None else []
         self.legend.show_entries(entries)
         self.legend_in_view.show_entries(entries)
 

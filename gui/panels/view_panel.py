@@ -20,6 +20,7 @@ from ..view.mesh_visibility import HiddenMeshes
 from ..view.preview_data import PreviewSource
 from .document_watch import DocumentWatch, is_gone
 from .field_filter import FieldFilter
+from .narrow import Captions
 from .sections import name_fields
 from .steady import Steady
 
@@ -60,7 +61,7 @@ class ViewPanel(QtCore.QObject):
         for form in self.form:
             form.setWhatsThis(help.tag(self.page()))
             name_fields(form)
-        self._fields, self._steady = FieldFilter(self.form), Steady(self.form)
+        self._fields, self._steady, self._captions = FieldFilter(self.form), Steady(self.form), Captions(self.form)
         self._meshes = HiddenMeshes(self.document, self.source_object)
         self.legend_in_view = LegendInView(self.view)
         self._keys = self.view.addEventCallbackPivy(coin.SoKeyboardEvent.getClassTypeId(), self._key)
@@ -81,13 +82,15 @@ class ViewPanel(QtCore.QObject):
         self._reading = self.worker.request(lambda: self.read_mesh(femmesh))
 
     def _fit_buttons(self):
-        """Help is its icon alone: in themes with wide buttons, and languages with long words, the panel would be wider
-        than its dock."""
+        """Help is its icon alone, and themes do not widen the other buttons: the panel would be wider than its dock."""
         if self._closed or self._box is None:
             return
         button = self._box.button(QtGui.QDialogButtonBox.Help)
         if not isinstance(button, QtGui.QAbstractButton):  # what PySide 2 has kept of something that lay there before
             return
+        if QtGui.QApplication.instance().styleSheet():
+            for other in self._box.findChildren(QtGui.QPushButton):
+                other.setStyleSheet("min-width: 0px; padding: 3px 6px;")
         mark = "?" if button.icon().isNull() else ""  # styles without icons
         if button.text() != mark:
             button.setToolTip(button.text().replace("&", ""))

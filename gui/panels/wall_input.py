@@ -6,11 +6,15 @@ import FreeCADGui
 import numpy as np
 from PySide import QtGui
 
+from femscalpel.tools import DIRECTION, TOOLS
+
 from ..translate import QT_TRANSLATE_NOOP, form, translate
 from ..view import picking, wall
 from . import fields
 from .axis_input import AxisInput
-from .tool_input import ROUND, name_of
+from .geometry_input import GeometryInput
+from .plane_input import PlaneInput
+from .tool_input import RADII, ROUND, ToolInput, name_of
 
 MOTIONS = (
     ("Onto", QT_TRANSLATE_NOOP("FemScalpel", "onto a surface")),
@@ -40,14 +44,16 @@ class WallInput(AxisInput):
         self._vectors = {"By": (0.0, 0.0, 0.0), "Scale": tuple(self.centre)}
         self._box = QtGui.QWidget()
         rows = QtGui.QVBoxLayout(self._box)
-        self.form.layout().setContentsMargins(0, 0, 0, 0)
         for part in (self.wall, self.form, self.moving):
+            part.layout().setContentsMargins(0, 0, 0, 0)
             rows.addWidget(part)
         self._shown = None
+        self._offered = None  # what was entered by itself: nothing is asked for by that
+        self._axis_texts = self.form.pickNodes.text(), self.form.label8.text()
         self._choose_motion()
         self.wall.wall.currentIndexChanged.connect(lambda *_: self._choose_wall())
         self.wall.motion.currentIndexChanged.connect(lambda *_: self._choose_motion())
-        self.wall.onto.currentIndexChanged.connect(lambda *_: self._tell())
+        self.wall.onto.currentIndexChanged.connect(lambda *_: self._choose_surface())
 
     @property
     def window(self):
@@ -66,6 +72,28 @@ class WallInput(AxisInput):
     def shape(self):
         """The name of the surface's tool."""
         return self.wall.onto.currentData()
+
+    def _has_radius(self):
+        return any(p.asked_as == "radius" for p in TOOLS[self.shape()].parameters)
+
+    def _has_direction(self):
+        return any(p.kind is DIRECTION for p in TOOLS[self.shape()].parameters)
+
+    def direction(self):
+        direction = super().direction()
+        is_needed = self.shape() is None or self._has_direction()
+        return direction if direction.Length > 0 or is_needed else FreeCAD.Vector(0, 0, 1)
+
+    def asks_nothing(self):
+        """Whether the wall is to stay where it is, as far as is entered: on the surface that it lies on, for one."""
+        if self.motion() == "By":
+            return not any(self.vector())
+        if self.motion() == "Scale":
+            return self.factor() == 1
+        return not self.targets() and self._offered == self._surface()
+
+    def _surface(self):
+        return self.group(), self.shape(), tuple(self.origin()), tuple(self.direction()), self.radius()
 
     def vector(self):
         """What "By" moves by, or the point that "Scale" leaves where it is."""
@@ -89,7 +117,7 @@ class WallInput(AxisInput):
         self.source = source
         box = self.wall.wall
         blocked = box.blockSignals(True)
-        names = wall.walls(source.mesh)
+        names = wall.best_first(source, wall.walls(source.mesh))
         box.clear()
         for name in names:
             box.addItem(name, name)
@@ -122,9 +150,28 @@ class WallInput(AxisInput):
             self._vectors["Scale"] = tuple(found.origin.tolist())
             if self._shown == "Scale":
                 self._enter_vector()
+            self._offered = None
+            blocked = self.blockSignals(True)
             self.set_pose(FreeCAD.Vector(*found.origin), FreeCAD.Vector(*found.direction), found.radius or None)
-        else:
-            self._tell()
+            self.blockSignals(blocked)
+        self._offered = self._surface()
+        self._choose_surface()
+
+    def _choose_surface(self):
+        """Shows the fields, buttons and handles that the surface has."""
+        self.stop_picking()
+        f, has_radius, has_direction = self.form, self._has_radius(), self._has_direction()
+        is_plane = has_direction and not has_radius
+        self.NODES = 3 if is_plane else 2 if has_direction else 1
+        nodes = translate("FemScalpel", "3 nodes") if is_plane else self._axis_texts[0]
+        f.pickNodes.setText(nodes if has_direction else translate("FemScalpel", "1 node"))
+        f.label8.setText(translate("FemScalpel", "Normal") if is_plane else self._axis_texts[1])
+        for box in (f.label12, f.radius):
+            box.setVisible(has_radius)
+        for box in (f.label8, f.normalX, f.normalY, f.normalZ, f.pickView):
+            box.setVisible(has_direction)
+        f.radius.setToolTip(translate("FemScalpel", RADII.get(self.shape(), "")))
+        self._tell()
 
     def _choose_motion(self):
         if self._shown in self._vectors:
@@ -147,7 +194,7 @@ class WallInput(AxisInput):
             self._enter_vector()
         if self.handles is not None:
             self.handles.show(onto)
-        self._tell()
+        self._choose_surface()
 
     def _enter_vector(self):
         for field, number in zip(self._vector, self._vectors[self._shown]):
@@ -156,9 +203,10 @@ class WallInput(AxisInput):
     def error(self):
         if not self.group():
             return translate("FemScalpel", "The mesh has no group of faces or nodes. Make one first.")
-        if self.motion() != "Onto":
+        if self.motion() != "Onto" or self.asks_nothing():
             return ""
-        return super().error()
+        problem = GeometryInput.error(self) if self._has_direction() else self.followed.error()
+        return problem or (self.radius_error() if self._has_radius() else "")
 
     def error_label(self):
         return self.moving.geometryError
@@ -166,13 +214,36 @@ class WallInput(AxisInput):
     def add_handles(self, view):
         super().add_handles(view)
         self.handles.show(self.motion() == "Onto")
+        self._tell()
+
+    def _tell(self, from_handle=False):
+        if self.handles is not None and self.shape() is not None:
+            self.handles.show_shape(self.shape(), {}, self._has_direction())
+        super()._tell(from_handle)
 
     # Picking.
 
     def _ask(self, kind, found=0):
         if kind == "wall":
             return translate("FemScalpel", "Click a face of the mesh. Escape stops.")
+        if kind == "nodes" and self.NODES == 1:
+            return translate("FemScalpel", "Click a node of the mesh. Escape stops.")
         return super()._ask(kind, found)
+
+    def _ask_geometry(self):
+        if self.NODES == 3:
+            return PlaneInput._ask_geometry(self)
+        return super()._ask_geometry() if self.NODES == 2 else ToolInput._ask_geometry(self)
+
+    def _from_nodes(self, points):
+        if self.NODES == 3:
+            return picking.plane_through(points)
+        return super()._from_nodes(points) if self.NODES == 2 else picking.Picked(points[0], self.direction())
+
+    def _from_click(self, click):
+        if self.NODES == 3:
+            return picking.plane(click, self.source)
+        return super()._from_click(click) if self.NODES == 2 else picking.tool(click, self.source)
 
     def _hint(self, text):
         of_wall = self.wall.pickWall.isChecked()

@@ -96,8 +96,9 @@ class WithOk:
         """The object made or changed, None where the panel is to stay."""
         if self._given_up:
             self.update()
-        progress.say(translate("FemScalpel", "Computing…"))
-        if not progress.wait_for(self._is_settled) or self._closed:
+        say = lambda: progress.say(self._waits_for())  # noqa: E731
+        say()
+        if not progress.wait_for(self._is_settled, say) or self._closed:
             self._give_up()
             return None
         if self.shown is None:
@@ -124,6 +125,10 @@ class WithOk:
             return None
         self.document.commitTransaction()
         return obj
+
+    def _waits_for(self):
+        """What OK waits for before it begins."""
+        return translate("FemScalpel", "Reading the mesh…") if self.source is None else self._awaited()
 
     def _is_settled(self):
         """Whether the newest preview is there, or its error."""

@@ -64,6 +64,7 @@ class AxisHandles(Handles):
         `tilted`. set_pose() is to follow."""
         self._shape, self._values = shape, {**self._values, **values}
         self._switch("along", shape not in ENDLESS)
+        self._switch("radius", shape != "Plane")
         self._switch("tilt", tilted)
         self._axis.whichChild = coin.SO_SWITCH_ALL if tilted else coin.SO_SWITCH_NONE
 

@@ -39,6 +39,16 @@ def walls(mesh):
     return list(dict.fromkeys(names))
 
 
+def best_first(source, names):
+    """The same names, of which the first can be moved: it lies on a surface that can be told, and is no lip of a crack,
+    whose nodes have others in their place. The others stay in their order."""
+    _, inverse, counts = np.unique(source.mesh.points, axis=0, return_inverse=True, return_counts=True)
+    doubled = counts[inverse.reshape(-1)] > 1
+    no_lips = [name for name in names if not doubled[nodes_of(source.mesh, name)].mean() > 0.5]
+    first = next((name for name in no_lips if fit(source, name) is not None), (no_lips or names or [None])[0])
+    return sorted(names, key=lambda name: name != first)
+
+
 def nodes_of(mesh, name):
     """Boolean array: the nodes of the groups of a name that can be a wall."""
     nodes = np.zeros(mesh.node_count, bool)

@@ -25,6 +25,16 @@ def colour_of(obj):
     return _COLOURS[zlib.crc32(obj.Name.encode()) % len(_COLOURS)]
 
 
+def drawn_in(document):
+    """(colour, label) of the cracks of a document's objects that are drawn in its view."""
+    found = []
+    for obj in document.Objects:
+        crack = getattr(getattr(obj.ViewObject, "Proxy", None), "crack", None)
+        if isinstance(crack, MadeCrack) and crack.is_drawn:
+            found.append((colour_of(obj), obj.Label))
+    return found
+
+
 class MadeCrack:
     """The nodes FemScalpelMadeCrack in the root of a view provider: lines where the crack is seen, dashed where it is
     covered; with light() also the lips, seen through the part."""
@@ -57,6 +67,13 @@ class MadeCrack:
     def is_one(self):
         """Whether the object is a crack."""
         return getattr(getattr(self._vobj.Object, "Proxy", None), "Type", "") in _KINDS
+
+    @property
+    def is_drawn(self):
+        """Whether there is something of it in the view."""
+        shape = self._shape
+        shown = self._switch.whichChild.getValue() == coin.SO_SWITCH_ALL and shape is not None
+        return shown and len(shape.outline) + len(shape.front) > 0
 
     def mesh_changed(self):
         """The object has another mesh."""

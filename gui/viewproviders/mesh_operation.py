@@ -41,7 +41,10 @@ class ViewProviderMeshOperation:
     _edits = None  # the panel that edits the object
 
     def __init__(self, vobj):
+        self.Object = vobj.Object
         vobj.Proxy = self
+        if self.crack is None:  # FreeCAD attaches but once, and may have done so to none
+            self.attach(vobj)
         vobj.MaxFacesShowInner = min(vobj.MaxFacesShowInner, _MOST_FACES_COMPARED)
 
     def attach(self, vobj):

@@ -407,6 +407,10 @@
       <translation>1 gewählte Stelle</translation>
     </message>
     <message>
+      <source>3 nodes</source>
+      <translation>3 Knoten</translation>
+    </message>
+    <message>
       <source>A disk</source>
       <translation>Eine Kreisscheibe</translation>
     </message>
@@ -565,10 +569,6 @@
     <message>
       <source>Computing the new mesh…</source>
       <translation>Neues Netz wird berechnet…</translation>
-    </message>
-    <message>
-      <source>Computing…</source>
-      <translation>Wird berechnet…</translation>
     </message>
     <message>
       <source>Cone</source>
@@ -781,6 +781,14 @@
     <message>
       <source>No preview: see the message in red.</source>
       <translation>Keine Vorschau: siehe die Meldung in Rot.</translation>
+    </message>
+    <message>
+      <source>Normal</source>
+      <translation>Normale</translation>
+    </message>
+    <message>
+      <source>Nothing is moved yet. Enter where the wall is to be.</source>
+      <translation>Noch wird nichts verschoben. Geben Sie ein, wo die Wand liegen soll.</translation>
     </message>
     <message>
       <source>Nothing to refine: the elements that the tool reaches have no edge longer than the size. Move the tool, give it a larger reach, or choose a smaller size.</source>
@@ -1217,6 +1225,10 @@
     <message>
       <source>empty</source>
       <translation>leer</translation>
+    </message>
+    <message>
+      <source>existing crack: %1</source>
+      <translation>vorhandener Riss: %1</translation>
     </message>
     <message>
       <source>face</source>

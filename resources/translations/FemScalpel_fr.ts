@@ -407,6 +407,10 @@
       <translation>1 endroit choisi</translation>
     </message>
     <message>
+      <source>3 nodes</source>
+      <translation>3 nœuds</translation>
+    </message>
+    <message>
       <source>A disk</source>
       <translation>Un disque</translation>
     </message>
@@ -565,10 +569,6 @@
     <message>
       <source>Computing the new mesh…</source>
       <translation>Calcul du nouveau maillage…</translation>
-    </message>
-    <message>
-      <source>Computing…</source>
-      <translation>Calcul en cours…</translation>
     </message>
     <message>
       <source>Cone</source>
@@ -781,6 +781,14 @@
     <message>
       <source>No preview: see the message in red.</source>
       <translation>Pas d'aperçu : voir le message en rouge.</translation>
+    </message>
+    <message>
+      <source>Normal</source>
+      <translation>Normale</translation>
+    </message>
+    <message>
+      <source>Nothing is moved yet. Enter where the wall is to be.</source>
+      <translation>Rien n'est encore déplacé. Indiquez où la paroi doit se trouver.</translation>
     </message>
     <message>
       <source>Nothing to refine: the elements that the tool reaches have no edge longer than the size. Move the tool, give it a larger reach, or choose a smaller size.</source>
@@ -1217,6 +1225,10 @@
     <message>
       <source>empty</source>
       <translation>vide</translation>
+    </message>
+    <message>
+      <source>existing crack: %1</source>
+      <translation>fissure existante : %1</translation>
     </message>
     <message>
       <source>face</source>

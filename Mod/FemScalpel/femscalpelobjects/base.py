@@ -14,7 +14,7 @@ from . import contents, extents, following, pieces, whole
 from .geometry import shapes_of
 from .memory import Made, Shown, memory
 from .mesh_parts import nodes_around
-from .on_shape import OnShape
+from .on_shape import OnShape, without_bookkeeping
 from .operator_options import KEEP_TO_SHAPE
 from .ours import made_of
 from .reason import Reason
@@ -358,7 +358,7 @@ class MeshOperation:
         return dataclasses.replace(
             report,
             groups=[g for g in report.groups if g.name not in on_shape.group_names],
-            warnings=[whole.shortened(warning, document) for warning in report.warnings] + lost,
+            warnings=[whole.shortened(text, document) for text in without_bookkeeping(report.warnings)] + lost,
         )
 
     @staticmethod

@@ -7,6 +7,8 @@ node that moves or is born on a curved face, or on a face inside the material th
 solids), would no longer be found, and the load, support or material would end there without a message.
 """
 
+import re
+
 import Fem
 import numpy as np
 
@@ -20,6 +22,28 @@ _GROUP = "FemScalpel:"  # begins the names of bookkeeping groups
 def bookkeeping_groups(mesh):
     """Names of the groups of `mesh` that an OnShape has made."""
     return [name for name in mesh.groups if name.startswith(_GROUP)]
+
+
+# One in a list: "'FemScalpel:Face6' (47 of 254)". No name of a face has an apostrophe, but one may be added at its end.
+_LISTED = re.compile(rf"'{_GROUP}[^']*'+ \([^)]*\)")
+
+
+def without_bookkeeping(warnings):
+    """The warnings of an operator but for what they say of bookkeeping groups, which are none of the user's: those
+    about one alone go; of those that list groups the others stay."""
+    kept = []
+    for warning in warnings:
+        if _GROUP in warning:
+            if re.match(rf"\w+ group '{_GROUP}", warning):
+                continue
+            listed = re.compile(rf"(?:'[^']*'+ \([^)]*\)(?:, )?)+").search(warning)
+            if listed is not None:
+                others = [each for each in re.findall(r"'[^']*'+ \([^)]*\)", listed[0]) if not _LISTED.fullmatch(each)]
+                if not others:
+                    continue
+                warning = warning[: listed.start()] + ", ".join(others) + warning[listed.end() :]
+        kept.append(warning)
+    return kept
 
 
 class OnShape:

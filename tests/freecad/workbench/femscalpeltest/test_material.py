@@ -11,6 +11,7 @@ import Part
 import femmesh_bridge
 import femscalpel as fs
 import ObjectsFemScalpel
+from femscalpelobjects.on_shape import without_bookkeeping
 
 from .documents import DocumentTest, content, geometry_link, need
 from .meshes import box_with_groups, grid_box, tetra_volumes
@@ -349,6 +350,29 @@ class Fillet(MaterialTest):
         on_edge = (points[:, 0] == 6) & (points[:, 2] == 4)
         self.mesh.add_group("EDGE", "node", self.mesh.node_ids[on_edge])
         self.source.FemMesh = femmesh_bridge.to_femmesh(self.mesh)
+
+    def test_its_report_names_none_but_the_user_s_groups(self):
+        """Those that keep nodes on the geometry are no groups of the mesh: the edge's, which ends, for one."""
+        self.source.addProperty("App::PropertyLink", "Part")
+        self.source.Part = block_shape(self.doc)
+        fillet = ObjectsFemScalpel.makeFillet(self.doc, self.source, "EDGE", 0.8, refine=0.5)
+        self.made(fillet)
+        text = fillet.Proxy.report.to_text()
+        self.assertIn("EDGE", text)
+        self.assertNotIn("FemScalpel:", text + "".join(fillet.GroupReport))
+
+    def test_warnings_without_bookkeeping(self):
+        ends = " are inside now, between the mesh and the addition"
+        own, ours, again = "'TOP' (3 of 4)", "'FemScalpel:Face6' (47 of 254)", "'FemScalpel:Face6'' (1 of 2)"
+        empty = "node group 'FemScalpel:Edge24' loses all its 89 members; it stays, empty"
+        for warning, expected in (
+            (empty, []),
+            (empty.replace("FemScalpel:Edge24", "EDGE"), [empty.replace("FemScalpel:Edge24", "EDGE")]),
+            (f"faces of {ours}, {ours}{ends}", []),
+            (f"faces of {ours}, {own}, {again}{ends}", [f"faces of {own}{ends}"]),
+            (f"faces of {own}, {ours}{ends}", [f"faces of {own}{ends}"]),
+        ):
+            self.assertEqual(without_bookkeeping([warning]), expected)
 
     def test_along_points_and_a_group(self):
         for along in ("EDGE", [self.edge]):

@@ -165,6 +165,11 @@ def button_boxes():
     return [box for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if box.isVisible()]
 
 
+def opened_panel():
+    """The panel that was opened last."""
+    return _opened[0]
+
+
 def press_button(*choices):
     """Clicks OK, Cancel or Close of the task panel, whichever is there."""
     boxes = button_boxes()

@@ -57,6 +57,32 @@ class EveryCommand(GuiTest):
                 self.assertIn(command.TOOLTIP[:40], action.toolTip())
                 self.assertFalse(action.icon().isNull())
 
+    def test_keys_are_each_command_s_own(self):
+        """No two have the same keys, nor the beginning of another's; nor any of FreeCAD's own or of the FEM workbench,
+        whose commands stay known once it was active."""
+        FreeCADGui.activateWorkbench("FemWorkbench")
+        FreeCADGui.activateWorkbench("FemScalpelWorkbench")
+        ours = {command.NAME: command.ACCEL for command in filter(None, COMMANDS + IN_MENU) if command.ACCEL}
+        self.assertGreater(len(ours), 10)
+        names = [n for n in FreeCADGui.Command.listAll() if n.startswith(("Std_", "FEM_")) or n in ours]
+        keys = {name: self.keys_of(FreeCADGui.Command.get(name)) for name in names}
+        self.assertEqual(keys["Std_Undo"], ("CTRL+Z",))
+        self.assertEqual(keys["FEM_Analysis"], ("S", "A"))
+        for ours_name in ours:
+            mine = keys[ours_name]
+            self.assertEqual(mine, self.parts(ours[ours_name]))
+            for name, other in keys.items():
+                if other and name != ours_name:
+                    shorter = min(len(mine), len(other))
+                    self.assertNotEqual(mine[:shorter], other[:shorter], f"{ours_name} and {name}")
+
+    @staticmethod
+    def parts(text):
+        return tuple(part.strip().upper() for part in text.split(", ")) if text else ()
+
+    def keys_of(self, command):
+        return self.parts(command.getShortcut() or command.getInfo()["shortcut"])
+
     def test_without_a_usable_mesh(self):
         for name in ("First", "Second", "Third"):
             self.add_mesh(long_box(), name)

@@ -123,14 +123,14 @@ class Fields(GuiTest):
         with mock.patch.object(tool_panel, "preview_of", slow):
             type_into("originX", "3.3")
             spin(0.1)
-            self.assertEqual(widget("status").text(), "Computing…")
+            self.assertEqual(widget("status").text(), "Computing the new mesh…")
             self.assertFalse(is_shown("geometryError"))
             self.assertTrue(ok_button().isEnabled())
             go.set()
             self.wait_for_preview()
             go.clear()
             type_into("originX", "3.4")
-            wait_until(lambda: widget("status").text() == "Computing…", "word of what takes long")
+            wait_until(lambda: widget("status").text() == "Computing the new mesh…", "word of what takes long")
             go.set()
             self.wait_for_preview()
 

@@ -395,7 +395,8 @@ class Following(GuiTest):
             self.assertAlmostEqual(math.degrees(math.atan2(plain.y, plain.x)), 10 * length, places=4)
 
     def test_vector(self):
-        self.open_panel("FemScalpel_Reshape")
+        self.run_command("FemScalpel_Reshape")
+        wait_until(is_ready, "the panel")
         choose("wall", "TOP")
         choose("motion", "By")
         self.enter_new_expression("vectorZ", "Box.Length / 33")

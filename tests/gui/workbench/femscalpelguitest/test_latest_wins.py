@@ -39,6 +39,14 @@ class LatestWinsTest(unittest.TestCase):
             wait_until(lambda: self.arrived, "newer work")
         self.assertEqual(self.arrived, [(newest, "new")])
 
+    def test_work_that_has_only_just_begun_makes_room_later(self):
+        with mock.patch.object(latest_wins, "PATIENCE", 0.4):
+            self.worker.request(self.endless)
+            wait_until(lambda: self.worker._running, "the beginning")
+            newest = self.worker.request(lambda: "new")
+            wait_until(lambda: self.arrived, "newer work")
+        self.assertEqual(self.arrived, [(newest, "new")])
+
     def test_quick_work_is_finished(self):
         with mock.patch.object(latest_wins, "PATIENCE", 1000):
             first = self.worker.request(lambda: (time.sleep(0.2), "old")[1])

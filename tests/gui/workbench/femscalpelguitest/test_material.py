@@ -364,6 +364,77 @@ class Reshape(MaterialTest):
         press_cancel()
         self.assertEqual(traces(self.doc), before)
 
+    def fields_shown(self):
+        names = ("originX", "normalX", "radius", "pickNodes", "pickGeometry", "pickView")
+        return {name for name in names if is_shown(name)}
+
+    def test_controls_are_those_of_the_surface(self):
+        self.open_panel("FemScalpel_Reshape")
+        always = {"originX", "pickNodes", "pickGeometry"}
+        for surface, nodes, others in (
+            ("Plane", "3 nodes", {"normalX", "pickView"}),
+            ("Cylinder", "2 nodes", {"normalX", "pickView", "radius"}),
+            ("Sphere", "1 node", {"radius"}),
+        ):
+            choose("onto", surface)
+            self.assertEqual(self.fields_shown(), always | others, surface)
+            self.assertEqual(widget("pickNodes").text(), nodes)
+            if "normalX" in others:
+                self.assertEqual(widget("label8").text(), "Normal" if surface == "Plane" else "Axis")
+            (points,) = [p for p in [in_scene("FemScalpelWall")] if p]
+            points = np.array([p.getValue() for p in points.point.getValues()])
+            flat = np.ptp(points[:, 2]) < 1e-6
+            self.assertEqual(flat, surface == "Plane")
+            screenshot(f"reshape_onto_{surface}")
+
+    def test_a_plane_by_three_nodes(self):
+        self.open_panel("FemScalpel_Reshape")
+        choose("wall", "TOP")
+        self.assertEqual(widget("onto").currentData(), "Plane")
+        click("pickNodes")
+        self.assertIn("node 1 of 3", widget("hint").text())
+        for place in ((0, 0, 4), (0, 5, 4), (14, 0, 4)):
+            click_at(place)
+        self.assertEqual([value(n) for n in ("normalX", "normalY")], [0, 0])
+        self.assertAlmostEqual(abs(value("normalZ")), 1)
+
+    def test_nothing_is_asked_for_at_first(self):
+        self.open_panel("FemScalpel_Reshape")
+        self.assertTrue(widget("status").text().startswith("Nothing is moved yet"))
+        choose("wall", "TOP")
+        for motion in ("Onto", "By"):
+            choose("motion", motion)
+            wait_until(is_settled, "what is said")
+            self.assertTrue(widget("status").text().startswith("Nothing is moved yet"))
+            self.assertFalse(is_shown("geometryError") or is_shown("resultError") or is_shown("groupError"))
+            self.assertEqual(faces_drawn("FemScalpelBand"), 0)
+        screenshot("reshape_nothing_yet")
+        type_into("vectorZ", "0.1 mm")
+        self.wait_for_preview()
+        choose("motion", "Onto")
+        wait_until(lambda: widget("status").text().startswith("Nothing is moved yet"), "nothing once more")
+
+
+class ReshapeOfCracked(MaterialTest):
+    PARTS = 2
+
+    def source(self):
+        mesh = fs.crack(long_box(2), fs.Plane((3.1, 2.5, 2), (1, 0.1, 0)), name="AHEAD").mesh
+        first = [g for g in mesh.groups.all() if g.name.startswith("AHEAD")]
+        others = [g for g in mesh.groups.all() if not g.name.startswith("AHEAD")]
+        return fs.Mesh(mesh.points, mesh.cells, mesh.node_ids, mesh.cell_ids, first + others)
+
+    def test_lips_are_not_the_first_wall(self):
+        self.open_panel("FemScalpel_Reshape")
+        box = widget("wall")
+        names = [box.itemData(k) for k in range(box.count())]
+        self.assertIn("AHEAD", wall.walls(femmesh_bridge.from_femmesh(self.mesh.FemMesh))[0])
+        self.assertIn("AHEAD_P", names)
+        self.assertNotIn("AHEAD", names[0])
+        self.assertEqual(widget("onto").currentData(), "Plane")
+        self.assertFalse(is_shown("geometryError"))
+        screenshot("reshape_of_cracked")
+
 
 class Walls(unittest.TestCase):
     def check(self, mesh, name, shape, origin, direction, radius=0.0):

@@ -2,13 +2,14 @@
 """What refining first costs is said before it is done, and asked above a limit."""
 
 import math
+import threading
 import time
 from unittest import mock
 
 import FreeCAD
 
 import femscalpel as fs
-from femscalpelgui import preferences, refinement_guard
+from femscalpelgui import latest_wins, preferences, refinement_guard
 from femscalpelgui.panels.tool_panel import ToolPanel
 from .gui_testing import *  # noqa: F403
 from .test_crack_panel import CrackTest
@@ -111,6 +112,75 @@ class RefinementCost(CrackTest):
         self.assertFalse(is_shown("refinementQuestion"))
         press_ok()
         self.assertGreater(self.doc.Crack.FemMesh.VolumeCount, 3000)
+
+    def test_agreed_for_what_was_entered_alone(self):
+        self.group.SetInt("MostElements", 3000)
+        self.open_half_plane()
+        choose("refine", "Size")
+        type_into("refineSize", "0.15 mm")
+        wait_for_question("0.15 mm")
+        click("refineAnyway")
+        self.wait_for_preview()
+        type_into("originX", "6.9")
+        wait_for_question("0.15 mm")
+        self.assertFalse(ok_button().isEnabled())
+
+    def agree_to_much(self):
+        """Agrees to a refinement, which has begun then, and goes on when the returned event is set."""
+        go_on = threading.Event()
+        self.addCleanup(go_on.set)
+
+        def guarded(guard, estimate, original=refinement_guard.Guard.__call__):
+            original(guard, estimate)
+            if guard._agreed:
+                go_on.wait(PATIENCE)
+
+        patch = mock.patch.object(refinement_guard.Guard, "__call__", guarded)
+        patch.start()
+        self.addCleanup(patch.stop)
+        self.group.SetInt("MostElements", 3000)
+        self.open_half_plane()
+        choose("refine", "Size")
+        type_into("refineSize", "0.04 mm")
+        wait_for_question("40.00")
+        click("refineAnyway")
+        wait_until(lambda: widget("status").text().startswith("Refining first"), "the refinement's beginning")
+        return go_on
+
+    def check_change(self, change, settled):
+        with mock.patch.object(latest_wins, "PATIENCE", 1000), mock.patch.object(
+            ToolPanel, "finished", autospec=True, side_effect=ToolPanel.finished
+        ) as finished:
+            go_on = self.agree_to_much()
+            panel = opened_panel()
+            change()
+            go_on.set()
+            wait_until(settled, "what is entered now")
+            wait_until(lambda: panel.worker._running is None, "rest")
+            spin(0.1)
+        sizes = [self.radius_of(call) for call in finished.call_args_list]
+        self.assertNotIn(0.04, [round(size, 6) for size in sizes])
+
+    def test_a_change_ends_what_was_agreed_to(self):
+        """At once, however short it has run."""
+        self.check_change(lambda: choose("refine", "Never"), is_settled)
+
+    def test_a_wrong_change_ends_it_too(self):
+        self.check_change(lambda: type_into("normalX", "0"), lambda: is_shown("geometryError"))
+
+    def test_the_dialog_says_what_it_waits_for(self):
+        texts = []
+
+        def read(dialog):
+            texts.append(dialog.labelText())
+            dialog.reject()
+            go_on.set()
+
+        go_on = self.agree_to_much()
+        with_dialog(QtGui.QProgressDialog, read, press_ok)
+        self.assertRegex(texts[0], "^Refining first, to edges of 40.00.*elements")
+        self.assertEqual([o.Name for o in self.doc.Objects], ["Mesh"])
+        self.assertTrue(widget("status").text().startswith("Cancelled"))
 
     def test_asked_for_memory(self):
         self.group.SetInt("MostMemory", 1)

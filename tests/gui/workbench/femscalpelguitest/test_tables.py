@@ -5,14 +5,17 @@ import csv
 import json
 import os
 import tempfile
+import types
 from unittest import mock
 
 import numpy as np
 
 import femmesh_bridge
 import ObjectsFemScalpel
+from femscalpelgui.panels import group_table
 from femscalpelgui.panels import legend as legends
 from femscalpelgui.panels.table_tools import TableTools
+from femscalpelgui.viewproviders import made_crack
 from .gui_testing import *  # noqa: F403
 from .gui_testing import GuiTest, QTest
 from .test_crack_panel import CrackTest, long_box
@@ -244,6 +247,25 @@ class GroupTable(Folder, CrackTest):
         press_cancel()
         self.assertIsNone(in_scene("FemScalpelLegend"))
 
+    def test_legend_names_cracks_that_are_there(self):
+        crack = ObjectsFemScalpel.makeCrack(self.doc, self.mesh, origin=(2.9, 2.5, 2), normal=(1, 0, 0))
+        self.doc.recompute()
+        self.mesh.ViewObject.Visibility = False
+        wait_until(lambda: crack.ViewObject.Proxy.crack.is_drawn, "the crack's outline")
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(self.doc.Name, "Crack")
+        self.run_command("FemScalpel_Drill")
+        self.wait_for_preview()
+        entries = {text: rgb for rgb, text in widget("legend").entries}
+        self.assertEqual(entries["existing crack: Crack"], made_crack.colour_of(crack))
+        self.assertLegendSeen(widget("legend").entries)
+        screenshot("legend_of_a_crack_that_is_there")
+        press_cancel()
+        crack.ViewObject.Visibility = False
+        self.run_command("FemScalpel_Drill")
+        self.wait_for_preview()
+        self.assertFalse(any(text.startswith("existing") for _, text in widget("legend").entries))
+
     def test_legend_of_many_groups(self):
         data = mock.Mock(families=[(f"G{k}",) for k in range(20)] + [()])
         surface = mock.Mock(family=np.repeat(np.arange(21), np.arange(21) + 1))
@@ -310,7 +332,85 @@ class MistakenTable(QtGui.QTableWidget):
         return QtGui.QSpacerItem(1, 1)
 
 
-class Headers(GuiTest):
+class Tables(GuiTest):
+    def test_fits_are_bounded_at_every_width(self):
+        """Each width of a table is fitted once, whatever bars come and go; and then the window is at rest."""
+        box = QtGui.QWidget()
+        self.addCleanup(box.deleteLater)
+        layout = QtGui.QVBoxLayout(box)
+        table = QtGui.QTableWidget()
+        table.setFixedHeight(170)
+        layout.addWidget(table)
+        tools = group_table.set_up(table)
+        box.resize(560, 240)
+        box.show()
+        laid_out = []
+        table.horizontalHeader().sectionResized.connect(lambda *_: laid_out.append(1))
+        names = ("CORE", "LEFT", "RIGHT", "TOP", "FIX", "CRACK_P", "CRACK_N", "CRACK_FRONT", "HOLE_WALL")
+        for rows in range(13):
+            group_table.fill(table, [self.record(f"{names[k % 9]}{k // 9 or ''}", k) for k in range(rows)], tools)
+            spin(0)
+            for width in (*range(560, 260, -13), *range(260, 560, 29)):
+                with mock.patch.object(TableTools, "fit", autospec=True, side_effect=TableTools.fit) as fit:
+                    laid_out.clear()
+                    box.resize(width, 240)
+                    for _ in range(2):
+                        spin(0)
+                    self.assertLessEqual(fit.call_count, 1, f"{rows} rows, {width} pixels")
+                    self.assertLessEqual(len(laid_out), 40, f"{rows} rows, {width} pixels")
+                    self.assertEqual(table.horizontalScrollBar().value(), 0)
+                as_resized = self.layout_of(table)
+                tools.fit()
+                spin(0)
+                self.assertEqual(self.layout_of(table), as_resized, f"{rows} rows, {width} pixels")
+
+    @staticmethod
+    def layout_of(table):
+        columns = range(table.columnCount())
+        return [(table.isColumnHidden(k), table.columnWidth(k)) for k in columns], table.viewport().width()
+
+    @staticmethod
+    def record(name, number):
+        measure = 100.0 + number
+        return types.SimpleNamespace(
+            name=name,
+            kind="element",
+            dimension=3,
+            status="changed",
+            nodes_moved=3,
+            boundary_drift=0.1,
+            count_before=1000 * number,
+            count_after=1000 * number + 7,
+            measure_before=measure,
+            measure_after=measure * 1.001,
+        )
+
+    def test_a_name_is_seen_before_an_empty_column(self):
+        box = QtGui.QWidget()
+        self.addCleanup(box.deleteLater)
+        layout = QtGui.QVBoxLayout(box)
+        table = QtGui.QTableWidget(2, 4)
+        table.setHorizontalHeaderLabels(["Group", "Size", "Measure", "What uses it, and what for"])
+        layout.addWidget(table)
+        for row, name in enumerate(("CRACK_OF_THE_FLANGE_N", "CRACK_OF_THE_FLANGE_P")):
+            for column, text in enumerate((name, "44", "600 mm²", "")):
+                table.setItem(row, column, QtGui.QTableWidgetItem(text))
+            table.item(row, 0).setCheckState(QtCore.Qt.Unchecked)
+        tools = TableTools(table, "Groups")
+        box.resize(360, 240)
+        box.show()
+        tools.arrange()
+        spin(0)
+        self.assertTrue(table.isColumnHidden(3))
+        self.assertGreaterEqual(table.columnWidth(0), table.sizeHintForColumn(0))
+        table.item(0, 3).setText("Load")
+        tools.arrange()
+        self.assertFalse(table.isColumnHidden(3))
+        table.item(0, 3).setText("")
+        box.resize(800, 240)
+        spin(0)
+        self.assertFalse(table.isColumnHidden(3))
+
     def test_mistaken_items(self):
         box = QtGui.QWidget()
         layout = QtGui.QVBoxLayout(box)

@@ -3,6 +3,7 @@
 
 import os
 import tempfile
+import zipfile
 from unittest import mock
 
 import FreeCAD
@@ -44,6 +45,59 @@ class Tree(TreeTest):
             press_ok()
         self.assertEqual([o.Label for o in self.doc.Objects], ["Mesh", "Crack", "Incision", "Crack 2", "Incision 2"])
         self.assertEqual(self.doc.UndoNames[0], "Incision")
+
+
+class SavedWithoutWindow(TreeTest):
+    """A document as freecadcmd saves it: without what a window knows of its objects."""
+
+    def setUp(self):
+        super().setUp()
+        crack = self.make(self.mesh, 2.9, "A")
+        ObjectsFemScalpel.makeDrill(self.doc, crack, origin=(7, 2.5, 2), axis=(0, 0, 1), radius=0.5)
+        self.doc.recompute()
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path, bare = (os.path.join(folder.name, name) for name in ("saved.FCStd", "bare.FCStd"))
+        self.doc.saveAs(path)
+        FreeCAD.closeDocument(self.doc.Name)
+        with zipfile.ZipFile(path) as old, zipfile.ZipFile(bare, "w") as new:
+            for name in old.namelist():
+                if name != "GuiDocument.xml":
+                    new.writestr(name, old.read(name))
+        self.doc = FreeCAD.openDocument(bare)
+        self.doc.UndoMode = 1
+        self.mesh = self.doc.Mesh
+        spin(0.2)
+
+    def test_has_icons_and_panels(self):
+        for obj, icon in ((self.doc.Crack, "FemScalpel_Crack"), (self.doc.Drill, "FemScalpel_Drill")):
+            self.assertIn(icon + ".", obj.ViewObject.Proxy.getIcon())
+            self.assertEqual(obj.ViewObject.claimChildren(), [obj.Source])
+        screenshot("saved_without_window")
+        self.assertEqual(self.doc.UndoNames, [])
+        self.doc.Drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        self.assertEqual(value("radius"), 0.5)
+        type_into("radius", "0.6")
+        wait_until(is_settled, "the new hole")
+        press_ok()
+        made = content_of(self.doc.Drill)
+        self.assertEqual(self.doc.Drill.Radius.Value, 0.6)
+        self.doc.undo()
+        self.assertEqual(self.doc.Drill.Radius.Value, 0.5)
+        self.doc.redo()
+        self.assertEqual(content_of(self.doc.Drill), made)
+
+    def test_deleted_and_back(self):
+        self.doc.openTransaction("Delete")
+        self.doc.removeObject("Drill")
+        self.doc.commitTransaction()
+        self.doc.undo()
+        spin(0.1)
+        self.assertIn("FemScalpel_Drill.", self.doc.Drill.ViewObject.Proxy.getIcon())
+        self.doc.Drill.ViewObject.doubleClicked()
+        self.wait_for_preview()
+        press_cancel()
 
 
 class ContextMenu(TreeTest):
