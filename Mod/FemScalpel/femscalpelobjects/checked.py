@@ -7,6 +7,8 @@ from numbers import Integral, Real
 
 import FreeCAD
 
+from .stand_in import Workshop
+
 # Of properties that are not called as the arguments they come from.
 _ARGUMENTS = {
     "AxisPlacement": "placement",
@@ -58,7 +60,9 @@ def is_open(doc):
 
 
 def document(doc, name="doc"):
-    """`doc`, an open document. TypeError or ValueError where it is none."""
+    """`doc`, an open document, or what stands in place of one. TypeError or ValueError where it is none."""
+    if isinstance(doc, Workshop):
+        return doc
     if not isinstance(doc, FreeCAD.Document):
         raise TypeError(f"{name} must be a document of FreeCAD (App.Document), not {said(doc)}")
     if not is_open(doc):

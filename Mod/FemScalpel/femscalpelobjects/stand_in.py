@@ -78,6 +78,10 @@ class StandIn:
         """As of document objects."""
         return self._kinds[name][0]
 
+    def getEnumerationsOfProperty(self, name):
+        """As of document objects."""
+        return self._choices.get(name, [])
+
     def setEditorMode(self, name, mode):
         """As of document objects: there is no editor."""
 
