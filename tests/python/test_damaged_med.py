@@ -15,12 +15,13 @@ READ_ALL = """
 import pathlib, sys
 import femscalpel as fs
 data, path = pathlib.Path(sys.argv[1]).read_bytes(), pathlib.Path(sys.argv[2])
-for at in [2088, *range(0, len(data), 400)]:
-    path.write_bytes(data[:at] + 50 * b"\\xff" + data[at + 50 :])
-    try:
-        print(at, fs.read(path).node_count)
-    except fs.ReadError as error:
-        print(at, error)
+for byte, length, places in ((b"\\xff", 50, [2088, *range(0, len(data), 400)]), (b"\\0", 3, [9929])):
+    for at in places:
+        path.write_bytes(data[:at] + length * byte + data[at + length :])
+        try:
+            print(at, fs.read(path).node_count)
+        except fs.ReadError as error:
+            print(at, error)
 """
 
 
@@ -31,8 +32,9 @@ def test_old_files(tmp_path):
     )
     assert run.returncode == 0 and run.stderr == ""
     lines = dict(line.split(" ", 1) for line in run.stdout.splitlines())
-    assert len(lines) == OLD.stat().st_size // 400 + 2
-    assert lines["2088"].endswith("a.med: truncated or damaged: its structure cannot be read"), "HDF5 1.10 crashes"
+    assert len(lines) == OLD.stat().st_size // 400 + 3
+    for at in ("2088", "9929"):
+        assert lines[at].endswith("a.med: truncated or damaged: its structure cannot be read"), "HDF5 1.10 crashes"
     assert "4" in lines.values(), "some of it nothing needs"
 
 
