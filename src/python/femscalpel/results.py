@@ -3,7 +3,7 @@
 
 import os
 from pathlib import Path
-from typing import NamedTuple, Optional
+from typing import NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -23,7 +23,7 @@ class Displacements(NamedTuple):
     time: float
 
 
-def read_displacements(path, step: Optional[int] = None) -> Displacements:
+def read_displacements(path: Union[str, os.PathLike], step: Optional[int] = None) -> Displacements:
     """Displacements from a result of CalculiX, a text file ``.frd`` (``*NODE FILE`` with ``U``).
 
     Parameters
