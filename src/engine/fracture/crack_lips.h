@@ -11,6 +11,7 @@ namespace femscalpel {
 
 /// The fronts of a crack and what lies around them.
 struct CrackLips {
+    /// One front.
     struct Line {
         CrackFront front;
         std::vector<Index> nodes;  ///< in its order; the first not again at the end of a closed one

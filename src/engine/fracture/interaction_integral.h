@@ -26,8 +26,8 @@ struct IntegralDomain {
 /// The lips are plane and free of traction near the front, there are no forces in the volume and no thermal strain.
 /// Yau, Wang and Corten, J. Appl. Mech. 47 (1980); Gosz and Moran, Eng. Fract. Mech. 69 (2002); Daimon and Okada, Eng.
 /// Fract. Mech. 115 (2014).
-/// @param displacements one for each node of the mesh
-/// @param solids the elements of the largest dimension that have a node within domain.outer of the front
+/// `displacements` has one for each node of the mesh, `solids` the elements of the largest dimension that have a node
+/// within domain.outer of the front.
 std::vector<std::array<double, 3>> interaction_integrals(const Mesh& mesh, std::span<const Vec3> displacements,
                                                          const std::vector<CellRef>& solids, const CrackFront& front,
                                                          const std::vector<double>& places,

@@ -34,10 +34,9 @@ struct StressIntensity {
 /// node group of its tips; the lips are the element groups of the same name with _P and _N in place of _FRONT. The
 /// material is isotropic, the lips are plane near the front and free of traction.
 ///
-/// @param displacements one for each node of the mesh
-/// @param radius of the domain; 0 for three element edges, or less where the front bends or other surfaces are near
-/// @throws Error naming what is missing or does not fit: groups, numbers, a deck with temperatures or with pressure on
-/// the lips
+/// `displacements` has one for each node of the mesh. `radius` is that of the domain; 0 for three element edges, or
+/// less where the front bends or other surfaces are near. Throws Error naming what is missing or does not fit: groups,
+/// numbers, a deck with temperatures or with pressure on the lips
 StressIntensity stress_intensity(const Mesh& mesh, std::span<const Vec3> displacements, const std::string& front,
                                  const Elasticity& elasticity, double radius = 0);
 
