@@ -36,7 +36,7 @@ struct StressIntensity {
 ///
 /// `displacements` has one for each node of the mesh. `radius` is that of the domain; 0 for three element edges, or
 /// less where the front bends or other surfaces are near. Throws Error naming what is missing or does not fit: groups,
-/// numbers, a deck with temperatures or with pressure on the lips
+/// numbers, a deck with temperatures or with pressure on the lips.
 StressIntensity stress_intensity(const Mesh& mesh, std::span<const Vec3> displacements, const std::string& front,
                                  const Elasticity& elasticity, double radius = 0);
 
