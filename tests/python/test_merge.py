@@ -446,3 +446,15 @@ def test_a_curved_shell_of_second_order(seed):
     assert worst(result.mesh) > 0.12
     seam = result.mesh.points[np.isin(result.mesh.node_ids, result.mesh.groups["ADD_SEAM"].ids)]
     assert np.abs(np.linalg.norm(seam[:, 1:], axis=1) - 5).max() < 2e-3
+
+
+@pytest.mark.parametrize("rise", (4, 8, 14, 20))
+def test_shells_that_cross_at_a_small_angle_have_no_double_nodes(rise):
+    floor = plate((0, 0, 0), (1000, 0, 0), (0, 600, 0), (20, 12), "FLOOR")
+    bar = plate((100, 100, -rise / 2), (800, 0, rise), (0, 300, 0), (24, 6), "BAR")
+    try:
+        merged = fs.merge(floor, bar).mesh
+    except fs.QualityError as error:
+        assert "nodes of the two shells would lie on each other near (" in str(error) and "angle" in str(error)
+    else:
+        assert len(np.unique(np.round(merged.points, 5), axis=0)) == merged.node_count

@@ -7,7 +7,7 @@ from typing import Callable, Iterable, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _arguments, _engine
-from ._engine import RefinementEstimate
+from ._engine import QualityError, RefinementEstimate
 from .mesh import Mesh, check_mesh
 from .options import (
     RefineOption,
@@ -455,7 +455,7 @@ def merge(
     options.before_refining = check_before_refining(before_refining)
     if tolerance is not None and (tolerance := _arguments.real(tolerance, "tolerance")) <= 0:
         raise _arguments.about("tolerance", ValueError(f"tolerance must be a positive length, not {tolerance}"))
-    return _run(
+    result = _run(
         _engine.merge,
         mesh,
         addition,
@@ -467,6 +467,31 @@ def merge(
         None if keep_side is None else list(_arguments.vector(keep_side, "keep_side")),
         method == "tie",
     )
+    if method == "conform" and not isinstance(mesh, Scalpel):
+        _check_shells_joined(mesh, addition, result.mesh)
+    return result
+
+
+def _check_shells_joined(mesh, addition, result):
+    """QualityError where nodes of two shells lie on each other and are not one, as where they cross at a small angle."""
+    if max(mesh.dimension, addition.dimension) != 2 or len(_first_double(mesh)) or len(_first_double(addition)):
+        return
+    double = _first_double(result)
+    if len(double):
+        x, y, z = double
+        raise QualityError(
+            f"nodes of the two shells would lie on each other near ({x:.6g} {y:.6g} {z:.6g}) without being one, as where "
+            "they cross at an angle of a few degrees. Turn the addition, or give a smaller tolerance"
+        )
+
+
+def _first_double(mesh):
+    """The place of a node that another one lies on; empty where there is none."""
+    size = float(np.ptp(mesh.points, axis=0).max(initial=0.0)) or 1.0
+    places = np.round(mesh.points / (1e-9 * size))
+    order = np.lexsort(places.T)
+    same = np.flatnonzero((places[order][1:] == places[order][:-1]).all(axis=1))
+    return mesh.points[order[same[0]]] if len(same) else ()
 
 
 def refine(
