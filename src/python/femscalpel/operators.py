@@ -473,15 +473,15 @@ def merge(
 
 
 def _check_shells_joined(mesh, addition, result):
-    """QualityError where nodes of two shells lie on each other and are not one, as where they cross at a small angle."""
+    """QualityError where nodes of two shells lie on each other and are not one, as where they cross at few degrees."""
     if max(mesh.dimension, addition.dimension) != 2 or len(_first_double(mesh)) or len(_first_double(addition)):
         return
     double = _first_double(result)
     if len(double):
         x, y, z = double
         raise QualityError(
-            f"nodes of the two shells would lie on each other near ({x:.6g} {y:.6g} {z:.6g}) without being one, as where "
-            "they cross at an angle of a few degrees. Turn the addition, or give a smaller tolerance"
+            f"nodes of the two shells would lie on each other near ({x:.6g} {y:.6g} {z:.6g}) without being one, as "
+            "where they cross at an angle of a few degrees. Turn the addition, or give a smaller tolerance"
         )
 
 
