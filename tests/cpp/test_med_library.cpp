@@ -50,6 +50,11 @@ TEST(MedType, OrdersEachNodeOnce) {
     }
 }
 
+std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 struct MedFiles : testing::Test {
     void SetUp() override { fs::create_directories(folder); }
     void TearDown() override { fs::remove_all(folder); }
@@ -117,8 +122,7 @@ TEST_F(MedFiles, WithDamagedAttributesAreNot) {
     for (const std::string name : names) {
         write_old_attributes(path, names);
         EXPECT_TRUE(is_sound(path));  // HDF5 keeps its table of attributes, and takes that for the next file's
-        std::ifstream file(path, std::ios::binary);
-        std::string text{std::istreambuf_iterator<char>(file), {}};
+        std::string text = content(path);
         const std::size_t at = text.find(name + '\0');
         ASSERT_NE(at, std::string::npos) << name;
         ASSERT_EQ(text[at - 8], 1) << "the version of the attribute's message";
@@ -134,8 +138,7 @@ TEST_F(MedFiles, AreOldOrNot) {
     EXPECT_FALSE(is_old_hdf5(path));
     write_old_attributes(path, {"DIM"});
     EXPECT_TRUE(is_old_hdf5(path));
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = content(path);
     for (const std::size_t block : {512, 1024, 2048}) {
         std::ofstream(path, std::ios::binary) << std::string(block, ' ') << text;
         EXPECT_TRUE(is_old_hdf5(path)) << block;
@@ -172,8 +175,7 @@ TEST_F(MedFiles, OfOldAreLookedAtAsAWhole) {
     write_old_pieces(path);
     EXPECT_TRUE(MedSoundness(path).of_mesh());
     EXPECT_TRUE(MedSoundness(path).of_fields());
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::string text = content(path);
     // The tree that says where the pieces are: its kind is 1, groups' trees are of kind 0.
     using std::string_literals::operator""s;
     const auto spoil = [&](std::size_t at) {

@@ -106,8 +106,8 @@ def stress_intensity(
     ----------
     mesh : Mesh
         With a crack that :func:`crack` has made, so that the front's group and those of its lips are there; of solids,
-        or of shells in one plane. Elements of second order give K within a percent where three to four of them lie
-        between the front and what is near it; of first order within some percent.
+        or of shells in one plane. With elements of second order, five of them over a round crack's radius, K is within
+        some 3 % of the largest K at every node, and within 1 % in the mean.
     displacements : array or Displacements
         (n, 3), in the order of the mesh's nodes; or from :func:`read_displacements`, by number. Mid-side nodes that
         a solver leaves out are not put in.

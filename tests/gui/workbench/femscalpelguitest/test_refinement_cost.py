@@ -101,7 +101,8 @@ class RefinementCost(CrackTest):
         self.assertGreater(count, 2000)
         self.assertLess(count, 8000)
 
-    def test_computed_all_the_same(self):
+    def agree_to_many(self):
+        """A panel with a refinement above the limit, which was asked about and agreed to."""
         self.group.SetInt("MostElements", 3000)
         self.open_half_plane()
         choose("refine", "Size")
@@ -109,18 +110,15 @@ class RefinementCost(CrackTest):
         wait_for_question("0.15 mm")
         click("refineAnyway")
         self.wait_for_preview()
+
+    def test_computed_all_the_same(self):
+        self.agree_to_many()
         self.assertFalse(is_shown("refinementQuestion"))
         press_ok()
         self.assertGreater(self.doc.Crack.FemMesh.VolumeCount, 3000)
 
     def test_agreed_for_what_was_entered_alone(self):
-        self.group.SetInt("MostElements", 3000)
-        self.open_half_plane()
-        choose("refine", "Size")
-        type_into("refineSize", "0.15 mm")
-        wait_for_question("0.15 mm")
-        click("refineAnyway")
-        self.wait_for_preview()
+        self.agree_to_many()
         type_into("originX", "6.9")
         wait_for_question("0.15 mm")
         self.assertFalse(ok_button().isEnabled())
